@@ -1,0 +1,514 @@
+//! The vocabulary of the experiment file: one type a word, defaults with their reasons.
+//!
+//! These types say only what can be written. Whether it makes sense together (a mesh for the shape, a positive mass)
+//! is `validate.rs`; how a file, `--set` and a sweep axis become a value of them is `mod.rs`.
+//! SI units stand last in the key. Unknown keys are errors.
+
+use serde::{Deserialize, Serialize};
+
+/// One resolved experiment: no axes left in it, every default filled in.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Experiment {
+    /// What the experiment wants to know, in a sentence.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub question: Option<String>,
+    pub scene: Scene,
+    /// All random draws depend on this and on the body's name.
+    #[serde(default)]
+    pub seed: u64,
+    #[serde(default)]
+    pub method: Method,
+    pub time: Time,
+    #[serde(default)]
+    pub diverge: Diverge,
+    #[serde(default)]
+    pub record: Record,
+    /// Axes and their values, expanded by `sweep/`; absent in a resolved case.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sweep: Option<Sweep>,
+}
+
+/// Everything that exists, at rest or in motion, at t = 0.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    #[serde(default = "default_gravity")]
+    pub gravity_m_s2: [f64; 3],
+    /// Coulomb coefficient of every pair that does not say otherwise. 0: nobody asked for friction.
+    #[serde(default)]
+    pub friction: f64,
+    /// Newton restitution of every pair that does not say otherwise. 0: the lecture's plastic contact.
+    #[serde(default)]
+    pub restitution: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub container: Option<Container>,
+    pub bodies: Vec<Body>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub random: Option<Random>,
+}
+
+/// y is up, and g is the lecture's (L5).
+fn default_gravity() -> [f64; 3] {
+    [0.0, -9.8, 0.0]
+}
+
+/// What bodies hit. All faces look inward.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Container {
+    Box(ContainerBox),
+    Plane(Plane),
+    Planes(Vec<Plane>),
+}
+
+/// Six faces; the floor is at y = 0 and the box centred on x and z, unless `center_m` moves it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ContainerBox {
+    pub size_m: [f64; 3],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center_m: Option<[f64; 3]>,
+}
+
+/// A half-space: n·x ≥ offset is free.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plane {
+    pub normal: [f64; 3],
+    #[serde(default)]
+    pub offset_m: f64,
+}
+
+/// A rigid body: shape, mass properties, first state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    pub name: String,
+    pub shape: Shape,
+    /// Asks for the lecture's tetrahedral volume mesh (L8); absent: the analytic shape.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshSpec>,
+    /// The whole mass; or `density_kg_m3`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_kg: Option<f64>,
+    /// Times the volume, of the mesh if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density_kg_m3: Option<f64>,
+    #[serde(default)]
+    pub inertia_from: InertiaFrom,
+    /// Three principal moments or 3×3, about the centre of mass, body axes. Overrides `inertia_from`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia_kg_m2: Option<Inertia>,
+    /// In the body frame. Overrides that of the shape or mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center_of_mass_m: Option<[f64; 3]>,
+    /// Of the body frame's origin.
+    #[serde(default)]
+    pub position_m: [f64; 3],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
+    /// Of the centre of mass, world frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity_m_s: Option<[f64; 3]>,
+    /// World frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angular_velocity_rad_s: Option<[f64; 3]>,
+    /// Body frame; instead of `angular_velocity_rad_s`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angular_velocity_body_rad_s: Option<[f64; 3]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<f64>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Shape {
+    Sphere(Sphere),
+    Box(BoxShape),
+    /// A point with mass and inertia, without contact.
+    None,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sphere {
+    pub radius_m: f64,
+}
+
+/// Edge lengths.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoxShape {
+    pub size_m: [f64; 3],
+}
+
+/// Resolution of the volume mesh: `nodes_per_edge` for a box, `subdivisions` for a sphere.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeshSpec {
+    /// n nodes along the shortest edge and near-cubic cells, or the three counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nodes_per_edge: Option<NodesPerEdge>,
+    /// Icosphere of 12, 42, 162, … surface nodes and a centre node.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub subdivisions: Option<u32>,
+}
+
+/// `n` or `[nx, ny, nz]`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum NodesPerEdge {
+    Shortest(u32),
+    Each([u32; 3]),
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum InertiaFrom {
+    /// Over the tets of a mesh (Tonon 2004), else the shape's closed form: the lumped sum of L9 is wrong by
+    /// −½/(n−1)² for a cube and does not converge for a sphere.
+    #[default]
+    Exact,
+    /// The slide's: a tet's mass at its centroid (L8, L9).
+    Lumped,
+}
+
+/// `[I1, I2, I3]` or three rows.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Inertia {
+    Principal([f64; 3]),
+    Full([[f64; 3]; 3]),
+}
+
+/// Body → world, one key of three.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Orientation {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<[f64; 3]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle_deg: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quaternion_xyzw: Option<[f64; 4]>,
+    /// R = Rz Ry Rx.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub euler_xyz_deg: Option<[f64; 3]>,
+}
+
+/// Draws that replace the given velocities (and attitude) of every body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Random {
+    /// |v|, direction uniform on the sphere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_m_s: Option<f64>,
+    /// |ω|, direction uniform on the sphere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spin_rad_s: Option<f64>,
+    /// Attitude uniform on SO(3).
+    #[serde(default)]
+    pub attitude: bool,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Direction>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Direction {
+    /// The velocity is reflected into the lower half.
+    Downward,
+}
+
+/// The exchangeable unit is the whole step. One word, or one key with settings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Method {
+    Free(Free),
+    Lecture(Lecture),
+    Penalty(Penalty),
+    TimeStepping(TimeStepping),
+}
+
+impl Default for Method {
+    /// The sound method: nobody should get the lecture's instability without asking for it.
+    fn default() -> Self {
+        Method::TimeStepping(TimeStepping::default())
+    }
+}
+
+/// Motion without contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Free {
+    #[serde(default)]
+    pub integrator: Integrator,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Integrator {
+    /// The slide's formula (L5): u uses the old v.
+    ExplicitEuler,
+    /// The slide's C program (L5): u uses the new v.
+    #[default]
+    SemiImplicitEuler,
+}
+
+/// The lecture's constraint method with all its variants (L16–L21).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Lecture {
+    pub start: Start,
+    pub iteration: Iteration,
+    pub correction: Correction,
+    pub sweeps: u32,
+    pub update: Update,
+    pub rotation: Rotation,
+}
+
+impl Default for Lecture {
+    /// The variant that reproduces both of the lecture's stability notes.
+    fn default() -> Self {
+        Lecture {
+            start: Start::None,
+            iteration: Iteration::GaussSeidel,
+            correction: Correction::AfterSweep,
+            sweeps: 50,
+            update: Update::SemiImplicit,
+            rotation: Rotation::Literal,
+        }
+    }
+}
+
+/// First guess of the constraint force (L20).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Start {
+    /// F = 0.
+    None,
+    /// F = −A⁻¹ b by LU; a non-finite start is replaced by 0.
+    Direct,
+    /// The same with the inverse matrix.
+    Inverse,
+    /// The same with the Moore–Penrose inverse.
+    PseudoInverse,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Iteration {
+    /// The printed formula.
+    Jacobi,
+    /// In place.
+    GaussSeidel,
+}
+
+/// When forces are put back into the friction cone.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Correction {
+    /// All contacts, once a sweep.
+    AfterSweep,
+    /// Right after the contact's three rows: this is projected Gauss–Seidel.
+    PerContact,
+}
+
+/// Which velocity moves the position (L5).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Update {
+    Explicit,
+    #[default]
+    SemiImplicit,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rotation {
+    /// I dω/dt = τ, R ← dR R: the slide's, without the gyroscopic term.
+    Literal,
+    /// World-frame angular momentum conserved, midpoint rotation.
+    Momentum,
+}
+
+/// Spring and damper per penetrating node (L15).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Penalty {
+    pub stiffness_n_m: f64,
+    #[serde(default)]
+    pub damping_n_s_m: f64,
+    /// Below this slip the regularised Coulomb force falls linearly to 0.
+    #[serde(default = "default_slip_speed")]
+    pub slip_speed_m_s: f64,
+    #[serde(default)]
+    pub update: Update,
+    #[serde(default = "momentum")]
+    pub rotation: Rotation,
+}
+
+/// A thousandth of the speeds met in the lecture's scene (some m/s): slower slip counts as sticking, larger values creep
+/// more on a slope, smaller ones need smaller steps.
+fn default_slip_speed() -> f64 {
+    1e-2
+}
+
+fn momentum() -> Rotation {
+    Rotation::Momentum
+}
+
+/// Velocity–impulse time-stepping (Moreau 1988; Stewart & Trinkle 1996; Anitescu & Potra 1997).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TimeStepping {
+    pub solver: Solver,
+    pub scheme: Scheme,
+    pub impact: Impact,
+    pub sweeps: u32,
+    /// Stop when a sweep changes no impulse by more than this part of the largest; 0: only when nothing changes.
+    pub tolerance: f64,
+    pub position_correction: PositionCorrection,
+}
+
+impl Default for TimeStepping {
+    fn default() -> Self {
+        TimeStepping {
+            solver: Solver::Pgs,
+            scheme: Scheme::SemiImplicit,
+            impact: Impact::Newton,
+            sweeps: 50,
+            tolerance: 0.0,
+            position_correction: PositionCorrection::Projection,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Solver {
+    /// Projected Gauss–Seidel, disc per contact.
+    Pgs,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scheme {
+    /// Forces at the old position, position with the new velocity.
+    SemiImplicit,
+}
+
+/// What happens to the normal velocity of an approaching contact.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Impact {
+    /// Multiplied by −e, all contacts at once (Moreau).
+    Newton,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PositionCorrection {
+    /// Split impulse: penetration is removed by a pseudo-velocity that is forgotten after the step.
+    Projection,
+    None,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// n = max(1, round(end/step)) equal steps of end/n are made.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step_s: Option<f64>,
+    pub end_s: f64,
+}
+
+/// When a run counts as diverged and stops; `not-finite` is always on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Diverge {
+    /// Kinetic + potential above this times the start value. 1000: smaller factors count contact steps, not explosions.
+    /// `null` switches it off.
+    pub energy_factor: Option<f64>,
+    /// The centre of mass is outside the container by more than the body's bounding radius.
+    pub escape: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_m_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub penetration_m: Option<f64>,
+}
+
+impl Default for Diverge {
+    fn default() -> Self {
+        Diverge { energy_factor: Some(1000.0), escape: true, speed_m_s: None, penetration_m: None }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Record {
+    /// Absent: everything this build can write.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to: Option<RecordTo>,
+    /// Sampling interval; first and last state are always recorded. 0: every step.
+    pub every_s: f64,
+    pub cases: RecordCases,
+    pub streams: Vec<Stream>,
+}
+
+impl Default for Record {
+    /// 100 Hz: above every display's rate, small beside the step count of an accurate run.
+    fn default() -> Self {
+        Record { to: None, every_s: 0.01, cases: RecordCases::Few, streams: Stream::ALL.to_vec() }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RecordTo {
+    None,
+    Rerun,
+    Mcap,
+    Both,
+}
+
+/// Which cases of a sweep are recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RecordCases {
+    None,
+    /// At most 24, both outcomes shown.
+    Few,
+    All,
+    Diverged,
+    First,
+    /// This many, evenly through the plan.
+    Sample(u32),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stream {
+    Bodies,
+    Contacts,
+    Forces,
+    Energy,
+}
+
+impl Stream {
+    pub const ALL: [Stream; 4] = [Stream::Bodies, Stream::Contacts, Stream::Forces, Stream::Energy];
+}
+
+/// The axes of a sweep, still as written; `sweep/axes.rs` reads them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sweep {
+    #[serde(default)]
+    pub axes: serde_yaml::Mapping,
+    /// Groups of axes that advance side by side.
+    #[serde(default)]
+    pub together: Vec<Vec<String>>,
+}

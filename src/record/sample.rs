@@ -1,0 +1,135 @@
+//! What a run shows its recorders: a `Header` once, then `Batch`es of samples in columns.
+//!
+//! Columns, because both file formats are written fastest a thousand samples at a time. A batch is filled by the
+//! simulating thread, sent to the recording thread and comes back empty to be filled again. Columns of a stream that is
+//! off stay empty. Nothing here knows a file format or a method.
+
+use serde::{Deserialize, Serialize};
+
+/// Which streams are recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Streams {
+    pub bodies: bool,
+    pub contacts: bool,
+    pub forces: bool,
+    pub energy: bool,
+}
+
+/// Constant during a run; written once, at the head of a recording.
+#[derive(Clone, Debug)]
+pub struct Header {
+    /// Id of the case; also the name of the file, without its ending.
+    pub case: String,
+    /// One line for people: the experiment's question or name, and the values on the axes.
+    pub title: String,
+    /// Program and version, e.g. `gotai 0.1.0`.
+    pub program: String,
+    /// Hash of the build.
+    pub build: String,
+    /// The whole resolved experiment, as YAML.
+    pub config_yaml: String,
+    pub step_s: f64,
+    /// Time between two samples, about.
+    pub sample_every_s: f64,
+    pub streams: Streams,
+    pub bodies: Vec<BodyHeader>,
+    /// Line strips that draw the container, world frame.
+    pub container_strips_m: Vec<Vec<[f64; 3]>>,
+    /// Length of a force arrow: metres a newton.
+    pub arrow_m_per_n: f64,
+}
+
+#[derive(Clone, Debug)]
+pub struct BodyHeader {
+    pub name: String,
+    /// Surface, relative to the centre of mass, in body axes.
+    pub vertices_m: Vec<[f64; 3]>,
+    /// Counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    pub bounding_radius_m: f64,
+}
+
+/// Samples in columns. "Sample-major": all bodies of sample 0, then all of sample 1, …
+#[derive(Clone, Debug, Default)]
+pub struct Batch {
+    pub step: Vec<u64>,
+    pub time_s: Vec<f64>,
+    /// samples × bodies, sample-major.
+    pub bodies: Vec<BodySample>,
+    /// Contacts in each sample, when contacts or forces are on.
+    pub contacts_len: Vec<u32>,
+    /// All contacts of sample 0, then of sample 1, …
+    pub contacts: Vec<ContactSample>,
+    /// One a sample, when energy is on.
+    pub energy: Vec<EnergySample>,
+}
+
+impl Batch {
+    pub fn len(&self) -> usize {
+        self.step.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.step.is_empty()
+    }
+
+    /// Empties every column and keeps its memory.
+    pub fn clear(&mut self) {
+        self.step.clear();
+        self.time_s.clear();
+        self.bodies.clear();
+        self.contacts_len.clear();
+        self.contacts.clear();
+        self.energy.clear();
+    }
+}
+
+/// State of one body, world frame, at its centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodySample {
+    pub position_m: [f64; 3],
+    /// Body → world.
+    pub orientation_xyzw: [f64; 4],
+    pub velocity_m_s: [f64; 3],
+    pub angular_velocity_rad_s: [f64; 3],
+}
+
+/// One contact of the step that led to the sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactSample {
+    /// Index of the body that the force acts on.
+    pub body: u32,
+    /// Index of the other body; none: the container.
+    pub other: Option<u32>,
+    pub point_m: [f64; 3],
+    /// From the other to the body.
+    pub normal: [f64; 3],
+    /// On the body: impulse over the step.
+    pub force_n: [f64; 3],
+    /// Negative: penetration.
+    pub gap_m: f64,
+}
+
+/// Energies and deepest penetration of one state.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EnergySample {
+    pub kinetic_j: f64,
+    pub potential_j: f64,
+    pub total_j: f64,
+    pub penetration_m: f64,
+}
+
+/// Something that happened at a time, in words: a divergence, the end of the run.
+#[derive(Clone, Debug)]
+pub struct Event {
+    pub step: u64,
+    pub time_s: f64,
+    pub severity: Severity,
+    pub text: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    Info,
+    Warning,
+}

@@ -1,6 +1,7 @@
 //! Recorders: what a run shows, to files.
 
 pub mod sample;
+pub mod sampler;
 
 use sample::{Batch, Event};
 use std::path::PathBuf;

@@ -18,6 +18,8 @@
 // The kernels read like the papers: R_WB, I_B, A.
 #![allow(non_snake_case)]
 
+pub mod build_info;
+pub mod cli;
 pub mod experiment;
 pub mod sweep;
 pub mod case;

@@ -4,3 +4,4 @@
 
 pub mod experiment;
 pub mod record;
+pub mod sweep;

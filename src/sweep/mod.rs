@@ -1,0 +1,3 @@
+//! Axes → ordered plan.
+
+pub mod axes;

@@ -34,3 +34,4 @@ pub mod solve;
 pub mod measure;
 pub mod row;
 pub mod record;
+pub mod sweep;

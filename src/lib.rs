@@ -18,20 +18,35 @@
 // The kernels read like the papers: R_WB, I_B, A.
 #![allow(non_snake_case)]
 
-pub mod build_info;
-pub mod cli;
+// In reading order: rustfmt sorts within a paragraph only.
 pub mod experiment;
+
 pub mod sweep;
+
 pub mod case;
+
 pub mod model;
+
 pub mod state;
+
 pub mod plan;
+
 pub mod run;
+
 pub mod step;
+
 pub mod integrate;
+
 pub mod collide;
+
 pub mod solve;
+
 pub mod measure;
+
 pub mod row;
+
 pub mod record;
-pub mod sweep;
+
+pub mod cli;
+
+pub mod build_info;

@@ -158,7 +158,7 @@ pub struct MeshSpec {
 }
 
 /// `n` or `[nx, ny, nz]`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum NodesPerEdge {
     Shortest(u32),
@@ -177,7 +177,7 @@ pub enum InertiaFrom {
 }
 
 /// `[I1, I2, I3]` or three rows.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Inertia {
     Principal([f64; 3]),

@@ -1,13 +1,25 @@
 //! Recorders: what a run shows, to files.
+//!
+//! The simulating thread fills `sample::Batch`es and hands them to `writer::Writer`, whose thread feeds every
+//! `Recorder`. `schema` names topics, fields and units once for all of them.
 
+pub mod head;
+pub mod mcap;
+#[cfg(feature = "rerun")]
+pub mod rerun;
 pub mod sample;
 pub mod sampler;
+mod scene;
+pub mod schema;
+pub mod writer;
 
 use sample::{Batch, Event};
-use std::path::PathBuf;
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
 
 /// A file format. Made by its own constructor from a path and a `Header`.
 pub trait Recorder: Send {
+    /// Writes a batch; what is written survives a kill of the program.
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError>;
     fn event(&mut self, event: &Event) -> Result<(), RecordError>;
     /// Closes the file; without it a file is incomplete.
@@ -20,4 +32,13 @@ pub trait Recorder: Send {
 pub struct RecordError {
     pub path: PathBuf,
     pub reason: String,
+}
+
+impl RecordError {
+    pub fn new(path: &Path, reason: impl Display) -> Self {
+        RecordError {
+            path: path.to_path_buf(),
+            reason: reason.to_string(),
+        }
+    }
 }

@@ -15,6 +15,13 @@ pub struct Streams {
     pub energy: bool,
 }
 
+impl Streams {
+    /// Whether a batch carries contacts: forces need them too, for where and on whom they act.
+    pub fn any_contact(self) -> bool {
+        self.contacts || self.forces
+    }
+}
+
 /// Constant during a run; written once, at the head of a recording.
 #[derive(Clone, Debug)]
 pub struct Header {
@@ -47,6 +54,33 @@ pub struct BodyHeader {
     /// Counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
     pub bounding_radius_m: f64,
+}
+
+impl Header {
+    /// Lowest and highest corner of the container; none without one.
+    pub fn container_box_m(&self) -> Option<([f64; 3], [f64; 3])> {
+        self.container_strips_m.iter().flatten().fold(None, |corners, p| {
+            let (low, high) = corners.unwrap_or((*p, *p));
+            Some((
+                std::array::from_fn(|i| low[i].min(p[i])),
+                std::array::from_fn(|i| high[i].max(p[i])),
+            ))
+        })
+    }
+
+    /// Length for what is drawn in proportion to the scene: the box's diagonal, else the largest body's diameter.
+    pub fn scene_size_m(&self) -> f64 {
+        let diagonal_m = self.container_box_m().map(|(low, high)| {
+            let d: [f64; 3] = std::array::from_fn(|i| high[i] - low[i]);
+            (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+        });
+        let largest_m = self
+            .bodies
+            .iter()
+            .map(|body| 2.0 * body.bounding_radius_m)
+            .fold(0.0, f64::max);
+        diagonal_m.unwrap_or(largest_m)
+    }
 }
 
 /// Samples in columns. "Sample-major": all bodies of sample 0, then all of sample 1, …
@@ -82,6 +116,55 @@ impl Batch {
         self.contacts.clear();
         self.energy.clear();
     }
+
+    /// Whether every column has the length that the streams ask for; the recorders rely on it.
+    pub fn check(&self, streams: Streams, bodies: usize) -> Result<(), &'static str> {
+        let samples = self.len();
+        let on = |stream: bool, len: usize| if stream { len } else { 0 };
+        let contacts: u64 = self.contacts_len.iter().map(|&len| u64::from(len)).sum();
+        match () {
+            () if self.time_s.len() != samples => Err("a batch needs one time a step"),
+            () if self.bodies.len() != on(streams.bodies, samples * bodies) => {
+                Err("a batch needs every body in every sample when bodies are on, none when they are off")
+            }
+            () if self.contacts_len.len() != on(streams.any_contact(), samples) => Err(
+                "a batch needs one count of contacts a sample when contacts or forces are on, none when they are off",
+            ),
+            () if self.contacts.len() as u64 != contacts => Err("a batch's contacts differ from their counts"),
+            () if self.energy.len() != on(streams.energy, samples) => {
+                Err("a batch needs one energy a sample when energy is on, none when it is off")
+            }
+            () => Ok(()),
+        }
+    }
+
+    /// The samples one by one, each a view into the columns. The batch must have passed `check`.
+    pub fn samples(&self) -> impl Iterator<Item = Sample<'_>> {
+        let bodies = self.bodies.len() / self.len().max(1);
+        let mut first_contact = 0;
+        (0..self.len()).map(move |i| {
+            let contacts = self.contacts_len.get(i).map_or(0, |&len| len as usize);
+            let contact_range = first_contact..first_contact + contacts;
+            first_contact = contact_range.end;
+            Sample {
+                step: self.step[i],
+                time_s: self.time_s[i],
+                bodies: &self.bodies[i * bodies..(i + 1) * bodies],
+                contacts: &self.contacts[contact_range],
+                energy: self.energy.get(i),
+            }
+        })
+    }
+}
+
+/// One sample of a batch. Streams that are off are empty.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<'a> {
+    pub step: u64,
+    pub time_s: f64,
+    pub bodies: &'a [BodySample],
+    pub contacts: &'a [ContactSample],
+    pub energy: Option<&'a EnergySample>,
 }
 
 /// State of one body, world frame, at its centre of mass.

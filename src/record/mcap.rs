@@ -1,0 +1,323 @@
+//! MCAP files: our own f64 messages at every sample, Foxglove's messages for pictures at display rate.
+//!
+//! Every batch ends with a complete chunk on disk, so that a kill loses no batch that was written.
+
+use super::sample::{Batch, BodyHeader, EnergySample, Event, Header, Sample, Streams};
+use super::scene::{Scene, log, surfaces};
+use super::{RecordError, Recorder, schema};
+use foxglove::Encode;
+use mcap::records::{MessageHeader, Metadata};
+use mcap::{Attachment, Compression, McapResult, WriteOptions};
+use prost::Message;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// Uncompressed size of a chunk, bytes. A quarter of the library's: a reader that seeks decodes less, and the files
+/// grow by less than a percent.
+const CHUNK_BYTES: u64 = 256 * 1024;
+
+/// Zstd's fastest ordinary level: the default costs a third more time for a few percent of size.
+const ZSTD_LEVEL: u32 = 1;
+
+/// Simulated time between two pictures: no display shows more, and a picture is larger than the numbers.
+const DISPLAY_HZ: f64 = 60.0;
+
+/// A recording as one MCAP file.
+pub struct McapRecorder {
+    path: PathBuf,
+    streams: Streams,
+    out: Out,
+    channels: Channels,
+    messages: Messages,
+    scene: Scene,
+    /// Number of the last display interval that had its picture; none before the first.
+    shown: Option<u64>,
+}
+
+impl McapRecorder {
+    pub fn create(path: &Path, header: &Header) -> Result<Self, RecordError> {
+        let failed = |error: &dyn std::fmt::Display| RecordError::new(path, error);
+        let file = File::create(path).map_err(|error| failed(&error))?;
+        let mut out = Out::new(file, &header.program).map_err(|error| failed(&error))?;
+        let channels = out.head(header).map_err(|error| failed(&error))?;
+        out.send(channels.scene, 0, 0, &surfaces(header))
+            .map_err(|error| failed(&error))?;
+        Ok(McapRecorder {
+            path: path.to_path_buf(),
+            streams: header.streams,
+            out,
+            channels,
+            messages: Messages::new(&header.bodies),
+            scene: Scene::new(header),
+            shown: None,
+        })
+    }
+
+    fn sample(&mut self, sample: &Sample<'_>) -> McapResult<()> {
+        let Self {
+            out,
+            channels,
+            messages,
+            ..
+        } = self;
+        let time_ns = schema::time_ns(sample.time_s);
+        if let Some(channel) = channels.bodies {
+            out.send(channel, time_ns, sample.step, messages.bodies(sample))?;
+        }
+        if let Some(channel) = channels.contacts {
+            out.send(channel, time_ns, sample.step, messages.contacts(sample, self.streams))?;
+        }
+        if let (Some(channel), Some(energy)) = (channels.energy, sample.energy) {
+            out.send(channel, time_ns, sample.step, &Messages::energy(sample, energy))?;
+        }
+        let picture = (sample.time_s * DISPLAY_HZ) as u64;
+        if self.shown.is_none_or(|shown| picture > shown) {
+            self.shown = Some(picture);
+            self.picture(sample, time_ns)?;
+        }
+        Ok(())
+    }
+
+    fn picture(&mut self, sample: &Sample<'_>, time_ns: u64) -> McapResult<()> {
+        if let Some(channel) = self.channels.transforms {
+            self.out
+                .send(channel, time_ns, sample.step, self.scene.transforms(sample, time_ns))?;
+        }
+        if let Some(channel) = self.channels.scene_contacts
+            && let Some(update) = self.scene.contacts(sample, time_ns)
+        {
+            self.out.send(channel, time_ns, sample.step, update)?;
+        }
+        Ok(())
+    }
+}
+
+impl Recorder for McapRecorder {
+    fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        let bodies = self.messages.bodies.bodies.len();
+        batch
+            .check(self.streams, bodies)
+            .map_err(|reason| RecordError::new(&self.path, reason))?;
+        batch
+            .samples()
+            .try_for_each(|sample| self.sample(&sample))
+            .and_then(|()| self.out.writer.flush())
+            .map_err(|error| RecordError::new(&self.path, error))
+    }
+
+    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        let time_ns = schema::time_ns(event.time_s);
+        let log = log(event, time_ns);
+        self.out
+            .send(self.channels.log, time_ns, event.step, &log)
+            .and_then(|()| self.out.writer.flush())
+            .map_err(|error| RecordError::new(&self.path, error))
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), RecordError> {
+        let McapRecorder { path, out, .. } = *self;
+        close(out.writer).map_err(|error| RecordError::new(&path, error))
+    }
+}
+
+/// Dropping a writer would swallow its errors.
+fn close(mut writer: mcap::Writer<BufWriter<File>>) -> McapResult<()> {
+    writer.finish()?;
+    Ok(writer.into_inner().flush()?)
+}
+
+/// The file and the buffer that messages are encoded in.
+struct Out {
+    writer: mcap::Writer<BufWriter<File>>,
+    buffer: Vec<u8>,
+}
+
+/// Channel of each topic; none: its stream is off.
+struct Channels {
+    bodies: Option<u16>,
+    contacts: Option<u16>,
+    energy: Option<u16>,
+    transforms: Option<u16>,
+    scene: u16,
+    scene_contacts: Option<u16>,
+    log: u16,
+}
+
+impl Out {
+    fn new(file: File, program: &str) -> McapResult<Self> {
+        let writer = WriteOptions::new()
+            .library(program)
+            .compression(Some(Compression::Zstd))
+            .compression_level(ZSTD_LEVEL)
+            // No threads beside the recording thread: in a sweep, the other cores have cases of their own.
+            .compression_threads(0)
+            .chunk_size(Some(CHUNK_BYTES))
+            .create(BufWriter::new(file))?;
+        Ok(Out {
+            writer,
+            buffer: Vec::new(),
+        })
+    }
+
+    /// Configuration, versions and channels, before the first sample.
+    fn head(&mut self, header: &Header) -> McapResult<Channels> {
+        self.writer.attach(&Attachment {
+            log_time: 0,
+            // A file depends on its run alone, not on the hour.
+            create_time: 0,
+            name: schema::CONFIG_FILE.to_owned(),
+            media_type: "application/yaml".to_owned(),
+            data: Cow::Borrowed(header.config_yaml.as_bytes()),
+        })?;
+        self.writer.write_metadata(&metadata(header))?;
+
+        let streams = header.streams;
+        let own = schema::descriptor_set();
+        let mut own_channel = |on: bool, topic: &str, name: &str| -> McapResult<Option<u16>> {
+            on.then(|| {
+                let id = self.writer.add_schema(&format!("gotai.{name}"), "protobuf", &own)?;
+                self.writer.add_channel(id, topic, "protobuf", &BTreeMap::new())
+            })
+            .transpose()
+        };
+        let contacts_topic = if streams.contacts {
+            schema::CONTACTS
+        } else {
+            schema::FORCES
+        };
+        let bodies = own_channel(streams.bodies, schema::BODIES, "Bodies")?;
+        let contacts = own_channel(streams.any_contact(), contacts_topic, "Contacts")?;
+        let energy = own_channel(streams.energy, schema::ENERGY, "Energy")?;
+
+        use foxglove::messages::{FrameTransforms, Log, SceneUpdate};
+        let transforms = streams
+            .bodies
+            .then(|| self.foxglove_channel::<FrameTransforms>(schema::TRANSFORMS))
+            .transpose()?;
+        let scene_contacts = streams
+            .any_contact()
+            .then(|| self.foxglove_channel::<SceneUpdate>(schema::SCENE_CONTACTS))
+            .transpose()?;
+        let scene = self.foxglove_channel::<SceneUpdate>(schema::SCENE)?;
+        let log = self.foxglove_channel::<Log>(schema::LOG)?;
+        Ok(Channels {
+            bodies,
+            contacts,
+            energy,
+            transforms,
+            scene,
+            scene_contacts,
+            log,
+        })
+    }
+
+    fn foxglove_channel<T: Encode>(&mut self, topic: &str) -> McapResult<u16> {
+        let id = match T::get_schema() {
+            Some(schema) => self.writer.add_schema(&schema.name, &schema.encoding, &schema.data)?,
+            // The format's number for "no schema".
+            None => 0,
+        };
+        self.writer
+            .add_channel(id, topic, &T::get_message_encoding(), &BTreeMap::new())
+    }
+
+    fn send(&mut self, channel_id: u16, time_ns: u64, step: u64, message: &impl Message) -> McapResult<()> {
+        self.buffer.clear();
+        // Encoding into a growing buffer cannot fail.
+        message.encode_raw(&mut self.buffer);
+        // The format's number has 32 bits; the messages hold all 64.
+        let header = MessageHeader {
+            channel_id,
+            sequence: step as u32,
+            log_time: time_ns,
+            publish_time: time_ns,
+        };
+        self.writer.write_to_known_channel(&header, &self.buffer)
+    }
+}
+
+fn metadata(header: &Header) -> Metadata {
+    let entries = [
+        ("case", header.case.clone()),
+        ("title", header.title.clone()),
+        ("program", header.program.clone()),
+        ("build", header.build.clone()),
+        ("step_s", header.step_s.to_string()),
+        ("sample_every_s", header.sample_every_s.to_string()),
+    ];
+    let metadata = entries
+        .into_iter()
+        .map(|(key, value)| (key.to_owned(), value))
+        .collect();
+    Metadata {
+        name: schema::METADATA.to_owned(),
+        metadata,
+    }
+}
+
+/// Messages that are filled again for every sample; their memory and the bodies' names stay.
+struct Messages {
+    bodies: schema::Bodies,
+    contacts: schema::Contacts,
+}
+
+impl Messages {
+    fn new(headers: &[BodyHeader]) -> Self {
+        let state = |body: &BodyHeader| schema::BodyState {
+            name: body.name.clone(),
+            ..Default::default()
+        };
+        Messages {
+            bodies: schema::Bodies {
+                bodies: headers.iter().map(state).collect(),
+                ..Default::default()
+            },
+            contacts: schema::Contacts::default(),
+        }
+    }
+
+    fn bodies(&mut self, sample: &Sample<'_>) -> &schema::Bodies {
+        let message = &mut self.bodies;
+        (message.time_s, message.step) = (sample.time_s, sample.step);
+        for (state, body) in message.bodies.iter_mut().zip(sample.bodies) {
+            state.position_m = body.position_m.into();
+            state.orientation_xyzw = body.orientation_xyzw.into();
+            state.velocity_m_s = body.velocity_m_s.into();
+            state.angular_velocity_rad_s = body.angular_velocity_rad_s.into();
+        }
+        message
+    }
+
+    fn contacts(&mut self, sample: &Sample<'_>, streams: Streams) -> &schema::Contacts {
+        let message = &mut self.contacts;
+        let bodies = &self.bodies.bodies;
+        let name = |body: u32| bodies.get(body as usize).map_or("", |state| &state.name);
+        (message.time_s, message.step) = (sample.time_s, sample.step);
+        message
+            .contacts
+            .resize_with(sample.contacts.len(), schema::Contact::default);
+        for (to, from) in message.contacts.iter_mut().zip(sample.contacts) {
+            name(from.body).clone_into(&mut to.body);
+            from.other.map_or(schema::CONTAINER, name).clone_into(&mut to.other);
+            to.point_m = from.point_m.into();
+            to.normal = streams.contacts.then(|| from.normal.into());
+            to.force_n = streams.forces.then(|| from.force_n.into());
+            to.gap_m = if streams.contacts { from.gap_m } else { f64::NAN };
+        }
+        message
+    }
+
+    fn energy(sample: &Sample<'_>, energy: &EnergySample) -> schema::Energy {
+        schema::Energy {
+            time_s: sample.time_s,
+            step: sample.step,
+            kinetic_j: energy.kinetic_j,
+            potential_j: energy.potential_j,
+            total_j: energy.total_j,
+            penetration_m: energy.penetration_m,
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! What an .rrd says once, before the first sample: layout, names, surfaces, colours, configuration.
+
+use super::{CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, WORLD, energy_path, layout};
+use crate::record::sample::{BodyHeader, Header};
+use crate::record::schema::{self, Rgb};
+use ::rerun::components::Radius;
+use ::rerun::log::LogMsg;
+use ::rerun::{
+    AnyValues, Arrows3D, Color, EntityPath, LineStrips3D, Mesh3D, Points3D, RecordingStream, RecordingStreamBuilder,
+    RecordingStreamResult, SeriesLines, StoreId, TextDocument, ViewCoordinates,
+};
+use std::error::Error;
+
+/// Application id: recordings of one application share a layout and are listed together.
+pub const APPLICATION: &str = "gotai";
+
+/// Sizes on the screen, in points, so that they are legible at any zoom.
+const POINT_RADIUS: f32 = 4.0;
+const ARROW_RADIUS: f32 = 2.0;
+const LINE_RADIUS: f32 = 1.0;
+const PLOT_WIDTH: f32 = 1.5;
+
+/// Opacity of bodies, of 255: the forces on a body mostly point into it and should be seen.
+const BODY_ALPHA: u8 = 255;
+
+/// The recording's name and its first messages. `bodies`: the bodies' entities, in the header's order.
+pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
+    // Cases of another build have the same id; the viewer would merge recordings that share one.
+    let id = format!("{} {}", header.case, header.build);
+    let (stream, memory) = RecordingStreamBuilder::new(APPLICATION)
+        .recording_id(id)
+        .enabled(true)
+        .memory()?;
+    let store = memory.store_id().ok_or("Rerun made no recording")?;
+
+    let mut messages = layout::messages(header)?;
+    describe(header, &stream)?;
+    for ((body, path), colour) in header
+        .bodies
+        .iter()
+        .zip(bodies)
+        .zip(schema::BODY_COLOURS.iter().cycle())
+    {
+        stream.log_static(path.clone(), &surface(body, *colour))?;
+    }
+    if !header.container_strips_m.is_empty() {
+        stream.log_static(CONTAINER, &container(header))?;
+    }
+    styles(header, &stream)?;
+    messages.extend(memory.take());
+    Ok((store, messages))
+}
+
+fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    stream.send_recording_name(header.title.as_str())?;
+    let run = AnyValues::default()
+        .with_component::<::rerun::components::Text>("case", [header.case.as_str()])
+        .with_component::<::rerun::components::Text>("title", [header.title.as_str()])
+        .with_component::<::rerun::components::Text>("program", [header.program.as_str()])
+        .with_component::<::rerun::components::Text>("build", [header.build.as_str()])
+        .with_component::<::rerun::components::Scalar>("step_s", [header.step_s]);
+    stream.send_property(schema::METADATA, &run)?;
+    let page = format!(
+        "# {}\n\n{}, build {}\n\n```yaml\n{}\n```\n",
+        header.title,
+        header.program,
+        header.build,
+        header.config_yaml.trim_end()
+    );
+    stream.log_static(CONFIG, &TextDocument::from_markdown(page))?;
+    stream.log_static(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())
+}
+
+fn surface(body: &BodyHeader, [r, g, b]: Rgb) -> Mesh3D {
+    Mesh3D::new(body.vertices_m.iter().copied())
+        .with_triangle_indices(body.triangles.iter().copied())
+        .with_albedo_factor(*Color::from_unmultiplied_rgba(r, g, b, BODY_ALPHA))
+}
+
+fn container(header: &Header) -> LineStrips3D {
+    let strips = header
+        .container_strips_m
+        .iter()
+        .map(|strip| strip.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>());
+    LineStrips3D::new(strips)
+        .with_colors([color(schema::CONTAINER_COLOUR)])
+        .with_radii([Radius::new_ui_points(LINE_RADIUS)])
+}
+
+/// Colours, sizes and names of what follows sample by sample.
+fn styles(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    let streams = header.streams;
+    if streams.contacts {
+        let style = Points3D::update_fields().with_colors([color(schema::CONTACT_COLOUR)]);
+        stream.log_static(CONTACTS, &style.with_radii([Radius::new_ui_points(POINT_RADIUS)]))?;
+        stream.log_static(CONTACT_COUNT, &line("contacts", schema::CONTAINER_COLOUR))?;
+    }
+    if streams.forces {
+        let style = Arrows3D::update_fields().with_colors([color(schema::FORCE_COLOUR)]);
+        stream.log_static(FORCES, &style.with_radii([Radius::new_ui_points(ARROW_RADIUS)]))?;
+        stream.log_static(CONTACT_FORCE, &line("sum of |force| [N]", schema::FORCE_COLOUR))?;
+    }
+    if streams.energy {
+        for series in &schema::ENERGY_SERIES {
+            stream.log_static(energy_path(series), &line(series.label, series.colour))?;
+        }
+    }
+    Ok(())
+}
+
+fn line(label: &str, colour: Rgb) -> SeriesLines {
+    SeriesLines::new()
+        .with_names([label])
+        .with_colors([color(colour)])
+        .with_widths([PLOT_WIDTH])
+}
+
+fn color([r, g, b]: Rgb) -> Color {
+    Color::from_rgb(r, g, b)
+}

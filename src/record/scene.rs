@@ -1,0 +1,226 @@
+//! The run as Foxglove's messages: frames, surfaces, contact points and force arrows.
+
+use super::sample::{BodyHeader, ContactSample, Event, Header, Sample, Severity, Streams};
+use super::schema::{self, Rgb};
+use foxglove::messages::line_primitive::Type::LineStrip;
+use foxglove::messages::log::Level;
+use foxglove::messages::{
+    ArrowPrimitive, Color, FrameTransform, FrameTransforms, LinePrimitive, Log, Point3, Pose, Quaternion, SceneEntity,
+    SceneUpdate, SpherePrimitive, Timestamp, TriangleListPrimitive, Vector3,
+};
+
+/// Diameter of a contact point, as a part of the scene's size.
+const POINT_PART: f64 = 0.008;
+/// Thickness of an arrow's shaft; its head is twice as thick and three times as long.
+const SHAFT_PART: f64 = 0.004;
+/// Container lines keep their width on the screen, in pixels.
+const LINE_PIXELS: f64 = 2.0;
+
+/// What is drawn, and the messages that are filled again for every picture.
+pub struct Scene {
+    streams: Streams,
+    size_m: f64,
+    arrow_m_per_n: f64,
+    transforms: FrameTransforms,
+    contacts: SceneUpdate,
+    /// Whether the last picture had no contacts; nothing needs to be cleared then.
+    blank: bool,
+}
+
+impl Scene {
+    pub fn new(header: &Header) -> Self {
+        let frame = |body: &BodyHeader| FrameTransform {
+            parent_frame_id: schema::WORLD.to_owned(),
+            child_frame_id: body.name.clone(),
+            ..Default::default()
+        };
+        Scene {
+            streams: header.streams,
+            size_m: header.scene_size_m(),
+            arrow_m_per_n: header.arrow_m_per_n,
+            transforms: FrameTransforms {
+                transforms: header.bodies.iter().map(frame).collect(),
+            },
+            contacts: SceneUpdate {
+                entities: vec![entity("contacts", schema::WORLD)],
+                ..Default::default()
+            },
+            blank: true,
+        }
+    }
+
+    pub fn transforms(&mut self, sample: &Sample<'_>, time_ns: u64) -> &FrameTransforms {
+        for (frame, body) in self.transforms.transforms.iter_mut().zip(sample.bodies) {
+            frame.timestamp = Some(timestamp(time_ns));
+            frame.translation = Some(vector(body.position_m));
+            let [x, y, z, w] = body.orientation_xyzw;
+            frame.rotation = Some(Quaternion { x, y, z, w });
+        }
+        &self.transforms
+    }
+
+    /// Contact points and force arrows; none when there is nothing to draw and nothing to clear.
+    pub fn contacts(&mut self, sample: &Sample<'_>, time_ns: u64) -> Option<&SceneUpdate> {
+        if sample.contacts.is_empty() && self.blank {
+            return None;
+        }
+        self.blank = sample.contacts.is_empty();
+        let (size_m, arrow_m_per_n) = (self.size_m, self.arrow_m_per_n);
+        for entity in &mut self.contacts.entities {
+            entity.timestamp = Some(timestamp(time_ns));
+            entity.spheres.clear();
+            entity.arrows.clear();
+            if self.streams.contacts {
+                entity
+                    .spheres
+                    .extend(sample.contacts.iter().map(|contact| sphere(contact, size_m)));
+            }
+            if self.streams.forces {
+                entity.arrows.extend(
+                    sample
+                        .contacts
+                        .iter()
+                        .map(|contact| arrow(contact, size_m, arrow_m_per_n)),
+                );
+            }
+        }
+        Some(&self.contacts)
+    }
+}
+
+/// Every body's surface in the body's frame, and the container.
+pub fn surfaces(header: &Header) -> SceneUpdate {
+    let colours = schema::BODY_COLOURS.iter().cycle();
+    let bodies = header.bodies.iter().zip(colours).map(|(body, &colour)| SceneEntity {
+        triangles: vec![TriangleListPrimitive {
+            points: body.vertices_m.iter().map(|&p| point(p)).collect(),
+            indices: body.triangles.iter().flatten().copied().collect(),
+            color: Some(color(colour)),
+            ..Default::default()
+        }],
+        ..entity(&body.name, &body.name)
+    });
+    let lines = header.container_strips_m.iter().map(|strip| LinePrimitive {
+        r#type: LineStrip.into(),
+        thickness: LINE_PIXELS,
+        scale_invariant: true,
+        points: strip.iter().map(|&p| point(p)).collect(),
+        color: Some(color(schema::CONTAINER_COLOUR)),
+        ..Default::default()
+    });
+    let container = SceneEntity {
+        lines: lines.collect(),
+        ..entity(schema::CONTAINER, schema::WORLD)
+    };
+    let drawn = !container.lines.is_empty();
+    SceneUpdate {
+        entities: drawn.then_some(container).into_iter().chain(bodies).collect(),
+        ..Default::default()
+    }
+}
+
+pub fn log(event: &Event, time_ns: u64) -> Log {
+    let level = match event.severity {
+        Severity::Info => Level::Info,
+        Severity::Warning => Level::Warning,
+    };
+    Log {
+        timestamp: Some(timestamp(time_ns)),
+        level: level.into(),
+        message: event.text.clone(),
+        name: schema::METADATA.to_owned(),
+        ..Default::default()
+    }
+}
+
+/// An entity that moves with its frame and stays until it is replaced.
+fn entity(id: &str, frame: &str) -> SceneEntity {
+    SceneEntity {
+        timestamp: Some(timestamp(0)),
+        frame_id: frame.to_owned(),
+        id: id.to_owned(),
+        frame_locked: true,
+        ..Default::default()
+    }
+}
+
+fn sphere(contact: &ContactSample, size_m: f64) -> SpherePrimitive {
+    let diameter_m = POINT_PART * size_m;
+    SpherePrimitive {
+        pose: Some(Pose {
+            position: Some(vector(contact.point_m)),
+            orientation: Some(along_x([1.0, 0.0, 0.0])),
+        }),
+        size: Some(vector([diameter_m; 3])),
+        color: Some(color(schema::CONTACT_COLOUR)),
+    }
+}
+
+/// From the contact point along the force on the body.
+fn arrow(contact: &ContactSample, size_m: f64, arrow_m_per_n: f64) -> ArrowPrimitive {
+    let [x, y, z] = contact.force_n;
+    let force_n = (x * x + y * y + z * z).sqrt();
+    let direction = if force_n > 0.0 {
+        contact.force_n.map(|f| f / force_n)
+    } else {
+        [1.0, 0.0, 0.0]
+    };
+    let length_m = force_n * arrow_m_per_n;
+    let shaft_m = SHAFT_PART * size_m;
+    let head_m = (3.0 * shaft_m).min(length_m);
+    ArrowPrimitive {
+        pose: Some(Pose {
+            position: Some(vector(contact.point_m)),
+            orientation: Some(along_x(direction)),
+        }),
+        shaft_length: length_m - head_m,
+        shaft_diameter: shaft_m,
+        head_length: head_m,
+        head_diameter: 2.0 * shaft_m,
+        color: Some(color(schema::FORCE_COLOUR)),
+    }
+}
+
+/// The rotation that turns the x axis, along which arrows are drawn, into a unit vector.
+fn along_x([x, y, z]: [f64; 3]) -> Quaternion {
+    let half = (2.0 * (1.0 + x)).sqrt();
+    // Opposite to the x axis the shortest turn is not unique, and close to it badly conditioned.
+    if half < 1e-9 {
+        return Quaternion {
+            x: 0.0,
+            y: 1.0,
+            z: 0.0,
+            w: 0.0,
+        };
+    }
+    Quaternion {
+        x: 0.0,
+        y: -z / half,
+        z: y / half,
+        w: 0.5 * half,
+    }
+}
+
+fn vector([x, y, z]: [f64; 3]) -> Vector3 {
+    Vector3 { x, y, z }
+}
+
+fn point([x, y, z]: [f64; 3]) -> Point3 {
+    Point3 { x, y, z }
+}
+
+fn color([r, g, b]: Rgb) -> Color {
+    let part = |channel| f64::from(channel) / 255.0;
+    Color {
+        r: part(r),
+        g: part(g),
+        b: part(b),
+        a: 1.0,
+    }
+}
+
+fn timestamp(time_ns: u64) -> Timestamp {
+    // Seconds have 32 bits here: 136 years of simulated time, then the clock stops.
+    let seconds = u32::try_from(time_ns / 1_000_000_000).unwrap_or(u32::MAX);
+    Timestamp::new(seconds, (time_ns % 1_000_000_000) as u32)
+}

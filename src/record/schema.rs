@@ -1,0 +1,301 @@
+//! What a recording calls things, once for every file format: topics, message types, fields with units, colours.
+//!
+//! Numbers are f64 in SI units, world frame. Own messages are protobuf (package `gotai`), written by hand together with
+//! the descriptors that a reader needs; a field that is `required` here is optional in the descriptor: it is always on
+//! the wire, so that -0.0 keeps its sign and a message its size.
+
+use super::sample::EnergySample;
+use prost::Message;
+use prost_types::field_descriptor_proto::{Label, Type};
+use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet};
+
+/// Every sample: `gotai.Bodies`, `gotai.Contacts`, `gotai.Energy`.
+pub const BODIES: &str = "/bodies";
+pub const CONTACTS: &str = "/contacts";
+/// `gotai.Contacts` without normals and gaps, when forces are recorded and contacts are not.
+pub const FORCES: &str = "/forces";
+pub const ENERGY: &str = "/energy";
+/// At display rate: `foxglove.FrameTransforms`.
+pub const TRANSFORMS: &str = "/tf";
+/// Once: surfaces and container as `foxglove.SceneUpdate`.
+pub const SCENE: &str = "/scene";
+/// At display rate: contact points and force arrows as `foxglove.SceneUpdate`. A topic of its own, because a viewer
+/// that seeks reads the last message of each topic, and the surfaces must still be there.
+pub const SCENE_CONTACTS: &str = "/scene/contacts";
+/// `foxglove.Log`: events.
+pub const LOG: &str = "/log";
+
+/// Name of the configuration attached to a recording.
+pub const CONFIG_FILE: &str = "experiment.yaml";
+/// Name of the record of case, title, program, build and step.
+pub const METADATA: &str = "gotai";
+
+/// The frame that everything is in, and what `other` says for a contact with the container.
+pub const WORLD: &str = "world";
+pub const CONTAINER: &str = "container";
+
+/// Red, green, blue.
+pub type Rgb = [u8; 3];
+
+/// Bodies in turn: Tableau's ten, without the grey and the red that container and forces have.
+pub const BODY_COLOURS: [Rgb; 8] = [
+    [78, 121, 167],
+    [242, 142, 43],
+    [89, 161, 79],
+    [176, 122, 161],
+    [118, 183, 178],
+    [237, 201, 72],
+    [255, 157, 167],
+    [156, 117, 95],
+];
+pub const CONTAINER_COLOUR: Rgb = [150, 150, 160];
+pub const CONTACT_COLOUR: Rgb = [255, 235, 120];
+pub const FORCE_COLOUR: Rgb = [225, 87, 89];
+
+/// A number of every sample that a viewer plots.
+pub struct Series {
+    pub name: &'static str,
+    /// With its unit.
+    pub label: &'static str,
+    pub colour: Rgb,
+    pub value: fn(&EnergySample) -> f64,
+}
+
+/// The energy stream, field by field.
+pub const ENERGY_SERIES: [Series; 4] = [
+    Series {
+        name: "kinetic",
+        label: "kinetic [J]",
+        colour: [242, 142, 43],
+        value: |e| e.kinetic_j,
+    },
+    Series {
+        name: "potential",
+        label: "potential [J]",
+        colour: [78, 121, 167],
+        value: |e| e.potential_j,
+    },
+    Series {
+        name: "total",
+        label: "total [J]",
+        colour: [170, 170, 180],
+        value: |e| e.total_j,
+    },
+    Series {
+        name: "penetration",
+        label: "penetration [m]",
+        colour: [225, 87, 89],
+        value: |e| e.penetration_m,
+    },
+];
+
+/// Simulated time as nanoseconds, the clock of both file formats. What a clock cannot show (negative, not a number)
+/// becomes 0; the f64 beside it is exact.
+pub fn time_ns(time_s: f64) -> u64 {
+    (time_s * 1e9).round() as u64
+}
+
+#[derive(Clone, Copy, PartialEq, Message)]
+pub struct Vec3 {
+    #[prost(double, required, tag = "1")]
+    pub x: f64,
+    #[prost(double, required, tag = "2")]
+    pub y: f64,
+    #[prost(double, required, tag = "3")]
+    pub z: f64,
+}
+
+impl From<[f64; 3]> for Vec3 {
+    fn from([x, y, z]: [f64; 3]) -> Self {
+        Vec3 { x, y, z }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Message)]
+pub struct Quaternion {
+    #[prost(double, required, tag = "1")]
+    pub x: f64,
+    #[prost(double, required, tag = "2")]
+    pub y: f64,
+    #[prost(double, required, tag = "3")]
+    pub z: f64,
+    #[prost(double, required, tag = "4")]
+    pub w: f64,
+}
+
+impl From<[f64; 4]> for Quaternion {
+    fn from([x, y, z, w]: [f64; 4]) -> Self {
+        Quaternion { x, y, z, w }
+    }
+}
+
+/// All bodies at one time.
+#[derive(Clone, PartialEq, Message)]
+pub struct Bodies {
+    #[prost(double, required, tag = "1")]
+    pub time_s: f64,
+    #[prost(uint64, required, tag = "2")]
+    pub step: u64,
+    #[prost(message, repeated, tag = "3")]
+    pub bodies: Vec<BodyState>,
+}
+
+/// At the centre of mass; the orientation turns body axes into world axes.
+#[derive(Clone, PartialEq, Message)]
+pub struct BodyState {
+    #[prost(string, required, tag = "1")]
+    pub name: String,
+    #[prost(message, required, tag = "2")]
+    pub position_m: Vec3,
+    #[prost(message, required, tag = "3")]
+    pub orientation_xyzw: Quaternion,
+    #[prost(message, required, tag = "4")]
+    pub velocity_m_s: Vec3,
+    #[prost(message, required, tag = "5")]
+    pub angular_velocity_rad_s: Vec3,
+}
+
+/// All contacts of the step that led to one time.
+#[derive(Clone, PartialEq, Message)]
+pub struct Contacts {
+    #[prost(double, required, tag = "1")]
+    pub time_s: f64,
+    #[prost(uint64, required, tag = "2")]
+    pub step: u64,
+    #[prost(message, repeated, tag = "3")]
+    pub contacts: Vec<Contact>,
+}
+
+/// The normal points from the other to the body; the force (impulse over the step) acts on the body.
+#[derive(Clone, PartialEq, Message)]
+pub struct Contact {
+    #[prost(string, required, tag = "1")]
+    pub body: String,
+    /// `container`, or the other body's name.
+    #[prost(string, required, tag = "2")]
+    pub other: String,
+    #[prost(message, required, tag = "3")]
+    pub point_m: Vec3,
+    /// Absent on `/forces`.
+    #[prost(message, optional, tag = "4")]
+    pub normal: Option<Vec3>,
+    /// Absent when forces are not recorded.
+    #[prost(message, optional, tag = "5")]
+    pub force_n: Option<Vec3>,
+    /// Negative: penetration. Not a number on `/forces`.
+    #[prost(double, required, tag = "6")]
+    pub gap_m: f64,
+}
+
+/// Energies and deepest penetration at one time.
+#[derive(Clone, Copy, PartialEq, Message)]
+pub struct Energy {
+    #[prost(double, required, tag = "1")]
+    pub time_s: f64,
+    #[prost(uint64, required, tag = "2")]
+    pub step: u64,
+    #[prost(double, required, tag = "3")]
+    pub kinetic_j: f64,
+    #[prost(double, required, tag = "4")]
+    pub potential_j: f64,
+    #[prost(double, required, tag = "5")]
+    pub total_j: f64,
+    #[prost(double, required, tag = "6")]
+    pub penetration_m: f64,
+}
+
+/// The encoded `FileDescriptorSet` of the messages above: what readers decode them with.
+pub fn descriptor_set() -> Vec<u8> {
+    let clock = [("time_s", F64), ("step", U64)];
+    let xyz = [("x", F64), ("y", F64), ("z", F64)];
+    let file = FileDescriptorProto {
+        name: Some("gotai.proto".to_owned()),
+        package: Some("gotai".to_owned()),
+        syntax: Some("proto3".to_owned()),
+        message_type: vec![
+            message("Vec3", &xyz),
+            message("Quaternion", &[&xyz[..], &[("w", F64)]].concat()),
+            message(
+                "Bodies",
+                &[&clock[..], &[("bodies", Kind::Many(".gotai.BodyState"))]].concat(),
+            ),
+            message(
+                "BodyState",
+                &[
+                    ("name", TEXT),
+                    ("position_m", VEC3),
+                    ("orientation_xyzw", Kind::One(".gotai.Quaternion")),
+                    ("velocity_m_s", VEC3),
+                    ("angular_velocity_rad_s", VEC3),
+                ],
+            ),
+            message(
+                "Contacts",
+                &[&clock[..], &[("contacts", Kind::Many(".gotai.Contact"))]].concat(),
+            ),
+            message(
+                "Contact",
+                &[
+                    ("body", TEXT),
+                    ("other", TEXT),
+                    ("point_m", VEC3),
+                    ("normal", VEC3),
+                    ("force_n", VEC3),
+                    ("gap_m", F64),
+                ],
+            ),
+            message(
+                "Energy",
+                &[
+                    &clock[..],
+                    &[
+                        ("kinetic_j", F64),
+                        ("potential_j", F64),
+                        ("total_j", F64),
+                        ("penetration_m", F64),
+                    ],
+                ]
+                .concat(),
+            ),
+        ],
+        ..Default::default()
+    };
+    FileDescriptorSet { file: vec![file] }.encode_to_vec()
+}
+
+/// Type of a field: a scalar, one message, many messages.
+#[derive(Clone, Copy)]
+enum Kind {
+    Scalar(Type),
+    One(&'static str),
+    Many(&'static str),
+}
+
+const F64: Kind = Kind::Scalar(Type::Double);
+const U64: Kind = Kind::Scalar(Type::Uint64);
+const TEXT: Kind = Kind::Scalar(Type::String);
+const VEC3: Kind = Kind::One(".gotai.Vec3");
+
+/// Fields are numbered from 1 in the order given, as the tags above are.
+fn message(name: &str, fields: &[(&str, Kind)]) -> DescriptorProto {
+    let field = fields.iter().zip(1..).map(|(&(name, kind), number)| {
+        let (label, r#type, type_name) = match kind {
+            Kind::Scalar(scalar) => (Label::Optional, scalar, None),
+            Kind::One(message) => (Label::Optional, Type::Message, Some(message)),
+            Kind::Many(message) => (Label::Repeated, Type::Message, Some(message)),
+        };
+        FieldDescriptorProto {
+            name: Some(name.to_owned()),
+            number: Some(number),
+            label: Some(label.into()),
+            r#type: Some(r#type.into()),
+            type_name: type_name.map(str::to_owned),
+            ..Default::default()
+        }
+    });
+    DescriptorProto {
+        name: Some(name.to_owned()),
+        field: field.collect(),
+        ..Default::default()
+    }
+}

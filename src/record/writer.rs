@@ -1,0 +1,254 @@
+//! A recording thread of its own, so that the simulation pays for filling a batch and nothing else.
+//!
+//! Batches circulate: filled by the simulating thread, sent, written, sent back empty. When the disk is slower than the
+//! simulation, the simulation waits; memory stays bounded. A write that fails does not stop the simulation: the first
+//! error is remembered and `finish` returns it.
+
+use super::sample::{Batch, Event, Header};
+use super::{RecordError, Recorder};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::JoinHandle;
+
+/// Samples in a full batch: both file formats are within a few percent of their best speed at 1,000, and a kill loses
+/// less the fewer there are.
+const BATCH_SAMPLES: usize = 1_000;
+
+/// Body states, or contacts, in a full batch: about 2 MB of either, for scenes with many bodies.
+const BATCH_ENTRIES: usize = 20_000;
+
+/// Batches in circulation: one being filled, one being written, two between, so that neither thread waits for the
+/// other's pauses.
+const BATCHES: usize = 4;
+
+/// Messages under way; more than `BATCHES` leaves room for events.
+const QUEUE: usize = 16;
+
+enum Message {
+    Batch(Batch),
+    Event(Event),
+    Finish,
+}
+
+/// Hands batches and events, in order, to recorders on a thread of its own.
+///
+/// Dropped without `finish`, it waits for what was sent and leaves the files incomplete.
+pub struct Writer {
+    filling: Batch,
+    made: usize,
+    full: SyncSender<Message>,
+    empty: Receiver<Batch>,
+    thread: Option<JoinHandle<Result<(), RecordError>>>,
+}
+
+impl Writer {
+    pub fn start(sinks: Vec<Box<dyn Recorder>>) -> Result<Writer, RecordError> {
+        let (full, inbox) = sync_channel(QUEUE);
+        let (outbox, empty) = sync_channel(BATCHES);
+        let thread = std::thread::Builder::new()
+            .name("record".to_owned())
+            .spawn(move || record(sinks, &inbox, &outbox))
+            .map_err(|error| RecordError::new(Path::new("recordings"), format!("no recording thread: {error}")))?;
+        Ok(Writer {
+            filling: Batch::default(),
+            made: 1,
+            full,
+            empty,
+            thread: Some(thread),
+        })
+    }
+
+    /// The batch being filled: push one entry to each column of a stream that is on, then call `sample_done`.
+    pub fn batch(&mut self) -> &mut Batch {
+        &mut self.filling
+    }
+
+    /// Sends the batch when it is full.
+    pub fn sample_done(&mut self) {
+        let batch = &self.filling;
+        if batch.len() >= BATCH_SAMPLES || batch.contacts.len() >= BATCH_ENTRIES || batch.bodies.len() >= BATCH_ENTRIES
+        {
+            self.send_batch();
+        }
+    }
+
+    /// Something that happened, after the samples so far.
+    pub fn event(&mut self, event: Event) {
+        self.send_batch();
+        // The thread only ends early when a recorder panics; `finish` reports that.
+        let _ = self.full.send(Message::Event(event));
+    }
+
+    /// Writes the rest and closes the files. The first error wins, also over the success of other files.
+    pub fn finish(mut self) -> Result<(), RecordError> {
+        self.send_batch();
+        let _ = self.full.send(Message::Finish);
+        self.join()
+    }
+
+    fn send_batch(&mut self) {
+        if self.filling.is_empty() {
+            return;
+        }
+        let next = self.next_batch();
+        let batch = std::mem::replace(&mut self.filling, next);
+        let _ = self.full.send(Message::Batch(batch));
+    }
+
+    fn next_batch(&mut self) -> Batch {
+        if let Ok(batch) = self.empty.try_recv() {
+            return batch;
+        }
+        if self.made < BATCHES {
+            self.made += 1;
+            return Batch::default();
+        }
+        self.empty.recv().unwrap_or_default()
+    }
+
+    fn join(&mut self) -> Result<(), RecordError> {
+        match self.thread.take().map(JoinHandle::join) {
+            Some(Ok(result)) => result,
+            Some(Err(panic)) => {
+                let text = panic.downcast_ref::<String>().map(String::as_str);
+                let text = text
+                    .or(panic.downcast_ref::<&str>().copied())
+                    .unwrap_or("for no stated reason");
+                Err(RecordError::new(
+                    Path::new("recordings"),
+                    format!("the recording thread panicked: {text}"),
+                ))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+impl Drop for Writer {
+    fn drop(&mut self) {
+        if self.thread.is_some() {
+            // Closing the channel ends the thread; waiting for it keeps files from changing after the run.
+            self.full = sync_channel(0).0;
+            let _ = self.join();
+        }
+    }
+}
+
+/// The recording thread. A recorder that fails is dropped, the others go on.
+fn record(
+    mut sinks: Vec<Box<dyn Recorder>>,
+    inbox: &Receiver<Message>,
+    outbox: &SyncSender<Batch>,
+) -> Result<(), RecordError> {
+    let mut first = Ok(());
+    while let Ok(message) = inbox.recv() {
+        match message {
+            Message::Batch(mut batch) => {
+                each(&mut sinks, &mut first, |sink| sink.write(&batch));
+                batch.clear();
+                // There is room for every batch; a simulation that ended does not want it back.
+                let _ = outbox.try_send(batch);
+            }
+            Message::Event(event) => each(&mut sinks, &mut first, |sink| sink.event(&event)),
+            Message::Finish => {
+                for sink in sinks {
+                    let result = sink.finish();
+                    first = first.and(result);
+                }
+                return first;
+            }
+        }
+    }
+    first
+}
+
+fn each(
+    sinks: &mut Vec<Box<dyn Recorder>>,
+    first: &mut Result<(), RecordError>,
+    mut act: impl FnMut(&mut dyn Recorder) -> Result<(), RecordError>,
+) {
+    sinks.retain_mut(|sink| match act(sink.as_mut()) {
+        Ok(()) => true,
+        Err(error) => {
+            if first.is_ok() {
+                *first = Err(error);
+            }
+            false
+        }
+    });
+}
+
+/// A kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    Rerun,
+    Mcap,
+}
+
+impl Target {
+    /// Every kind that this build can write.
+    pub const AVAILABLE: &[Target] = if cfg!(feature = "rerun") {
+        &[Target::Rerun, Target::Mcap]
+    } else {
+        &[Target::Mcap]
+    };
+
+    pub fn extension(self) -> &'static str {
+        match self {
+            Target::Rerun => "rrd",
+            Target::Mcap => "mcap",
+        }
+    }
+}
+
+/// Starts the recordings of a case: `<dir>/<case>.rrd`, `<dir>/<case>.mcap`. The directory must exist. Until `finish`
+/// a file is called `<case>.partial.rrd`, so that a file with the final name is complete.
+pub fn open(targets: &[Target], dir: &Path, header: &Header) -> Result<Writer, RecordError> {
+    let mut sinks: Vec<Box<dyn Recorder>> = Vec::new();
+    for &target in targets {
+        let partial = dir.join(format!("{}.partial.{}", header.case, target.extension()));
+        let complete = dir.join(format!("{}.{}", header.case, target.extension()));
+        let file = create(target, &partial, header)?;
+        sinks.push(Box::new(Renamed {
+            file,
+            partial,
+            complete,
+        }));
+    }
+    Writer::start(sinks)
+}
+
+fn create(target: Target, path: &Path, header: &Header) -> Result<Box<dyn Recorder>, RecordError> {
+    match target {
+        Target::Mcap => Ok(Box::new(super::mcap::McapRecorder::create(path, header)?)),
+        #[cfg(feature = "rerun")]
+        Target::Rerun => Ok(Box::new(super::rerun::RerunRecorder::create(path, header)?)),
+        #[cfg(not(feature = "rerun"))]
+        Target::Rerun => Err(RecordError::new(
+            path,
+            "this build has no Rerun (cargo feature `rerun`)",
+        )),
+    }
+}
+
+/// Gives a file its final name when it is complete.
+struct Renamed {
+    file: Box<dyn Recorder>,
+    partial: PathBuf,
+    complete: PathBuf,
+}
+
+impl Recorder for Renamed {
+    fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        self.file.write(batch)
+    }
+
+    fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        self.file.event(event)
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), RecordError> {
+        self.file.finish()?;
+        std::fs::rename(&self.partial, &self.complete).map_err(|error| RecordError::new(&self.complete, error))
+    }
+}

@@ -1,6 +1,6 @@
 //! Putting a value at a key path, for `--set` and for axes alike.
 
-use super::error::{ExperimentError, Kind, describe};
+use super::error::{ExperimentError, Kind, describe, shortened};
 use super::key_path::{KeyPath, Path, Segment, is_addressable};
 use super::nearest::nearest;
 use super::value_de::item_name;
@@ -35,14 +35,17 @@ impl Override {
     }
 }
 
+/// Deeper than any key of the vocabulary; a tree of unlimited depth would overflow the stack.
+const DEEPEST: usize = 64;
+
 /// The segments of a dotted path.
 pub fn split(path: &str) -> Result<Vec<String>> {
     let segments: Vec<String> = path.split('.').map(str::to_string).collect();
-    if segments.iter().any(String::is_empty) {
+    if segments.len() > DEEPEST || segments.iter().any(String::is_empty) {
         let found = if path.is_empty() {
             "an empty path".to_string()
         } else {
-            format!("`{path}`")
+            format!("`{}`", shortened(path))
         };
         let expected = "a path such as scene.bodies.cube.mass_kg";
         return Err(ExperimentError::unexpected(KeyPath::default(), expected, &found));

@@ -283,10 +283,10 @@ impl Messages {
         let message = &mut self.bodies;
         (message.time_s, message.step) = (sample.time_s, sample.step);
         for (state, body) in message.bodies.iter_mut().zip(sample.bodies) {
-            state.position_m = body.position_m.into();
-            state.orientation_xyzw = body.orientation_xyzw.into();
-            state.velocity_m_s = body.velocity_m_s.into();
-            state.angular_velocity_rad_s = body.angular_velocity_rad_s.into();
+            set(&mut state.position_m, &body.position_m);
+            set(&mut state.orientation_xyzw, &body.orientation_xyzw);
+            set(&mut state.velocity_m_s, &body.velocity_m_s);
+            set(&mut state.angular_velocity_rad_s, &body.angular_velocity_rad_s);
         }
         message
     }
@@ -302,9 +302,9 @@ impl Messages {
         for (to, from) in message.contacts.iter_mut().zip(sample.contacts) {
             name(from.body).clone_into(&mut to.body);
             from.other.map_or(schema::CONTAINER, name).clone_into(&mut to.other);
-            to.point_m = from.point_m.into();
-            to.normal = streams.contacts.then(|| from.normal.into());
-            to.force_n = streams.forces.then(|| from.force_n.into());
+            set(&mut to.point_m, &from.point_m);
+            set(&mut to.normal, if streams.contacts { &from.normal } else { &[] });
+            set(&mut to.force_n, if streams.forces { &from.force_n } else { &[] });
             to.gap_m = if streams.contacts { from.gap_m } else { f64::NAN };
         }
         message
@@ -320,4 +320,9 @@ impl Messages {
             penetration_m: energy.penetration_m,
         }
     }
+}
+
+fn set(array: &mut Vec<f64>, values: &[f64]) {
+    array.clear();
+    array.extend_from_slice(values);
 }

@@ -1,3 +1,19 @@
 //! The YAML vocabulary: types, defaults with reasons, overrides, errors with file:line and key path.
+//!
+//! `ExperimentFile::load` reads a file with its `--set`s; `experiment` and `case` give resolved `Experiment`s.
 
+mod either;
+pub mod error;
+pub mod file;
+pub mod key_path;
+mod later;
+pub mod nearest;
+pub mod overrides;
+pub mod positions;
 pub mod types;
+mod validate;
+mod validate_body;
+pub mod value_de;
+
+pub use error::ExperimentError;
+pub use file::ExperimentFile;

@@ -63,30 +63,10 @@ pub struct Series {
 
 /// The energy stream, field by field.
 pub const ENERGY_SERIES: [Series; 4] = [
-    Series {
-        name: "kinetic",
-        label: "kinetic [J]",
-        colour: [242, 142, 43],
-        value: |e| e.kinetic_j,
-    },
-    Series {
-        name: "potential",
-        label: "potential [J]",
-        colour: [78, 121, 167],
-        value: |e| e.potential_j,
-    },
-    Series {
-        name: "total",
-        label: "total [J]",
-        colour: [170, 170, 180],
-        value: |e| e.total_j,
-    },
-    Series {
-        name: "penetration",
-        label: "penetration [m]",
-        colour: [225, 87, 89],
-        value: |e| e.penetration_m,
-    },
+    Series { name: "kinetic", label: "kinetic [J]", colour: [242, 142, 43], value: |e| e.kinetic_j },
+    Series { name: "potential", label: "potential [J]", colour: [78, 121, 167], value: |e| e.potential_j },
+    Series { name: "total", label: "total [J]", colour: [170, 170, 180], value: |e| e.total_j },
+    Series { name: "penetration", label: "penetration [m]", colour: [225, 87, 89], value: |e| e.penetration_m },
 ];
 
 /// Simulated time as nanoseconds, the clock of both file formats. What a clock cannot show (negative, not a number)
@@ -178,10 +158,7 @@ pub fn descriptor_set() -> Vec<u8> {
         package: Some("gotai".to_owned()),
         syntax: Some("proto3".to_owned()),
         message_type: vec![
-            message(
-                "Bodies",
-                &[&clock[..], &[("bodies", Kind::Messages(".gotai.BodyState"))]].concat(),
-            ),
+            message("Bodies", &[&clock[..], &[("bodies", Kind::Messages(".gotai.BodyState"))]].concat()),
             message(
                 "BodyState",
                 &[
@@ -192,10 +169,7 @@ pub fn descriptor_set() -> Vec<u8> {
                     ("angular_velocity_rad_s", Kind::Array),
                 ],
             ),
-            message(
-                "Contacts",
-                &[&clock[..], &[("contacts", Kind::Messages(".gotai.Contact"))]].concat(),
-            ),
+            message("Contacts", &[&clock[..], &[("contacts", Kind::Messages(".gotai.Contact"))]].concat()),
             message(
                 "Contact",
                 &[
@@ -209,16 +183,8 @@ pub fn descriptor_set() -> Vec<u8> {
             ),
             message(
                 "Energy",
-                &[
-                    &clock[..],
-                    &[
-                        ("kinetic_j", F64),
-                        ("potential_j", F64),
-                        ("total_j", F64),
-                        ("penetration_m", F64),
-                    ],
-                ]
-                .concat(),
+                &[&clock[..], &[("kinetic_j", F64), ("potential_j", F64), ("total_j", F64), ("penetration_m", F64)]]
+                    .concat(),
             ),
         ],
         ..Default::default()
@@ -255,9 +221,5 @@ fn message(name: &str, fields: &[(&str, Kind)]) -> DescriptorProto {
             ..Default::default()
         }
     });
-    DescriptorProto {
-        name: Some(name.to_owned()),
-        field: field.collect(),
-        ..Default::default()
-    }
+    DescriptorProto { name: Some(name.to_owned()), field: field.collect(), ..Default::default() }
 }

@@ -14,12 +14,7 @@ fn record(path: &Path, n: u64, streams: Streams) {
     for start in (0..n).step_by(300) {
         recorder.write(&s::batch(start..n.min(start + 300), streams)).unwrap();
     }
-    let event = Event {
-        step: n,
-        time_s: s::time_s(n),
-        severity: Severity::Warning,
-        text: "the end".to_owned(),
-    };
+    let event = Event { step: n, time_s: s::time_s(n), severity: Severity::Warning, text: "the end".to_owned() };
     recorder.event(&event).unwrap();
     Box::new(recorder).finish().unwrap();
 }
@@ -35,24 +30,14 @@ fn read(bytes: &[u8]) -> Topics {
         assert_eq!(message.channel.message_encoding, "protobuf");
         assert_eq!(message.log_time, message.publish_time);
         let schema = message.channel.schema.as_ref().unwrap();
-        assert!(
-            prost_types::FileDescriptorSet::decode(&schema.data[..]).is_ok(),
-            "{}",
-            schema.name
-        );
-        topics
-            .entry(message.channel.topic.clone())
-            .or_default()
-            .push((message.log_time, message.data.to_vec()));
+        assert!(prost_types::FileDescriptorSet::decode(&schema.data[..]).is_ok(), "{}", schema.name);
+        topics.entry(message.channel.topic.clone()).or_default().push((message.log_time, message.data.to_vec()));
     }
     topics
 }
 
 fn decode<T: Message + Default>(topics: &Topics, topic: &str) -> Vec<T> {
-    topics[topic]
-        .iter()
-        .map(|(_, data)| T::decode(&data[..]).unwrap())
-        .collect()
+    topics[topic].iter().map(|(_, data)| T::decode(&data[..]).unwrap()).collect()
 }
 
 #[test]
@@ -81,10 +66,7 @@ fn an_mcap_holds_every_sample_to_the_last_bit() {
         let expected = s::contacts(i);
         assert_eq!(contacts[i as usize].contacts.len(), expected.len());
         for (contact, expected) in contacts[i as usize].contacts.iter().zip(&expected) {
-            assert_eq!(
-                (contact.body.as_str(), contact.other.as_str()),
-                ("cube[0]", "container")
-            );
+            assert_eq!((contact.body.as_str(), contact.other.as_str()), ("cube[0]", "container"));
             assert_eq!(contact.point_m, expected.point_m);
             assert_eq!(contact.normal, expected.normal);
             assert_eq!(contact.force_n, expected.force_n);
@@ -92,16 +74,8 @@ fn an_mcap_holds_every_sample_to_the_last_bit() {
         }
     }
     let counts: std::collections::BTreeSet<_> = contacts.iter().map(|message| message.contacts.len()).collect();
-    assert!(
-        counts.contains(&0) && counts.len() > 1,
-        "the synthetic run has varying contacts: {counts:?}"
-    );
-    assert!(
-        topics[schema::ENERGY]
-            .iter()
-            .zip(0..)
-            .all(|((log_time, _), i)| *log_time == i * 1_000_000)
-    );
+    assert!(counts.contains(&0) && counts.len() > 1, "the synthetic run has varying contacts: {counts:?}");
+    assert!(topics[schema::ENERGY].iter().zip(0..).all(|((log_time, _), i)| *log_time == i * 1_000_000));
 }
 
 #[test]
@@ -117,11 +91,7 @@ fn pictures_come_at_display_rate_and_surfaces_once() {
     assert_eq!(frames[0].transforms[0].child_frame_id, "cube[0]");
     let scene: Vec<SceneUpdate> = decode(&topics, schema::SCENE);
     assert_eq!(scene.len(), 1);
-    let ids: Vec<_> = scene[0]
-        .entities
-        .iter()
-        .map(|entity| (entity.id.as_str(), entity.frame_id.as_str()))
-        .collect();
+    let ids: Vec<_> = scene[0].entities.iter().map(|entity| (entity.id.as_str(), entity.frame_id.as_str())).collect();
     assert_eq!(ids, [("container", "world"), ("cube[0]", "cube[0]")]);
     assert_eq!(scene[0].entities[1].triangles[0].indices.len(), 36);
     // Contacts are drawn while there are some, and cleared once.
@@ -135,10 +105,7 @@ fn pictures_come_at_display_rate_and_surfaces_once() {
         assert!((norm - 1.0).abs() < 1e-12, "{q:?}");
     }
     let log: Vec<Log> = decode(&topics, schema::LOG);
-    assert_eq!(
-        log.iter().map(|log| log.message.as_str()).collect::<Vec<_>>(),
-        ["the end"]
-    );
+    assert_eq!(log.iter().map(|log| log.message.as_str()).collect::<Vec<_>>(), ["the end"]);
 }
 
 #[test]
@@ -182,34 +149,18 @@ fn streams_that_are_off_leave_no_topic() {
         (topics, read(&bytes))
     };
     assert_eq!(topics(NONE).0, ["/log", "/scene"]);
-    assert_eq!(
-        topics(Streams { energy: true, ..NONE }).0,
-        ["/energy", "/log", "/scene"]
-    );
-    assert_eq!(
-        topics(Streams { bodies: true, ..NONE }).0,
-        ["/bodies", "/log", "/scene", "/tf"]
-    );
+    assert_eq!(topics(Streams { energy: true, ..NONE }).0, ["/energy", "/log", "/scene"]);
+    assert_eq!(topics(Streams { bodies: true, ..NONE }).0, ["/bodies", "/log", "/scene", "/tf"]);
 
     let (names, messages) = topics(Streams { contacts: true, ..NONE });
     assert_eq!(names, ["/contacts", "/log", "/scene", "/scene/contacts"]);
     let contacts: Vec<schema::Contacts> = decode(&messages, schema::CONTACTS);
-    assert!(
-        contacts[0]
-            .contacts
-            .iter()
-            .all(|contact| contact.force_n.is_empty() && contact.normal.len() == 3)
-    );
+    assert!(contacts[0].contacts.iter().all(|contact| contact.force_n.is_empty() && contact.normal.len() == 3));
 
     let (names, messages) = topics(Streams { forces: true, ..NONE });
     assert_eq!(names, ["/forces", "/log", "/scene", "/scene/contacts"]);
     let forces: Vec<schema::Contacts> = decode(&messages, schema::FORCES);
-    assert!(
-        forces[0]
-            .contacts
-            .iter()
-            .all(|contact| contact.force_n.len() == 3 && contact.normal.is_empty())
-    );
+    assert!(forces[0].contacts.iter().all(|contact| contact.force_n.len() == 3 && contact.normal.is_empty()));
 }
 
 #[test]
@@ -239,11 +190,5 @@ fn a_batch_that_does_not_fit_the_header_is_an_error() {
     batch.contacts.pop();
     assert!(recorder.write(&batch).unwrap_err().to_string().contains("contacts"));
     let without_energy = s::batch(0..10, Streams { energy: false, ..ALL });
-    assert!(
-        recorder
-            .write(&without_energy)
-            .unwrap_err()
-            .to_string()
-            .contains("energy")
-    );
+    assert!(recorder.write(&without_energy).unwrap_err().to_string().contains("energy"));
 }

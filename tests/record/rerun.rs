@@ -15,12 +15,7 @@ fn record(path: &Path, n: u64, streams: Streams) {
     for start in (0..n).step_by(300) {
         recorder.write(&s::batch(start..n.min(start + 300), streams)).unwrap();
     }
-    let event = Event {
-        step: n,
-        time_s: s::time_s(n),
-        severity: Severity::Info,
-        text: "the end".to_owned(),
-    };
+    let event = Event { step: n, time_s: s::time_s(n), severity: Severity::Info, text: "the end".to_owned() };
     recorder.event(&event).unwrap();
     Box::new(recorder).finish().unwrap();
 }
@@ -28,9 +23,7 @@ fn record(path: &Path, n: u64, streams: Streams) {
 fn read(path: &Path) -> ChunkStore {
     let mut file = File::open(path).unwrap();
     let stores = ChunkStore::from_rrd_reader(&ChunkStoreConfig::ALL_DISABLED, &mut file).unwrap();
-    let mut recordings = stores
-        .into_values()
-        .filter(|store| store.id().kind() == StoreKind::Recording);
+    let mut recordings = stores.into_values().filter(|store| store.id().kind() == StoreKind::Recording);
     let store = recordings.next().unwrap();
     assert!(recordings.next().is_none(), "one recording a file");
     store
@@ -46,18 +39,9 @@ fn rows(store: &ChunkStore) -> BTreeMap<String, usize> {
 }
 
 fn scalars(store: &ChunkStore, path: &str) -> Vec<f64> {
-    let chunks = store
-        .iter_physical_chunks()
-        .filter(|chunk| chunk.entity_path().to_string() == path);
+    let chunks = store.iter_physical_chunks().filter(|chunk| chunk.entity_path().to_string() == path);
     let component = ::rerun::Scalars::descriptor_scalars().component;
-    chunks
-        .flat_map(|chunk| {
-            chunk
-                .iter_slices::<f64>(component)
-                .map(|row| row[0])
-                .collect::<Vec<_>>()
-        })
-        .collect()
+    chunks.flat_map(|chunk| chunk.iter_slices::<f64>(component).map(|row| row[0]).collect::<Vec<_>>()).collect()
 }
 
 #[test]
@@ -79,10 +63,7 @@ fn an_rrd_holds_every_sample() {
         ("/world/contacts", 1000),
         ("/world/forces", 1000),
     ];
-    assert_eq!(
-        rows(&store),
-        expected.map(|(path, rows)| (path.to_owned(), rows)).into()
-    );
+    assert_eq!(rows(&store), expected.map(|(path, rows)| (path.to_owned(), rows)).into());
 
     let same = |path: &str, value: fn(u64) -> f64| {
         let expected: Vec<_> = (0..1000).map(value).collect();
@@ -102,17 +83,9 @@ fn every_sample_has_its_own_number_of_contact_points() {
     record(&path, 1000, ALL);
     let store = read(&path);
     let component = ::rerun::Points3D::descriptor_positions().component;
-    let chunks = store
-        .iter_physical_chunks()
-        .filter(|chunk| chunk.entity_path().to_string() == "/world/contacts");
-    let lengths: Vec<_> = chunks
-        .flat_map(|chunk| {
-            chunk
-                .iter_slices::<[f32; 3]>(component)
-                .map(<[_]>::len)
-                .collect::<Vec<_>>()
-        })
-        .collect();
+    let chunks = store.iter_physical_chunks().filter(|chunk| chunk.entity_path().to_string() == "/world/contacts");
+    let lengths: Vec<_> =
+        chunks.flat_map(|chunk| chunk.iter_slices::<[f32; 3]>(component).map(<[_]>::len).collect::<Vec<_>>()).collect();
     assert_eq!(lengths, (0..1000).map(|i| s::contacts(i).len()).collect::<Vec<_>>());
 }
 
@@ -124,21 +97,13 @@ fn streams_that_are_off_leave_no_entity() {
         let path = dir.path().join("a.rrd");
         record(&path, 10, streams);
         let store = read(&path);
-        let paths = store
-            .iter_physical_chunks()
-            .map(|chunk| chunk.entity_path().to_string());
+        let paths = store.iter_physical_chunks().map(|chunk| chunk.entity_path().to_string());
         let mut paths: Vec<_> = paths.filter(|path| !path.starts_with("/__properties")).collect();
         paths.sort();
         paths.dedup();
         paths
     };
-    let always = [
-        "/config",
-        "/log",
-        "/world",
-        "/world/bodies/cube\\[0\\]",
-        "/world/container",
-    ];
+    let always = ["/config", "/log", "/world", "/world/bodies/cube\\[0\\]", "/world/container"];
     assert_eq!(entities(NONE), always);
     let with = |more: &[&str]| {
         let mut paths: Vec<_> = always.iter().chain(more).map(|path| (*path).to_owned()).collect();
@@ -146,14 +111,8 @@ fn streams_that_are_off_leave_no_entity() {
         paths
     };
     assert_eq!(entities(Streams { bodies: true, ..NONE }), always);
-    assert_eq!(
-        entities(Streams { contacts: true, ..NONE }),
-        with(&["/contact/count", "/world/contacts"])
-    );
-    assert_eq!(
-        entities(Streams { forces: true, ..NONE }),
-        with(&["/contact/force", "/world/forces"])
-    );
+    assert_eq!(entities(Streams { contacts: true, ..NONE }), with(&["/contact/count", "/world/contacts"]));
+    assert_eq!(entities(Streams { forces: true, ..NONE }), with(&["/contact/force", "/world/forces"]));
     let energy = ["/energy/kinetic", "/energy/potential", "/energy/total", "/penetration"];
     assert_eq!(entities(Streams { energy: true, ..NONE }), with(&energy));
 }
@@ -166,25 +125,13 @@ fn the_layout_comes_first_and_the_configuration_is_shown() {
     let decoder = Decoder::<LogMsg>::decode_eager(BufReader::new(File::open(&path).unwrap())).unwrap();
     let messages: Vec<_> = decoder.map(Result::unwrap).collect();
     assert_eq!(messages[0].store_id().kind(), StoreKind::Blueprint);
-    let activation = messages
-        .iter()
-        .position(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
-    let last_of_layout = messages
-        .iter()
-        .rposition(|message| message.store_id().kind() == StoreKind::Blueprint);
+    let activation = messages.iter().position(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
+    let last_of_layout = messages.iter().rposition(|message| message.store_id().kind() == StoreKind::Blueprint);
     assert_eq!(activation, last_of_layout);
 
     let store = read(&path);
-    let config = store
-        .iter_physical_chunks()
-        .find(|chunk| chunk.entity_path().to_string() == "/config")
-        .unwrap();
-    let text = format!(
-        "{:?}",
-        config
-            .components()
-            .get_array(::rerun::TextDocument::descriptor_text().component)
-    );
+    let config = store.iter_physical_chunks().find(|chunk| chunk.entity_path().to_string() == "/config").unwrap();
+    let text = format!("{:?}", config.components().get_array(::rerun::TextDocument::descriptor_text().component));
     assert!(text.contains("name: bouncing"), "{text}");
 }
 

@@ -3,18 +3,8 @@
 
 use gotai::record::sample::{Batch, BodyHeader, BodySample, ContactSample, EnergySample, Header, Streams};
 
-pub const ALL: Streams = Streams {
-    bodies: true,
-    contacts: true,
-    forces: true,
-    energy: true,
-};
-pub const NONE: Streams = Streams {
-    bodies: false,
-    contacts: false,
-    forces: false,
-    energy: false,
-};
+pub const ALL: Streams = Streams { bodies: true, contacts: true, forces: true, energy: true };
+pub const NONE: Streams = Streams { bodies: false, contacts: false, forces: false, energy: false };
 
 pub const STEP_S: f64 = 0.001;
 pub const CONFIG: &str = "name: bouncing\nscene:\n  bodies:\n    - { name: cube, shape: { cube: { edge_m: 0.8 } } }\n";
@@ -93,10 +83,7 @@ pub fn contacts(i: u64) -> Vec<ContactSample> {
         let [px, py, pz] = body.position_m;
         [px + cos * x - sin * y, py + sin * x + cos * y, pz + z]
     };
-    let near = corners(HALF_EDGE_M)
-        .map(corner)
-        .into_iter()
-        .filter(|point| point[1] < 0.1);
+    let near = corners(HALF_EDGE_M).map(corner).into_iter().filter(|point| point[1] < 0.1);
     near.map(|point| ContactSample {
         body: 0,
         other: None,
@@ -109,20 +96,11 @@ pub fn contacts(i: u64) -> Vec<ContactSample> {
 }
 
 pub fn energy(i: u64) -> EnergySample {
-    let BodySample {
-        position_m,
-        velocity_m_s,
-        ..
-    } = body(i);
+    let BodySample { position_m, velocity_m_s, .. } = body(i);
     let kinetic_j = 0.5 * MASS_KG * velocity_m_s[1] * velocity_m_s[1];
     let potential_j = MASS_KG * 8.0 * BOUNCE_M * position_m[1];
     let lowest_m = contacts(i).iter().map(|contact| contact.gap_m).fold(0.0, f64::min);
-    EnergySample {
-        kinetic_j,
-        potential_j,
-        total_j: kinetic_j + potential_j,
-        penetration_m: -lowest_m,
-    }
+    EnergySample { kinetic_j, potential_j, total_j: kinetic_j + potential_j, penetration_m: -lowest_m }
 }
 
 fn corners(half_m: f64) -> [[f64; 3]; 8] {
@@ -146,22 +124,7 @@ const TRIANGLES: [[u32; 3]; 12] = [
 
 /// Floor, ceiling and four edges of the box from (-2, 0, -2) to (2, 4, 2).
 fn box_strips() -> Vec<Vec<[f64; 3]>> {
-    let square = |y: f64| {
-        vec![
-            [-2.0, y, -2.0],
-            [2.0, y, -2.0],
-            [2.0, y, 2.0],
-            [-2.0, y, 2.0],
-            [-2.0, y, -2.0],
-        ]
-    };
+    let square = |y: f64| vec![[-2.0, y, -2.0], [2.0, y, -2.0], [2.0, y, 2.0], [-2.0, y, 2.0], [-2.0, y, -2.0]];
     let edge = |x: f64, z: f64| vec![[x, 0.0, z], [x, 4.0, z]];
-    vec![
-        square(0.0),
-        square(4.0),
-        edge(-2.0, -2.0),
-        edge(2.0, -2.0),
-        edge(2.0, 2.0),
-        edge(-2.0, 2.0),
-    ]
+    vec![square(0.0), square(4.0), edge(-2.0, -2.0), edge(2.0, -2.0), edge(2.0, 2.0), edge(-2.0, 2.0)]
 }

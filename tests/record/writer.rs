@@ -34,15 +34,9 @@ impl Recorder for Memory {
         if self.fail_at.is_some_and(|step| batch.step.contains(&step)) {
             return Err(RecordError::new(Path::new("memory"), "full"));
         }
-        assert!(
-            !self.panic_at.is_some_and(|step| batch.step.contains(&step)),
-            "out of order"
-        );
+        assert!(!self.panic_at.is_some_and(|step| batch.step.contains(&step)), "out of order");
         self.places.lock().unwrap().insert(batch.step.as_ptr() as usize);
-        self.seen
-            .lock()
-            .unwrap()
-            .extend(batch.step.iter().map(|&step| Seen::Step(step)));
+        self.seen.lock().unwrap().extend(batch.step.iter().map(|&step| Seen::Step(step)));
         Ok(())
     }
 
@@ -65,12 +59,7 @@ fn fill(writer: &mut Writer, samples: std::ops::Range<u64>) {
 }
 
 fn event(text: &str) -> Event {
-    Event {
-        step: 0,
-        time_s: 0.0,
-        severity: Severity::Info,
-        text: text.to_owned(),
-    }
+    Event { step: 0, time_s: 0.0, severity: Severity::Info, text: text.to_owned() }
 }
 
 fn expected(samples: u64) -> Vec<Seen> {
@@ -79,10 +68,7 @@ fn expected(samples: u64) -> Vec<Seen> {
 
 #[test]
 fn a_slow_recorder_gets_every_sample_in_order_from_few_batches() {
-    let memory = Memory {
-        slow: true,
-        ..Memory::default()
-    };
+    let memory = Memory { slow: true, ..Memory::default() };
     let mut writer = Writer::start(vec![Box::new(memory.clone())]).unwrap();
     fill(&mut writer, 0..50_500);
     writer.finish().unwrap();
@@ -114,13 +100,7 @@ fn events_come_between_the_samples_they_happened_between() {
 
 #[test]
 fn a_failed_write_is_reported_at_the_end_and_hurts_nobody_else() {
-    let (good, bad) = (
-        Memory::default(),
-        Memory {
-            fail_at: Some(3000),
-            ..Memory::default()
-        },
-    );
+    let (good, bad) = (Memory::default(), Memory { fail_at: Some(3000), ..Memory::default() });
     let mut writer = Writer::start(vec![Box::new(bad.clone()), Box::new(good.clone())]).unwrap();
     fill(&mut writer, 0..20_000);
     assert_eq!(writer.finish().unwrap_err().reason, "full");
@@ -130,10 +110,7 @@ fn a_failed_write_is_reported_at_the_end_and_hurts_nobody_else() {
 
 #[test]
 fn a_panic_of_a_recorder_is_an_error_of_the_writer() {
-    let bad = Memory {
-        panic_at: Some(3000),
-        ..Memory::default()
-    };
+    let bad = Memory { panic_at: Some(3000), ..Memory::default() };
     let mut writer = Writer::start(vec![Box::new(bad)]).unwrap();
     fill(&mut writer, 0..50_000);
     writer.event(event("nobody listens"));
@@ -145,17 +122,12 @@ fn a_panic_of_a_recorder_is_an_error_of_the_writer() {
 fn a_file_has_its_final_name_when_it_is_complete() {
     let dir = tempfile::tempdir().unwrap();
     let names = || {
-        let names = std::fs::read_dir(dir.path())
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let names =
+            std::fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
         names.collect::<BTreeSet<_>>()
     };
-    let named = |middle: &str| {
-        Target::AVAILABLE
-            .iter()
-            .map(|t| format!("bouncing{middle}.{}", t.extension()))
-            .collect()
-    };
+    let named =
+        |middle: &str| Target::AVAILABLE.iter().map(|t| format!("bouncing{middle}.{}", t.extension())).collect();
 
     let mut writer = open(Target::AVAILABLE, dir.path(), &s::header(ALL)).unwrap();
     fill(&mut writer, 0..5000);

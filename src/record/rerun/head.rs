@@ -30,20 +30,12 @@ const BODY_ALPHA: u8 = 190;
 pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
     // Cases of another build have the same id; the viewer would merge recordings that share one.
     let id = format!("{} {}", header.case, header.build);
-    let (stream, memory) = RecordingStreamBuilder::new(APPLICATION)
-        .recording_id(id)
-        .enabled(true)
-        .memory()?;
+    let (stream, memory) = RecordingStreamBuilder::new(APPLICATION).recording_id(id).enabled(true).memory()?;
     let store = memory.store_id().ok_or("Rerun made no recording")?;
 
     let mut messages = layout::messages(header)?;
     describe(header, &stream)?;
-    for ((body, path), colour) in header
-        .bodies
-        .iter()
-        .zip(bodies)
-        .zip(schema::BODY_COLOURS.iter().cycle())
-    {
+    for ((body, path), colour) in header.bodies.iter().zip(bodies).zip(schema::BODY_COLOURS.iter().cycle()) {
         stream.log_static(path.clone(), &surface(body, *colour))?;
     }
     if !header.container_strips_m.is_empty() {
@@ -75,11 +67,7 @@ fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<
 }
 
 fn surface(body: &BodyHeader, [r, g, b]: Rgb) -> Mesh3D {
-    let mesh = if body.triangles.len() <= FACETED_TRIANGLES {
-        faceted(body)
-    } else {
-        smooth(body)
-    };
+    let mesh = if body.triangles.len() <= FACETED_TRIANGLES { faceted(body) } else { smooth(body) };
     mesh.with_albedo_factor(*Color::from_unmultiplied_rgba(r, g, b, BODY_ALPHA))
 }
 
@@ -108,9 +96,7 @@ fn smooth(body: &BodyHeader) -> Mesh3D {
             *sum = std::array::from_fn(|i| sum[i] + normal[i]);
         }
     }
-    Mesh3D::new(&body.vertices_m)
-        .with_triangle_indices(&body.triangles)
-        .with_vertex_normals(normals)
+    Mesh3D::new(&body.vertices_m).with_triangle_indices(&body.triangles).with_vertex_normals(normals)
 }
 
 /// The normal's length is twice the area; the viewer takes its direction. None: no such vertices.
@@ -118,11 +104,7 @@ fn corners_and_normal(body: &BodyHeader, triangle: &[u32; 3]) -> Option<([[f64; 
     let corner = |i: usize| body.vertices_m.get(triangle[i] as usize).copied();
     let (a, b, c) = (corner(0)?, corner(1)?, corner(2)?);
     let (u, v) = (minus(b, a), minus(c, a));
-    let normal = [
-        u[1] * v[2] - u[2] * v[1],
-        u[2] * v[0] - u[0] * v[2],
-        u[0] * v[1] - u[1] * v[0],
-    ];
+    let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     Some(([a, b, c], normal))
 }
 
@@ -131,10 +113,8 @@ fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 fn container(header: &Header) -> LineStrips3D {
-    let strips = header
-        .container_strips_m
-        .iter()
-        .map(|strip| strip.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>());
+    let strips =
+        header.container_strips_m.iter().map(|strip| strip.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>());
     LineStrips3D::new(strips)
         .with_colors([color(schema::CONTAINER_COLOUR)])
         .with_radii([Radius::new_ui_points(LINE_RADIUS)])
@@ -162,10 +142,7 @@ fn styles(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()
 }
 
 fn line(label: &str, colour: Rgb) -> SeriesLines {
-    SeriesLines::new()
-        .with_names([label])
-        .with_colors([color(colour)])
-        .with_widths([PLOT_WIDTH])
+    SeriesLines::new().with_names([label]).with_colors([color(colour)]).with_widths([PLOT_WIDTH])
 }
 
 fn color([r, g, b]: Rgb) -> Color {

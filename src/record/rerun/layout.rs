@@ -29,27 +29,19 @@ pub fn messages(header: &Header) -> Result<Vec<LogMsg>, Box<dyn Error>> {
     let mut plots = Vec::new();
     for (plot, several) in self::plots(header.streams) {
         let plot: ContainerLike = plot.into();
-        properties.add(
-            &plot,
-            "PlotLegend",
-            PlotLegend::new().with_visible(several).with_corner(Corner2D::RightTop),
-        );
+        properties.add(&plot, "PlotLegend", PlotLegend::new().with_visible(several).with_corner(Corner2D::RightTop));
         plots.push(plot);
     }
 
     // The public interface only sends a layout through a recording's stream; the recording is thrown away.
-    let (stream, memory) = RecordingStreamBuilder::new(super::head::APPLICATION)
-        .enabled(true)
-        .memory()?;
+    let (stream, memory) = RecordingStreamBuilder::new(super::head::APPLICATION).enabled(true).memory()?;
     blueprint(scene, plots).send(&stream, BlueprintActivation::default())?;
     let mut messages = memory.take();
     let recording = memory.store_id();
     messages.retain(|message| Some(message.store_id()) != recording.as_ref());
 
     // The activation ends a layout; whatever comes later is not part of it.
-    let last = messages
-        .iter()
-        .rposition(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
+    let last = messages.iter().rposition(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
     if let Some(last) = last {
         let store = messages[last].store_id().clone();
         messages.splice(last..last, properties.messages(&store)?);
@@ -64,16 +56,13 @@ struct Properties(Vec<(String, Box<dyn AsComponents>)>);
 impl Properties {
     fn add(&mut self, view: &ContainerLike, name: &str, value: impl AsComponents + 'static) {
         if let ContainerLike::View(view) = view {
-            self.0
-                .push((format!("{}/{name}", view.blueprint_path()), Box::new(value)));
+            self.0.push((format!("{}/{name}", view.blueprint_path()), Box::new(value)));
         }
     }
 
     /// As messages of the layout's store.
     fn messages(&self, store: &StoreId) -> Result<Vec<LogMsg>, Box<dyn Error>> {
-        let builder = RecordingStreamBuilder::from_store_id(store)
-            .enabled(true)
-            .send_properties(false);
+        let builder = RecordingStreamBuilder::from_store_id(store).enabled(true).send_properties(false);
         let (stream, memory) = builder.memory()?;
         stream.set_time_sequence("blueprint", 0);
         for (path, value) in &self.0 {
@@ -94,20 +83,14 @@ fn blueprint(scene: ContainerLike, plots: Vec<ContainerLike>) -> Blueprint {
     let root: ContainerLike = if plots.is_empty() {
         left.into()
     } else {
-        Horizontal::new([left.into(), Vertical::new(plots).into()])
-            .with_column_shares([3.0, 2.0])
-            .into()
+        Horizontal::new([left.into(), Vertical::new(plots).into()]).with_column_shares([3.0, 2.0]).into()
     };
     Blueprint::new(root)
         .with_auto_views(false)
         .with_auto_layout(false)
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Collapsed))
         .with_selection_panel(SelectionPanel::from_state(PanelState::Collapsed))
-        .with_time_panel(
-            TimePanel::new()
-                .with_timeline(SIM_TIME)
-                .with_state(PanelState::Collapsed),
-        )
+        .with_time_panel(TimePanel::new().with_timeline(SIM_TIME).with_state(PanelState::Collapsed))
 }
 
 /// Only what is recorded has a plot.

@@ -1,0 +1,145 @@
+//! `gotai explain`: what a scene needs, what is skipped and why, and what the sweep will cost.
+
+use super::{CliError, ExperimentArgs, OutputArgs, print, print_json};
+use crate::case::Case;
+use crate::model::{self, Model};
+use crate::plan::{Plan, Stage};
+use crate::record::sampler::steps_between;
+use crate::run::clock;
+use crate::step::Stepper;
+use crate::sweep::plan::cases;
+use crate::sweep::recordings::known_before;
+use crate::sweep::runner::targets;
+use clap::Args;
+use serde_json::json;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+#[derive(Args)]
+pub struct Command {
+    /// The experiment file (YAML)
+    config: PathBuf,
+    #[command(flatten)]
+    experiment: ExperimentArgs,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// What a sweep costs, before it is run.
+struct Cost {
+    cases: usize,
+    steps: u64,
+    seconds: f64,
+    bytes: u64,
+}
+
+/// The same stage in how many cases, with the reasons given.
+struct Tally {
+    name: &'static str,
+    runs: usize,
+    skipped: usize,
+    whys: Vec<String>,
+}
+
+impl Command {
+    pub fn run(self) -> Result<ExitCode, CliError> {
+        let file = self.experiment.load(&self.config)?;
+        let cases = cases(&file)?;
+        let cost = cost(&cases);
+        let tallies = tallies(&cases);
+        if self.output.json {
+            let stages: Vec<_> = tallies.iter().map(tally_json).collect();
+            print_json(&json!({
+                "cases": cost.cases, "steps": cost.steps, "estimated_cpu_s": cost.seconds,
+                "estimated_bytes": cost.bytes, "stages": stages,
+            }));
+            return Ok(ExitCode::SUCCESS);
+        }
+        print(format!("{} cases, {} steps", cost.cases, cost.steps));
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let wall_s = cost.seconds / cores.min(cost.cases.max(1)) as f64;
+        print(format!("about {wall_s:.1} s on {cores} cores (from a trial of some cases)"));
+        print(format!("about {:.1} MB of recordings", cost.bytes as f64 / 1e6));
+        for axis in &file.axes().axes {
+            print(format!("  axis {}: {} values", axis.path, axis.values.len()));
+        }
+        tallies.iter().for_each(|tally| print(describe(tally)));
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn describe(tally: &Tally) -> String {
+    let how = match (tally.runs, tally.skipped) {
+        (_, 0) => "runs".to_string(),
+        (0, _) => "skipped".to_string(),
+        (runs, skipped) => format!("runs in {runs} cases, skipped in {skipped}"),
+    };
+    format!("  {}: {how} — {}", tally.name, tally.whys.join("; "))
+}
+
+fn tally_json(tally: &Tally) -> serde_json::Value {
+    json!({ "name": tally.name, "runs": tally.runs, "skipped": tally.skipped, "why": tally.whys })
+}
+
+fn tallies(cases: &[Case]) -> Vec<Tally> {
+    let mut tallies: Vec<Tally> = Vec::new();
+    for case in cases {
+        let Ok((model, _)) = model::build(&case.experiment) else { continue };
+        for Stage { name, runs, why } in Plan::new(&model, &case.experiment.method).stages {
+            let at = tallies.iter().position(|tally| tally.name == name).unwrap_or_else(|| {
+                tallies.push(Tally { name, runs: 0, skipped: 0, whys: Vec::new() });
+                tallies.len() - 1
+            });
+            let tally = &mut tallies[at];
+            *(if runs { &mut tally.runs } else { &mut tally.skipped }) += 1;
+            if !tally.whys.contains(&why) {
+                tally.whys.push(why);
+            }
+        }
+    }
+    tallies
+}
+
+/// Extrapolated from trials of a few cases, evenly through the plan.
+fn cost(cases: &[Case]) -> Cost {
+    const TRIALS: usize = 12;
+    let steps = cases.iter().map(|case| clock(&case.experiment).steps).sum();
+    let trials = cases.len().min(TRIALS);
+    let tried = (0..trials).map(|i| &cases[i * cases.len() / trials]);
+    let seconds = tried.map(trial_s).sum::<f64>() * cases.len() as f64 / trials.max(1) as f64;
+    Cost { cases: cases.len(), steps, seconds, bytes: bytes(cases) }
+}
+
+/// Time of the whole case, from as many of its steps as fit in a moment.
+fn trial_s(case: &Case) -> f64 {
+    const MOMENT: Duration = Duration::from_millis(200);
+    let Ok((model, mut state)) = model::build(&case.experiment) else { return 0.0 };
+    let clock = clock(&case.experiment);
+    let mut stepper = Stepper::new(&case.experiment.method, &Plan::new(&model, &case.experiment.method));
+    let started = Instant::now();
+    while state.step < clock.steps && started.elapsed() < MOMENT {
+        stepper.step(&model, &mut state, &clock);
+    }
+    started.elapsed().as_secs_f64() * clock.steps as f64 / state.step.max(1) as f64
+}
+
+/// Sizes measured with one body and 0 to 8 contacts, zstd level 1: bytes a sample in one file.
+fn bytes(cases: &[Case]) -> u64 {
+    const OF_A_BODY: u64 = 150;
+    const OF_A_CONTACT: u64 = 60;
+    const LIKELY_CONTACTS: u64 = 3;
+    let Some(first) = cases.first() else { return 0 };
+    let files = targets(first.experiment.record.to).len() as u64;
+    let rule = first.experiment.record.cases;
+    let recorded = known_before(rule, cases.len()).map_or(24.min(cases.len()), |known| known.len());
+    let per_case = |case: &Case| {
+        let clock = clock(&case.experiment);
+        let samples = clock.steps / steps_between(&case.experiment.record, &clock) + 1;
+        let touching = |model: &Model| model.bodies.iter().filter(|b| b.touches()).count() as u64;
+        let contacts = model::build(&case.experiment).map_or(0, |(model, _)| touching(&model)) * LIKELY_CONTACTS;
+        samples * (case.experiment.scene.bodies.len() as u64 * OF_A_BODY + contacts * OF_A_CONTACT)
+    };
+    let mean = cases.iter().map(per_case).sum::<u64>() / cases.len() as u64;
+    mean * recorded as u64 * files
+}

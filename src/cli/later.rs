@@ -1,0 +1,26 @@
+//! Commands and flags that a later version brings: refused by name, so that nobody searches for a typing error.
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use std::process::ExitCode;
+
+const COMMANDS: [&str; 8] = ["merge", "submit", "check", "bench", "report", "view", "schema", "completions"];
+const FLAGS: [&str; 2] = ["--shard", "--junit"];
+
+/// Prints a parser's message (or help) and gives the exit code.
+pub fn explain_usage(error: &clap::Error) -> ExitCode {
+    let named = |kind, names: &[&str]| match error.get(kind) {
+        Some(ContextValue::String(found)) => names.iter().find(|name| found.split('=').next() == Some(name)).copied(),
+        _ => None,
+    };
+    let later = match error.kind() {
+        ErrorKind::InvalidSubcommand => named(ContextKind::InvalidSubcommand, &COMMANDS),
+        ErrorKind::UnknownArgument => named(ContextKind::InvalidArg, &FLAGS),
+        _ => None,
+    };
+    match later {
+        Some(name) => eprintln!("gotai: `{name}` is not available in this version"),
+        // Nowhere to report a closed terminal to.
+        None => drop(error.print()),
+    }
+    if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS }
+}

@@ -1,0 +1,137 @@
+//! `gotai run`: one experiment, its recordings, a summary.
+
+use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, print, print_json};
+use crate::build_info::BUILD;
+use crate::case::Case;
+use crate::experiment::ExperimentError;
+use crate::model::{self, Model};
+use crate::record::writer::Target;
+use crate::row::{Measured, Outcome, Row};
+use crate::run::Ended;
+use crate::step::SolvedContact;
+use crate::sweep::plan::single_case;
+use crate::sweep::runner::run_case;
+use clap::Args;
+use nalgebra::Vector3;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+#[derive(Args)]
+pub struct Command {
+    /// The experiment file (YAML)
+    config: PathBuf,
+    #[command(flatten)]
+    experiment: ExperimentArgs,
+    #[command(flatten)]
+    run: RunArgs,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+impl Command {
+    pub fn run(self) -> Result<ExitCode, CliError> {
+        let file = self.experiment.load(&self.config)?;
+        let case = single_case(&file)?;
+        let targets = self.run.targets(case.experiment.record.to)?;
+        let dir = self.run.out(&self.config);
+        if !targets.is_empty() {
+            std::fs::create_dir_all(&dir).map_err(|error| CliError::Machine(format!("{}: {error}", dir.display())))?;
+        }
+        let overlap = |e: model::BuildError| -> ExperimentError { file.error_at(&[], &e.path, &e.expected, &e.found) };
+        let (model, start) = model::build(&case.experiment).map_err(overlap)?;
+        let ended = run_case(&case, &model, start, &dir, &targets)?;
+        if self.output.json {
+            print_json(&document(&case, &model, &ended));
+        } else {
+            print(summary(&case, &ended.measured));
+        }
+        if !self.output.quiet {
+            say_where(&case, &dir, &targets);
+        }
+        Ok(ExitCode::from(u8::from(ended.measured.outcome == Outcome::Failed)))
+    }
+}
+
+/// The columns of the row, and the state and contacts at the end.
+fn document(case: &Case, model: &Model, ended: &Ended) -> Value {
+    let row = Row {
+        case: case.id.clone(),
+        axes: case.axes.clone(),
+        measured: ended.measured.clone(),
+        build: BUILD.to_string(),
+    };
+    let mut document = serde_json::to_value(row).unwrap_or_default();
+    document["bodies"] = bodies(model, ended);
+    document["contacts"] = ended.contacts.iter().map(|solved| contact(model, ended, solved)).collect();
+    document
+}
+
+fn bodies(model: &Model, ended: &Ended) -> Value {
+    let force_n = |i: usize| {
+        let on_body = ended.contacts.iter().filter(|solved| solved.contact.body == i);
+        on_body.map(|solved| solved.impulse_W).sum::<Vector3<f64>>() / ended.step_s
+    };
+    let body = |(i, (body, at)): (usize, (&model::Body, &crate::state::BodyState))| {
+        json!({
+            "name": body.name,
+            "mass_kg": body.mass_kg,
+            "position_m": numbers(&at.p_WB),
+            "origin_m": numbers(&body.p_WBo(at)),
+            "orientation_xyzw": at.q_WB.coords.iter().map(|x| json!(x)).collect::<Value>(),
+            "velocity_m_s": numbers(&at.v_WB),
+            "angular_velocity_rad_s": numbers(&at.w_WB),
+            "contact_force_n": numbers(&force_n(i)),
+        })
+    };
+    model.bodies.iter().zip(&ended.state.bodies).enumerate().map(body).collect()
+}
+
+fn contact(model: &Model, ended: &Ended, solved: &SolvedContact) -> Value {
+    json!({
+        "bodies": [model.bodies[solved.contact.body].name, "container"],
+        "point_m": numbers(&solved.contact.p_WC),
+        "normal": numbers(&solved.contact.normal),
+        "force_n": numbers(&(solved.impulse_W / ended.step_s)),
+        "gap_m": solved.contact.gap_m,
+    })
+}
+
+/// Not finite: null.
+fn numbers(v: &Vector3<f64>) -> Value {
+    v.iter().map(|x| json!(x)).collect()
+}
+
+fn summary(case: &Case, m: &Measured) -> String {
+    let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.6}"));
+    let relative = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.2e}"));
+    let how = match (&m.outcome, &m.criterion) {
+        (Outcome::Finished, _) => "finished".to_string(),
+        (outcome, criterion) => {
+            format!("{outcome:?} ({})", criterion.as_deref().unwrap_or("no reason given")).to_lowercase()
+        }
+    };
+    let lines = [
+        ("case", case.id.clone()),
+        ("outcome", format!("{how} at {} s after {} steps", number(m.end_time_s), m.steps)),
+        ("energy", format!("{} J → {} J", number(m.energy_start_j), number(m.energy_end_j))),
+        ("energy drift, rise", format!("{}, {}", relative(m.energy_drift_rel), relative(m.energy_rise_max_rel))),
+        ("momentum drift", relative(m.linear_momentum_drift_rel)),
+        ("angular momentum drift", relative(m.angular_momentum_drift_rel)),
+        ("penetration max, end", format!("{}, {} m", relative(m.penetration_max_m), relative(m.penetration_end_m))),
+        ("contact gain max", number(m.contact_gain_max)),
+        ("contacts max", m.contacts_max.to_string()),
+        ("stepping", format!("{} s", number(m.wall_s))),
+    ];
+    lines.map(|(name, value)| format!("{name:>24}  {value}")).join("\n")
+}
+
+fn say_where(case: &Case, dir: &Path, targets: &[Target]) {
+    for target in targets {
+        let path = dir.join(format!("{}.{}", case.id, target.extension()));
+        match target {
+            Target::Rerun => eprintln!("wrote {}   (open: rerun {0})", path.display()),
+            Target::Mcap => eprintln!("wrote {}", path.display()),
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! `gotai status`: how much of a sweep is done.
+
+use super::{CliError, OutputArgs, print, print_json};
+use crate::build_info::BUILD;
+use crate::row::Outcome;
+use crate::sweep::store::{Store, rows};
+use clap::Args;
+use serde_json::json;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+#[derive(Args)]
+pub struct Command {
+    /// A folder of results (it has plan.json)
+    dir: PathBuf,
+    /// Rows of another build count as done
+    #[arg(long)]
+    keep: bool,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+impl Command {
+    /// Exit code 1 while incomplete.
+    pub fn run(self) -> Result<ExitCode, CliError> {
+        if !self.dir.join("plan.json").is_file() {
+            let dir = self.dir.display();
+            return Err(CliError::Input(format!("{dir}: expected a folder of results, found no plan.json in it")));
+        }
+        let (plan, mut measured) = Store::read(&self.dir)?;
+        let all = measured.len();
+        if !self.keep {
+            measured.retain(|_, (build, _)| build == BUILD);
+        }
+        let other_build = all - measured.len();
+        let rows = rows(&plan, &measured);
+        let count = |outcome| rows.iter().filter(|row| row.measured.outcome == outcome).count();
+        let (total, done, failed) = (plan.cases.len(), rows.len(), count(Outcome::Failed));
+        let missing = total - done;
+        if self.output.json {
+            print_json(&json!({
+                "dir": self.dir, "cases": total, "done": done, "missing": missing, "failed": failed,
+                "finished": count(Outcome::Finished), "diverged": count(Outcome::Diverged),
+                "stalled": count(Outcome::Stalled), "of_another_build": other_build,
+            }));
+        } else {
+            print(format!("{done} of {total} done, {missing} missing, {failed} failed"));
+            if other_build > 0 && missing > 0 {
+                print(format!("{other_build} rows are of another build (--keep takes them)"));
+            }
+        }
+        Ok(ExitCode::from(u8::from(missing > 0 || failed > 0)))
+    }
+}

@@ -1,0 +1,95 @@
+//! Contact test (L18, step 1 of L21): nodes of a body against the faces of its container.
+//!
+//! A node is in contact when n·(u_c − u_p) < margin. Contacts come in a stable order: body, face, node. A face farther
+//! from the centre of mass than the bounding radius is skipped with one dot product.
+
+use crate::measure::work::Work;
+use crate::model::container::Face;
+use crate::model::{Body, Geometry, Model};
+use crate::state::{BodyState, State};
+use nalgebra::Vector3;
+
+/// One point of contact of a body with the container.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    pub body: usize,
+    /// Face and node: the same from step to step, to find last step's impulse by.
+    pub feature: (u32, u32),
+    /// From the centre of mass to the point, world axes (the lecture's ᴳu_c).
+    pub r_BC_W: Vector3<f64>,
+    pub p_WC: Vector3<f64>,
+    /// From the container to the body.
+    pub normal: Vector3<f64>,
+    pub gap_m: f64,
+    pub friction: f64,
+    pub restitution: f64,
+}
+
+/// Fills `contacts` with all points whose gap is below `margin` × the body's bounding radius.
+pub fn detect(model: &Model, state: &State, margin: f64, contacts: &mut Vec<Contact>, work: &mut Work) {
+    contacts.clear();
+    let Some(container) = &model.container else { return };
+    for (index, (body, at)) in model.bodies.iter().zip(&state.bodies).enumerate() {
+        for (f, face) in container.faces.iter().enumerate() {
+            let centre_gap = face.gap_m(&at.p_WB);
+            let limit = margin * body.bounding_radius_m;
+            if centre_gap - body.bounding_radius_m >= limit {
+                continue;
+            }
+            let mut touch = |node: u32, r_BC_W: Vector3<f64>, gap_m: f64| {
+                contacts.push(Contact {
+                    body: index,
+                    feature: (f as u32, node),
+                    r_BC_W,
+                    p_WC: at.p_WB + r_BC_W,
+                    normal: face.normal,
+                    gap_m,
+                    friction: body.friction,
+                    restitution: body.restitution,
+                });
+            };
+            work.contact_tests += each_gap(body, at, face, centre_gap, |node, r_B, r_shift_W, gap| {
+                if gap < limit {
+                    touch(node, at.q_WB * r_B + r_shift_W, gap);
+                }
+            });
+        }
+    }
+}
+
+/// Largest depth of any point of the body in any face; 0 if none is inside.
+pub fn deepest_m(model: &Model, body: &Body, at: &BodyState) -> f64 {
+    let mut deepest = 0.0_f64;
+    for face in model.container.iter().flat_map(|c| &c.faces) {
+        let centre_gap = face.gap_m(&at.p_WB);
+        if centre_gap < body.bounding_radius_m {
+            each_gap(body, at, face, centre_gap, |_, _, _, gap| deepest = deepest.max(-gap));
+        }
+    }
+    deepest
+}
+
+/// Calls `visit(node, point in body axes, further shift in world axes, gap)` for every candidate point; says how many.
+fn each_gap(
+    body: &Body,
+    at: &BodyState,
+    face: &Face,
+    centre_gap: f64,
+    mut visit: impl FnMut(u32, Vector3<f64>, Vector3<f64>, f64),
+) -> u64 {
+    match &body.geometry {
+        Geometry::None => 0,
+        Geometry::Mesh { nodes, .. } | Geometry::Corners(nodes) => {
+            let normal_B = at.q_WB.inverse_transform_vector(&face.normal);
+            for (i, u) in nodes.iter().enumerate() {
+                visit(i as u32, *u, Vector3::zeros(), centre_gap + normal_B.dot(u));
+            }
+            nodes.len() as u64
+        }
+        Geometry::Sphere { centre, radius_m } => {
+            let gap = centre_gap + face.normal.dot(&(at.q_WB * centre)) - radius_m;
+            visit(0, *centre, -face.normal * *radius_m, gap);
+            1
+        }
+    }
+}

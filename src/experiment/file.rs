@@ -1,0 +1,339 @@
+//! An experiment file with its `--set`s: from text to resolved `Experiment`s, and from errors back to lines.
+
+use super::error::{ExperimentError, Kind, describe};
+use super::key_path::KeyPath;
+use super::overrides::{Override, assign, resolve, split};
+use super::positions::{Duplicate, Positions};
+use super::types::Experiment;
+use super::validate::{normalise_quaternions, validate};
+use super::value_de::from_value;
+use crate::sweep::axes::{Axes, axis_path, value_path};
+use serde_yaml::{Mapping, Value};
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+type Result<T> = std::result::Result<T, ExperimentError>;
+
+/// A parsed experiment file, its overrides applied and its axes expanded. Plain data: share it between threads.
+#[derive(Clone, Debug)]
+pub struct ExperimentFile {
+    path: PathBuf,
+    positions: Positions,
+    /// Everything but `sweep`.
+    tree: Value,
+    axes: Axes,
+    /// The axes' indices, shorter paths first, so that `method.lecture.sweeps` changes what `method` has put there.
+    order: Vec<usize>,
+    sets: Vec<Applied>,
+}
+
+/// A `--set` and the topmost place it changed.
+#[derive(Clone, Debug)]
+struct Applied {
+    text: String,
+    path: Vec<String>,
+    at: KeyPath,
+}
+
+impl ExperimentFile {
+    /// Reads a file and applies `sets` (`PATH=VALUE`) in their order.
+    ///
+    /// # Errors
+    /// Whatever can be wrong before a single case is resolved; `is_machine` tells a failing machine from wrong input.
+    pub fn load(path: &Path, sets: &[String]) -> Result<ExperimentFile> {
+        let text = read(path).map_err(|error| error.named(path))?;
+        Self::from_text(path, &text, sets)
+    }
+
+    /// The same for a text; `path` is only how messages call it.
+    ///
+    /// # Errors
+    /// As `load`.
+    pub fn from_text(path: &Path, text: &str, sets: &[String]) -> Result<ExperimentFile> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let tree = parse(text).map_err(|error| error.named(path))?;
+        let (positions, _) = Positions::of(text);
+        let mut file = ExperimentFile {
+            path: path.to_path_buf(),
+            positions,
+            tree,
+            axes: Axes::default(),
+            order: Vec::new(),
+            sets: Vec::new(),
+        };
+        for set in sets {
+            file.apply(set).map_err(|error| by_set(error, set).named(path))?;
+        }
+        let axes = file.expand_axes();
+        axes.map_err(|error| file.placed(error))?;
+        file.refuse_overwritten_sets()?;
+        Ok(file)
+    }
+
+    /// As the user named it.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub fn axes(&self) -> &Axes {
+        &self.axes
+    }
+
+    /// The one experiment of a file without axes.
+    ///
+    /// # Errors
+    /// Axes are left, or the experiment is wrong.
+    pub fn experiment(&self) -> Result<Experiment> {
+        let left: Vec<&str> = self.axes.axes.iter().map(|axis| axis.path.as_str()).collect();
+        if left.is_empty() {
+            return self.case(&[]);
+        }
+        let message = format!("axes are left: {}; fix each of them with --set PATH=VALUE", left.join(", "));
+        let mut error = ExperimentError::new(Kind::AxesLeft, KeyPath::of_keys(&["sweep", "axes"]), message);
+        error.details_mut().known = left.iter().map(|path| path.to_string()).collect();
+        Err(self.placed(error))
+    }
+
+    /// The experiment at a point of the grid: for every axis the index of its value, as `Axes::point` gives it.
+    ///
+    /// # Errors
+    /// The experiment is wrong; the message names the axis or the case.
+    ///
+    /// # Panics
+    /// `point` is not a point of this file's axes.
+    pub fn case(&self, point: &[usize]) -> Result<Experiment> {
+        let (tree, changes) = self.tree_at(point)?;
+        resolved(&tree).map_err(|error| self.placed_in_case(error, point, &changes))
+    }
+
+    /// An error of someone who knows more than this module does (overlapping bodies, say), about the value at `path`
+    /// (`scene.bodies.cube.position_m`) in the case at `point` (empty without axes).
+    pub fn error_at(&self, point: &[usize], path: &str, expected: &str, found: &str) -> ExperimentError {
+        let (tree, changes) = match self.tree_at(point) {
+            Ok(case) => case,
+            Err(error) => return error,
+        };
+        match split(path) {
+            Ok(segments) => {
+                let error = ExperimentError::unexpected(resolve(&tree, &segments), expected, found);
+                self.placed_in_case(error, point, &changes)
+            }
+            Err(error) => self.placed(error),
+        }
+    }
+
+    fn apply(&mut self, text: &str) -> Result<()> {
+        let Override { path, value } = Override::parse(text)?;
+        let path = self.with_axis_key(path);
+        let target = resolve(&self.tree, &path);
+        self.remove_axis(&target);
+        let at = assign(&mut self.tree, &path, value)?;
+        self.sets.push(Applied { text: text.to_string(), path, at });
+        Ok(())
+    }
+
+    /// After `sweep.axes` comes one key with dots in it: an axis that exists, else all that is left.
+    fn with_axis_key(&self, mut path: Vec<String>) -> Vec<String> {
+        if path.len() < 3 || path[0] != "sweep" || path[1] != "axes" {
+            return path;
+        }
+        let known = axis_keys(&self.tree);
+        let is_axis = |len: &usize| known.contains(&path[2..*len].join("."));
+        let len = (3..=path.len()).rev().find(is_axis).unwrap_or(path.len());
+        let key = path[2..len].join(".");
+        path.splice(2..len, [key]);
+        path
+    }
+
+    /// Setting what an axis varies fixes it.
+    fn remove_axis(&mut self, target: &KeyPath) {
+        let is_target = |key: &String| split(key).is_ok_and(|path| resolve(&self.tree, &path).is_same(target));
+        let removed: Vec<String> = axis_keys(&self.tree).into_iter().filter(is_target).collect();
+        let Some(sweep) = self.tree.get_mut("sweep") else {
+            return;
+        };
+        if let Some(Value::Mapping(axes)) = sweep.get_mut("axes") {
+            axes.retain(|key, _| !is_one_of(key, &removed));
+        }
+        if let Some(Value::Sequence(groups)) = sweep.get_mut("together") {
+            for group in groups.iter_mut().filter_map(Value::as_sequence_mut) {
+                group.retain(|name| !is_one_of(name, &removed));
+            }
+        }
+    }
+
+    fn expand_axes(&mut self) -> Result<()> {
+        let Some(mapping) = self.tree.as_mapping_mut() else {
+            return Ok(());
+        };
+        let Some(sweep) = mapping.shift_remove("sweep") else {
+            return Ok(());
+        };
+        self.axes = Axes::from_sweep(&sweep)?;
+        self.order = (0..self.axes.axes.len()).collect();
+        self.order.sort_by_key(|axis| self.axes.axes[*axis].segments.len());
+        self.refuse_two_axes_of_one_path()
+    }
+
+    /// `scene.bodies.0` and `scene.bodies.cube` may be the same thing, written twice.
+    fn refuse_two_axes_of_one_path(&self) -> Result<()> {
+        let axes = &self.axes.axes;
+        let targets: Vec<KeyPath> = axes.iter().map(|axis| resolve(&self.tree, &axis.segments)).collect();
+        for (i, target) in targets.iter().enumerate() {
+            if let Some(first) = targets[..i].iter().position(|other| other.is_same(target)) {
+                let message = format!("the axis `{}` varies the same value", axes[first].path);
+                return Err(ExperimentError::new(Kind::Path, axis_path(&axes[i].path), message));
+            }
+        }
+        Ok(())
+    }
+
+    /// A `--set` below an axis would be lost without a word when the axis puts its own value there.
+    fn refuse_overwritten_sets(&self) -> Result<()> {
+        for axis in &self.axes.axes {
+            let target = resolve(&self.tree, &axis.segments);
+            let is_below = |set: &&Applied| {
+                let path = resolve(&self.tree, &set.path);
+                path.starts_with(&target) && !path.is_same(&target)
+            };
+            if let Some(set) = self.sets.iter().find(is_below) {
+                let message = format!("is an axis, whose values would overwrite this; set `{}` itself", axis.path);
+                return Err(by_set(ExperimentError::new(Kind::Path, target, message), &set.text).named(&self.path));
+            }
+        }
+        Ok(())
+    }
+
+    /// The tree of a case, and what each axis (by its index) changed in it.
+    fn tree_at(&self, point: &[usize]) -> Result<(Value, Vec<(usize, KeyPath)>)> {
+        let mut tree = self.tree.clone();
+        let mut changes = Vec::with_capacity(point.len());
+        for &i in &self.order {
+            let axis = &self.axes.axes[i];
+            let value = axis.values[point[i]].value.clone();
+            let at = assign(&mut tree, &axis.segments, value).map_err(|error| self.by_axis(error, i, point[i]))?;
+            changes.push((i, at));
+        }
+        Ok((tree, changes))
+    }
+
+    /// The last axis that changed this place, else the case when the file alone has not this error, else the file.
+    fn placed_in_case(&self, error: ExperimentError, point: &[usize], changes: &[(usize, KeyPath)]) -> ExperimentError {
+        let path = &error.details().path;
+        if let Some((axis, _)) = changes.iter().rev().find(|(_, at)| path.starts_with(at)) {
+            return self.by_axis(error, *axis, point[*axis]);
+        }
+        let is_everywhere = changes.is_empty() || resolved(&self.tree).is_err_and(|other| other == error);
+        let mut error = self.placed(error);
+        if !is_everywhere {
+            error.details_mut().case = Some(self.shown_case(point));
+        }
+        error
+    }
+
+    fn by_axis(&self, mut error: ExperimentError, axis: usize, value: usize) -> ExperimentError {
+        let path = error.details().path.clone();
+        let key = &self.axes.axes[axis].path;
+        error = self.placed(error.at(value_path(key, value))).at(path);
+        error.details_mut().axis = Some(self.shown_value(axis, value));
+        error
+    }
+
+    fn shown_value(&self, axis: usize, value: usize) -> String {
+        let axis = &self.axes.axes[axis];
+        format!("{} = {}", axis.path, axis.values[value].shown())
+    }
+
+    fn shown_case(&self, point: &[usize]) -> String {
+        let values = point.iter().enumerate().map(|(axis, value)| self.shown_value(axis, *value));
+        values.collect::<Vec<_>>().join(", ")
+    }
+
+    /// Where the value at the error's path came from: the last `--set` that touched it, else its line in the file.
+    fn placed(&self, error: ExperimentError) -> ExperimentError {
+        let path = error.details().path.clone();
+        if let Some(set) = self.sets.iter().rev().find(|set| path.starts_with(&set.at)) {
+            return by_set(error, &set.text).named(&self.path);
+        }
+        let mut error = error.named(&self.path);
+        if let Some(position) = self.positions.nearest(&path) {
+            error.details_mut().line = Some(position.line);
+            error.details_mut().column = Some(position.column);
+        }
+        error
+    }
+}
+
+fn resolved(tree: &Value) -> Result<Experiment> {
+    let mut experiment: Experiment = from_value(tree, &KeyPath::default())?;
+    validate(&experiment)?;
+    normalise_quaternions(&mut experiment);
+    Ok(experiment)
+}
+
+fn axis_keys(tree: &Value) -> Vec<String> {
+    let axes = tree.get("sweep").and_then(|sweep| sweep.get("axes")).and_then(Value::as_mapping);
+    axes.map(Mapping::keys).into_iter().flatten().filter_map(Value::as_str).map(str::to_string).collect()
+}
+
+fn is_one_of(value: &Value, words: &[String]) -> bool {
+    value.as_str().is_some_and(|text| words.iter().any(|word| word == text))
+}
+
+fn by_set(mut error: ExperimentError, set: &str) -> ExperimentError {
+    error.details_mut().set = Some(set.to_string());
+    error
+}
+
+fn read(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(|error| {
+        let kind = match error.kind() {
+            ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => Kind::File,
+            ErrorKind::InvalidInput | ErrorKind::InvalidFilename => Kind::File,
+            _ => Kind::Unreadable,
+        };
+        ExperimentError::new(kind, KeyPath::default(), format!("cannot read the file: {error}"))
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let mut fault = ExperimentError::new(Kind::File, KeyPath::default(), "this line is not UTF-8 text");
+        fault.details_mut().line = Some(valid.iter().filter(|byte| **byte == b'\n').count() + 1);
+        fault
+    })
+}
+
+fn parse(text: &str) -> Result<Value> {
+    let mut tree: Value = serde_yaml::from_str(text).map_err(|error| syntax_error(&error, text))?;
+    tree.apply_merge().map_err(|error| syntax_error(&error, text))?;
+    match tree {
+        Value::Mapping(_) => Ok(tree),
+        Value::Null => {
+            let message = "the file is empty: expected an experiment (scene, method, time, …)";
+            Err(ExperimentError::new(Kind::File, KeyPath::default(), message))
+        }
+        other => Err(ExperimentError::unexpected(
+            KeyPath::default(),
+            "an experiment (a mapping with the keys scene, method, time, …)",
+            &describe(&other),
+        )),
+    }
+}
+
+/// serde_yaml refuses a key that is there twice, but does not say where.
+fn syntax_error(error: &serde_yaml::Error, text: &str) -> ExperimentError {
+    let message = error.to_string();
+    let duplicate = if message.contains("duplicate entry") { Positions::of(text).1 } else { None };
+    if let Some(Duplicate { path, first, second }) = duplicate {
+        let message = format!("this key is already there, on line {}", first.line);
+        let mut error = ExperimentError::new(Kind::DuplicateKey, path, message);
+        error.details_mut().line = Some(second.line);
+        error.details_mut().column = Some(second.column);
+        return error;
+    }
+    let mut fault = ExperimentError::new(Kind::Syntax, KeyPath::default(), format!("not valid YAML: {message}"));
+    if let Some(location) = error.location() {
+        fault.details_mut().line = Some(location.line());
+        fault.details_mut().column = Some(location.column());
+    }
+    fault
+}

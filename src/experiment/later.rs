@@ -1,0 +1,24 @@
+//! Keys and words of the vocabulary that a later version brings: refused with their own message until then.
+
+/// What the key or word stands in (the Rust type of `types.rs`), and the words. A word leaves this list in the change
+/// that adds its field or variant.
+const LATER: &[(&str, &[&str])] = &[
+    ("Experiment", &["expect", "bench", "exact", "reference", "measure", "limits"]),
+    ("Sweep", &["where", "sample", "search"]),
+    ("Scene", &["pairs", "pins", "forces", "air", "allow_overlap"]),
+    ("Container", &["mesh"]),
+    ("Body", &["copies", "fixed", "kinematic"]),
+    ("Shape", &["cylinder", "capsule", "ellipsoid", "convex", "mesh"]),
+    ("Random", &["place"]),
+    ("Method", &["event-driven", "auto"]),
+    ("Free", &["tolerance"]),
+    ("Integrator", &["crank-nicolson", "implicit-midpoint", "rk4", "dop853", "taylor", "exact"]),
+    ("Solver", &["newton"]),
+    ("Scheme", &["moreau"]),
+    ("Impact", &["poisson", "sequential"]),
+];
+
+/// Whether a later version knows this word in this type.
+pub fn is_later(type_name: &str, word: &str) -> bool {
+    LATER.iter().any(|(name, words)| *name == type_name && words.contains(&word))
+}

@@ -1,0 +1,229 @@
+//! What the types cannot say: bounds, and words that must fit together. The body's part is `validate_body.rs`.
+
+use super::error::{ExperimentError, number};
+use super::key_path::{KeyPath, Path};
+use super::types::{
+    Container, Diverge, Experiment, Method, Penalty, Plane, Random, Record, RecordCases, Scene, Shape, Time,
+};
+use super::validate_body::validate_body;
+
+pub(super) type Result<T> = std::result::Result<T, ExperimentError>;
+
+/// More steps than a machine makes in weeks: a slip in a unit.
+const MOST_STEPS: f64 = 1e12;
+
+/// The first thing that makes no sense in the experiment.
+pub fn validate(experiment: &Experiment) -> Result<()> {
+    let base = KeyPath::default();
+    let root = Path::Base(&base);
+    validate_scene(&experiment.scene, root.key("scene"))?;
+    validate_method(&experiment.method, root.key("method"))?;
+    validate_contact(experiment, root.key("scene"))?;
+    validate_time(&experiment.time, root.key("time"))?;
+    validate_diverge(&experiment.diverge, root.key("diverge"))?;
+    validate_record(&experiment.record, root.key("record"))
+}
+
+/// Any multiple of a unit quaternion may be written; from here on they are unit ones.
+pub fn normalise_quaternions(experiment: &mut Experiment) {
+    let orientations = experiment.scene.bodies.iter_mut().filter_map(|body| body.orientation.as_mut());
+    for q in orientations.filter_map(|orientation| orientation.quaternion_xyzw.as_mut()) {
+        let largest = q.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
+        let scaled = q.map(|x| x / largest);
+        let norm = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
+        *q = scaled.map(|x| x / norm);
+    }
+}
+
+fn validate_scene(scene: &Scene, at: Path) -> Result<()> {
+    not_negative(scene.friction, at.key("friction"))?;
+    a_part(scene.restitution, at.key("restitution"))?;
+    if let Some(container) = &scene.container {
+        validate_container(container, at.key("container"))?;
+    }
+    let bodies = at.key("bodies");
+    if scene.bodies.is_empty() {
+        return Err(unexpected(bodies, "at least one body", "an empty list"));
+    }
+    for (i, body) in scene.bodies.iter().enumerate() {
+        validate_body(body, bodies.item(i, Some(&body.name)))?;
+        if let Some(first) = scene.bodies[..i].iter().position(|other| other.name == body.name) {
+            let found = format!("`{}`, which item {first} of the list has", body.name);
+            return Err(unexpected(bodies.item(i, None).key("name"), "a name of its own", &found));
+        }
+    }
+    scene.random.as_ref().map_or(Ok(()), |random| validate_random(random, scene, at.key("random")))
+}
+
+fn validate_container(container: &Container, at: Path) -> Result<()> {
+    match container {
+        Container::Box(box_) => sizes(&box_.size_m, at.key("box").key("size_m")),
+        Container::Plane(plane) => validate_plane(plane, at.key("plane")),
+        Container::Planes(planes) if planes.is_empty() => {
+            Err(unexpected(at.key("planes"), "at least one plane", "an empty list"))
+        }
+        Container::Planes(planes) => {
+            let list = at.key("planes");
+            planes.iter().enumerate().try_for_each(|(i, plane)| validate_plane(plane, list.item(i, None)))
+        }
+    }
+}
+
+fn validate_plane(plane: &Plane, at: Path) -> Result<()> {
+    direction(&plane.normal, at.key("normal"))
+}
+
+fn validate_random(random: &Random, scene: &Scene, at: Path) -> Result<()> {
+    random.speed_m_s.map_or(Ok(()), |speed| not_negative(speed, at.key("speed_m_s")))?;
+    random.spin_rad_s.map_or(Ok(()), |spin| not_negative(spin, at.key("spin_rad_s")))?;
+    if random.direction.is_some() && random.speed_m_s.is_none() {
+        return Err(ExperimentError::missing(at.key("speed_m_s").to_key_path(), "`direction` needs a speed"));
+    }
+    let is_point = |shape: &Shape| *shape == Shape::None;
+    let point = scene.bodies.iter().find(|body| is_point(&body.shape) && body.inertia_kg_m2.is_none());
+    match (point, random.spin_rad_s) {
+        (Some(point), Some(spin)) if spin > 0.0 => {
+            let expected = format!("no spin, as `{}` is a point without `inertia_kg_m2`", point.name);
+            Err(unexpected(at.key("spin_rad_s"), &expected, &number(spin)))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn validate_method(method: &Method, at: Path) -> Result<()> {
+    match method {
+        Method::Free(_) => Ok(()),
+        Method::Lecture(lecture) => at_least_one(lecture.sweeps, at.key("lecture").key("sweeps")),
+        Method::Penalty(penalty) => validate_penalty(penalty, at.key("penalty")),
+        Method::TimeStepping(stepping) => {
+            let at = at.key("time-stepping");
+            at_least_one(stepping.sweeps, at.key("sweeps"))?;
+            not_negative(stepping.tolerance, at.key("tolerance"))
+        }
+    }
+}
+
+fn validate_penalty(penalty: &Penalty, at: Path) -> Result<()> {
+    positive(penalty.stiffness_n_m, at.key("stiffness_n_m"))?;
+    not_negative(penalty.damping_n_s_m, at.key("damping_n_s_m"))?;
+    positive(penalty.slip_speed_m_s, at.key("slip_speed_m_s"))
+}
+
+/// What the method can do with the scene's contacts.
+fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
+    match experiment.method {
+        Method::Free(_) => Ok(()),
+        Method::Lecture(_) => {
+            needs_meshes("lecture", &experiment.scene, at)?;
+            one_shape(&experiment.scene, at)
+        }
+        Method::Penalty(_) => {
+            needs_meshes("penalty", &experiment.scene, at)?;
+            no_restitution(&experiment.scene, at)?;
+            one_shape(&experiment.scene, at)
+        }
+        Method::TimeStepping(_) => one_shape(&experiment.scene, at),
+    }
+}
+
+fn needs_meshes(method: &str, scene: &Scene, at: Path) -> Result<()> {
+    let bodies = at.key("bodies");
+    for (i, body) in scene.bodies.iter().enumerate() {
+        if body.shape != Shape::None && body.mesh.is_none() {
+            let what = format!("the method `{method}` touches with nodes and needs a mesh");
+            let path = bodies.item(i, Some(&body.name)).key("mesh").to_key_path();
+            return Err(ExperimentError::missing(path, &what));
+        }
+    }
+    Ok(())
+}
+
+fn no_restitution(scene: &Scene, at: Path) -> Result<()> {
+    let expected = "0, as the method `penalty` has no restitution (`damping_n_s_m` dissipates)";
+    if scene.restitution != 0.0 {
+        return Err(unexpected(at.key("restitution"), expected, &number(scene.restitution)));
+    }
+    let bodies = at.key("bodies");
+    for (i, body) in scene.bodies.iter().enumerate() {
+        if let Some(restitution) = body.restitution.filter(|e| *e != 0.0) {
+            let path = bodies.item(i, Some(&body.name));
+            return Err(unexpected(path.key("restitution"), expected, &number(restitution)));
+        }
+    }
+    Ok(())
+}
+
+fn one_shape(scene: &Scene, at: Path) -> Result<()> {
+    let bodies = at.key("bodies");
+    let mut shaped = scene.bodies.iter().enumerate().filter(|(_, body)| body.shape != Shape::None);
+    match (shaped.next(), shaped.next()) {
+        (Some((_, first)), Some((i, second))) => {
+            let path = bodies.item(i, Some(&second.name)).key("shape").to_key_path();
+            let word = format!("contact between bodies (`{}` and `{}`)", first.name, second.name);
+            Err(ExperimentError::feature_not_available(path, &word))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Every method of this version advances by a given step.
+fn validate_time(time: &Time, at: Path) -> Result<()> {
+    positive(time.end_s, at.key("end_s"))?;
+    let step = at.key("step_s");
+    let Some(step_s) = time.step_s else {
+        return Err(ExperimentError::missing(step.to_key_path(), "the length of a step, in seconds"));
+    };
+    positive(step_s, step)?;
+    let steps = time.end_s / step_s;
+    if steps > MOST_STEPS {
+        let found = format!("{} ({} steps to {} s)", number(step_s), number(steps.round()), number(time.end_s));
+        return Err(unexpected(step, &format!("a step that needs at most {MOST_STEPS:e} steps"), &found));
+    }
+    Ok(())
+}
+
+fn validate_diverge(diverge: &Diverge, at: Path) -> Result<()> {
+    if let Some(factor) = diverge.energy_factor.filter(|factor| *factor <= 1.0) {
+        return Err(unexpected(at.key("energy_factor"), "a number greater than 1", &number(factor)));
+    }
+    diverge.speed_m_s.map_or(Ok(()), |speed| positive(speed, at.key("speed_m_s")))?;
+    diverge.penetration_m.map_or(Ok(()), |depth| positive(depth, at.key("penetration_m")))
+}
+
+fn validate_record(record: &Record, at: Path) -> Result<()> {
+    not_negative(record.every_s, at.key("every_s"))?;
+    match record.cases {
+        RecordCases::Sample(count) => at_least_one(count, at.key("cases").key("sample")),
+        _ => Ok(()),
+    }
+}
+
+pub(super) fn unexpected(at: Path, expected: &str, found: &str) -> ExperimentError {
+    ExperimentError::unexpected(at.to_key_path(), expected, found)
+}
+
+pub(super) fn positive(x: f64, at: Path) -> Result<()> {
+    if x > 0.0 { Ok(()) } else { Err(unexpected(at, "a number greater than 0", &number(x))) }
+}
+
+pub(super) fn not_negative(x: f64, at: Path) -> Result<()> {
+    if x >= 0.0 { Ok(()) } else { Err(unexpected(at, "a number of at least 0", &number(x))) }
+}
+
+/// A coefficient of restitution.
+pub(super) fn a_part(x: f64, at: Path) -> Result<()> {
+    if (0.0..=1.0).contains(&x) { Ok(()) } else { Err(unexpected(at, "a number from 0 to 1", &number(x))) }
+}
+
+fn at_least_one(n: u32, at: Path) -> Result<()> {
+    if n >= 1 { Ok(()) } else { Err(unexpected(at, "a whole number of at least 1", &n.to_string())) }
+}
+
+pub(super) fn sizes(sizes: &[f64; 3], at: Path) -> Result<()> {
+    sizes.iter().enumerate().try_for_each(|(i, size)| positive(*size, at.item(i, None)))
+}
+
+pub(super) fn direction(v: &[f64], at: Path) -> Result<()> {
+    let is_zero = v.iter().all(|x| *x == 0.0);
+    if is_zero { Err(unexpected(at, "a direction", "the zero vector")) } else { Ok(()) }
+}

@@ -1,0 +1,4 @@
+//! Motion without contact: one method a file.
+
+pub mod euler;
+pub mod rotation;

@@ -1,0 +1,106 @@
+//! The judges: energy, momentum, penetration, divergence, computed from states and contacts alone.
+//!
+//! Nothing here imports a method or takes a solver's word: what an impulse did to a body is worked out again from the
+//! impulse, the arm and the mass properties.
+
+pub mod divergence;
+pub mod energy;
+pub mod momentum;
+pub mod work;
+
+use crate::collide;
+use crate::experiment::types::Diverge;
+use crate::model::Model;
+use crate::state::State;
+use crate::step::SolvedContact;
+use divergence::{Criterion, Divergence};
+use energy::{Energy, EnergyLedger};
+use momentum::MomentumLedger;
+use nalgebra::Vector3;
+
+/// What the contacts of one step did to a body: Σp and Σ r×p about its centre of mass, world axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Push {
+    pub linear: Vector3<f64>,
+    pub angular: Vector3<f64>,
+}
+
+impl Push {
+    const NONE: Push = Push { linear: Vector3::new(0.0, 0.0, 0.0), angular: Vector3::new(0.0, 0.0, 0.0) };
+}
+
+/// Watches a run, step by step.
+pub struct Judge {
+    pub energy: EnergyLedger,
+    pub momentum: MomentumLedger,
+    /// None: the method never looks for contacts.
+    pub penetration_max_m: Option<f64>,
+    pub contacts_max: u64,
+    divergence: Divergence,
+    pushes: Vec<Push>,
+}
+
+impl Judge {
+    pub fn new(model: &Model, start: &State, rules: &Diverge, contact: bool) -> Self {
+        let energy = Energy::of(model, start);
+        Judge {
+            energy: EnergyLedger::new(energy),
+            momentum: MomentumLedger::new(model, start),
+            penetration_max_m: contact.then_some(0.0),
+            contacts_max: 0,
+            divergence: Divergence::new(rules, &energy),
+            pushes: vec![Push::NONE; model.bodies.len()],
+        }
+    }
+
+    /// Judges the step from `before` to `after`; says if the run has diverged, and by which criterion.
+    pub fn observe(
+        &mut self,
+        model: &Model,
+        before: &State,
+        after: &State,
+        contacts: &[SolvedContact],
+        step_s: f64,
+    ) -> Option<Criterion> {
+        self.gather_pushes(contacts);
+        let energy = Energy::of(model, after);
+        if !contacts.is_empty() {
+            self.energy.observe_contacts(model, before, &self.pushes, step_s);
+        }
+        self.energy.observe(energy);
+        self.momentum.observe(model, before, after, &self.pushes, !contacts.is_empty(), step_s);
+        let depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max);
+        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
+        self.contacts_max = self.contacts_max.max(contacts.len() as u64);
+        self.divergence.judge(model, after, &energy, depth_m)
+    }
+
+    /// Depth of the deepest point in the last state, which no step has looked at.
+    pub fn penetration_end_m(&mut self, model: &Model, end: &State) -> Option<f64> {
+        let max = self.penetration_max_m.as_mut()?;
+        let depth_m = deepest_m(model, end);
+        *max = max.max(depth_m);
+        Some(depth_m)
+    }
+
+    fn gather_pushes(&mut self, contacts: &[SolvedContact]) {
+        if !contacts.is_empty() {
+            self.pushes.fill(Push::NONE);
+        }
+        for SolvedContact { contact, impulse_W } in contacts {
+            let push = &mut self.pushes[contact.body];
+            push.linear += impulse_W;
+            push.angular += contact.r_BC_W.cross(impulse_W);
+        }
+    }
+}
+
+/// Largest depth of any point of any body in the container.
+pub fn deepest_m(model: &Model, state: &State) -> f64 {
+    model.bodies.iter().zip(&state.bodies).map(|(body, at)| collide::deepest_m(model, body, at)).fold(0.0, f64::max)
+}
+
+/// Part of a scale; 0 of a scale that is 0 as well.
+fn relative(amount: f64, scale: f64) -> f64 {
+    if amount == 0.0 { 0.0 } else { amount / scale }
+}

@@ -1,0 +1,16 @@
+//! Work, counted in integers: the same on every machine, so that a test can hold it.
+
+/// Columns `work_*` of a row.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Points held against a face.
+    pub contact_tests: u64,
+    /// Contacts found, summed over steps.
+    pub contacts: u64,
+    /// Steps with at least one contact to solve.
+    pub contact_solves: u64,
+    /// Sweeps over the contacts of a step, velocities and positions.
+    pub sweeps: u64,
+    /// Evaluations of the gyroscopic term, or of the momentum-conserving rotation in its place.
+    pub gyroscopic: u64,
+}

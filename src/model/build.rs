@@ -1,0 +1,202 @@
+//! From one resolved experiment to its constant `Model` and first `State`.
+
+use super::container::{Container, Face};
+use super::mass::{MassProperties, Moments, box_moments, exact, lumped, sphere_moments};
+use super::mesh::{TetMesh, box_counts, box_mesh, sphere_mesh};
+use super::{Body, Geometry, Model, random};
+use crate::collide;
+use crate::experiment::types as file;
+use crate::state::{BodyState, State};
+use nalgebra::{Matrix3, Quaternion, Unit, UnitQuaternion, Vector3};
+
+/// The experiment cannot be built; to be reported with file and line of `path`.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{path}: expected {expected}, found {found}")]
+pub struct BuildError {
+    pub path: String,
+    pub expected: String,
+    pub found: String,
+}
+
+/// Expects an experiment that has passed validation.
+pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError> {
+    let scene = &experiment.scene;
+    let container = scene.container.as_ref().map(build_container);
+    let mut bodies = Vec::with_capacity(scene.bodies.len());
+    let mut states = Vec::with_capacity(scene.bodies.len());
+    for described in &scene.bodies {
+        let body = build_body(described, scene);
+        states.push(first_state(described, &body, scene, experiment.seed));
+        bodies.push(body);
+    }
+    let gravity_m_s2 = Vector3::from(scene.gravity_m_s2);
+    let potential_zero_m = potential_zero(&gravity_m_s2, container.as_ref(), &states);
+    let model = Model { gravity_m_s2, bodies, container, potential_zero_m };
+    let state = State { step: 0, time_s: 0.0, bodies: states };
+    if !matches!(experiment.method, file::Method::Free(_)) {
+        refuse_overlap(&model, &state)?;
+    }
+    Ok((model, state))
+}
+
+fn build_container(container: &file::Container) -> Container {
+    let face = |plane: &file::Plane| {
+        let normal = Vector3::from(plane.normal);
+        Face { normal: normal / normal.norm(), offset_m: plane.offset_m }
+    };
+    match container {
+        file::Container::Box(b) => Container::new_box(b.size_m, b.center_m.unwrap_or([0.0, b.size_m[1] / 2.0, 0.0])),
+        file::Container::Plane(plane) => Container { faces: vec![face(plane)] },
+        file::Container::Planes(planes) => Container { faces: planes.iter().map(face).collect() },
+    }
+}
+
+fn build_body(described: &file::Body, scene: &file::Scene) -> Body {
+    let mesh = described.mesh.as_ref().and_then(|spec| volume_mesh(&described.shape, spec));
+    let mass = mass_properties(described, mesh.as_ref());
+    let geometry = geometry(&described.shape, mesh, &mass.p_BoBcm);
+    let bounding_radius_m = match &geometry {
+        Geometry::None => 0.0,
+        Geometry::Mesh { nodes, .. } | Geometry::Corners(nodes) => nodes.iter().map(|u| u.norm()).fold(0.0, f64::max),
+        Geometry::Sphere { centre, radius_m } => centre.norm() + radius_m,
+    };
+    let I_B = snapped(mass.I_B);
+    let pair = |own: Option<f64>, default: f64| own.map_or(default, |own| (own * default).sqrt());
+    Body {
+        name: described.name.clone(),
+        mass_kg: mass.mass_kg,
+        I_B,
+        // A flat or point-like body has no inverse about some axis: nothing turns it there.
+        I_B_inverse: I_B.try_inverse().unwrap_or_else(Matrix3::zeros),
+        isotropic: I_B == Matrix3::identity() * I_B[(0, 0)],
+        p_BoBcm: mass.p_BoBcm,
+        geometry,
+        bounding_radius_m,
+        friction: pair(described.friction, scene.friction),
+        restitution: pair(described.restitution, scene.restitution),
+    }
+}
+
+fn volume_mesh(shape: &file::Shape, spec: &file::MeshSpec) -> Option<TetMesh> {
+    match shape {
+        file::Shape::Box(b) => spec.nodes_per_edge.map(|nodes| match nodes {
+            file::NodesPerEdge::Shortest(n) => box_mesh(b.size_m, box_counts(b.size_m, n)),
+            file::NodesPerEdge::Each(counts) => box_mesh(b.size_m, counts),
+        }),
+        file::Shape::Sphere(s) => spec.subdivisions.map(|k| sphere_mesh(s.radius_m, k)),
+        file::Shape::None => None,
+    }
+}
+
+fn geometry(shape: &file::Shape, mesh: Option<TetMesh>, p_BoBcm: &Vector3<f64>) -> Geometry {
+    let about_centre = |nodes: &[Vector3<f64>]| nodes.iter().map(|u| u - p_BoBcm).collect();
+    match (shape, mesh) {
+        (_, Some(mesh)) => Geometry::Mesh { nodes: about_centre(&mesh.nodes), mesh },
+        (file::Shape::Box(b), None) => Geometry::Corners(about_centre(&box_mesh(b.size_m, [2; 3]).nodes)),
+        (file::Shape::Sphere(s), None) => Geometry::Sphere { centre: -p_BoBcm, radius_m: s.radius_m },
+        (file::Shape::None, None) => Geometry::None,
+    }
+}
+
+fn mass_properties(described: &file::Body, mesh: Option<&TetMesh>) -> MassProperties {
+    let moments = shape_moments(described, mesh);
+    let volume_m3 = moments.as_ref().map_or(0.0, |m| m.volume_m3);
+    let mass_kg = described.mass_kg.unwrap_or_else(|| described.density_kg_m3.unwrap_or(0.0) * volume_m3);
+    let mut mass = match moments {
+        Some(moments) => moments.with_mass(mass_kg),
+        // A point: its rotation means nothing, any inertia does.
+        None => MassProperties { mass_kg, p_BoBcm: Vector3::zeros(), I_B: Matrix3::identity() * mass_kg },
+    };
+    if let Some(centre) = described.center_of_mass_m {
+        let centre = Vector3::from(centre);
+        let moved = centre - mass.p_BoBcm;
+        mass.I_B += mass_kg * (Matrix3::identity() * moved.norm_squared() - moved * moved.transpose());
+        mass.p_BoBcm = centre;
+    }
+    match described.inertia_kg_m2 {
+        Some(file::Inertia::Principal(moments)) => mass.I_B = Matrix3::from_diagonal(&Vector3::from(moments)),
+        Some(file::Inertia::Full(rows)) => mass.I_B = Matrix3::from_fn(|i, j| rows[i][j]),
+        None => {}
+    }
+    mass
+}
+
+fn shape_moments(described: &file::Body, mesh: Option<&TetMesh>) -> Option<Moments> {
+    match (mesh, &described.shape) {
+        (Some(mesh), _) => Some(match described.inertia_from {
+            file::InertiaFrom::Exact => exact(mesh),
+            file::InertiaFrom::Lumped => lumped(mesh),
+        }),
+        (None, file::Shape::Box(b)) => Some(box_moments(b.size_m)),
+        (None, file::Shape::Sphere(s)) => Some(sphere_moments(s.radius_m)),
+        (None, file::Shape::None) => None,
+    }
+}
+
+/// An inertia that is a multiple of the identity but for rounding becomes one exactly, so that the gyroscopic term can
+/// be skipped without changing a bit.
+fn snapped(I_B: Matrix3<f64>) -> Matrix3<f64> {
+    /// Rounding of sums over some hundred tets, relative.
+    const ROUNDING: f64 = 1e-13;
+    let mean = Matrix3::identity() * (I_B.trace() / 3.0);
+    if (I_B - mean).abs().max() <= ROUNDING * mean[(0, 0)] { mean } else { I_B }
+}
+
+fn first_state(described: &file::Body, body: &Body, scene: &file::Scene, seed: u64) -> BodyState {
+    let mut state = BodyState {
+        p_WB: Vector3::zeros(),
+        q_WB: described.orientation.as_ref().map_or_else(UnitQuaternion::identity, attitude),
+        v_WB: described.velocity_m_s.map_or_else(Vector3::zeros, Vector3::from),
+        w_WB: described.angular_velocity_rad_s.map_or_else(Vector3::zeros, Vector3::from),
+    };
+    if let Some(w_B) = described.angular_velocity_body_rad_s {
+        state.w_WB = state.q_WB * Vector3::from(w_B);
+    }
+    if let Some(random) = &scene.random {
+        random::draw(random, seed, &described.name, &mut state);
+    }
+    state.p_WB = Vector3::from(described.position_m) + state.q_WB * body.p_BoBcm;
+    state
+}
+
+fn attitude(orientation: &file::Orientation) -> UnitQuaternion<f64> {
+    let about =
+        |axis: Vector3<f64>, deg: f64| UnitQuaternion::from_axis_angle(&Unit::new_normalize(axis), deg.to_radians());
+    if let Some([x, y, z, w]) = orientation.quaternion_xyzw {
+        return UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
+    }
+    if let Some([x, y, z]) = orientation.euler_xyz_deg {
+        return about(Vector3::z(), z) * about(Vector3::y(), y) * about(Vector3::x(), x);
+    }
+    match (orientation.axis, orientation.angle_deg) {
+        (Some(axis), Some(deg)) => about(Vector3::from(axis), deg),
+        _ => UnitQuaternion::identity(),
+    }
+}
+
+/// The container's lowest point; without a closed one below, the lowest start position.
+fn potential_zero(gravity: &Vector3<f64>, container: Option<&Container>, states: &[BodyState]) -> Vector3<f64> {
+    let Some(down) = gravity.try_normalize(0.0) else {
+        return Vector3::zeros();
+    };
+    let up = -down;
+    let lowest_start = states.iter().map(|s| up.dot(&s.p_WB)).fold(f64::INFINITY, f64::min);
+    let height = container.and_then(|c| c.lowest_m(&up)).unwrap_or(lowest_start);
+    up * height
+}
+
+fn refuse_overlap(model: &Model, state: &State) -> Result<(), BuildError> {
+    /// Of the body's size: a body placed on the floor is not inside it.
+    const ROUNDING: f64 = 1e-9;
+    for (body, at) in model.bodies.iter().zip(&state.bodies) {
+        let depth = collide::deepest_m(model, body, at);
+        if depth > ROUNDING * body.bounding_radius_m {
+            return Err(BuildError {
+                path: format!("scene.bodies.{}.position_m", body.name),
+                expected: "no overlap with the container at the start".into(),
+                found: format!("{} inside a face by {depth:.3e} m", body.name),
+            });
+        }
+    }
+    Ok(())
+}

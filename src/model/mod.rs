@@ -1,0 +1,114 @@
+//! What is constant during a run: bodies, their mass properties and contact geometry, the container, gravity.
+//!
+//! Frames (L7): W is the world (the lecture's Σ), B the body's axes with the centre of mass as origin (ᴳΣ in body axes);
+//! Bo is the origin of the body frame as the experiment file places it (ᴼΣ).
+
+mod build;
+pub mod container;
+pub mod mass;
+pub mod mesh;
+pub mod random;
+
+pub use build::{BuildError, build};
+
+use crate::state::BodyState;
+use container::Container;
+use mesh::TetMesh;
+use nalgebra::{Matrix3, Vector3};
+
+#[derive(Clone, Debug)]
+pub struct Model {
+    pub gravity_m_s2: Vector3<f64>,
+    pub bodies: Vec<Body>,
+    pub container: Option<Container>,
+    /// A point at height zero of the potential energy.
+    pub potential_zero_m: Vector3<f64>,
+}
+
+impl Model {
+    /// Of the body at `p_WB`: −m g·(p − p₀).
+    pub fn potential_j(&self, body: &Body, p_WB: &Vector3<f64>) -> f64 {
+        -body.mass_kg * self.gravity_m_s2.dot(&(p_WB - self.potential_zero_m))
+    }
+}
+
+#[derive(Clone, Debug)]
+pub struct Body {
+    pub name: String,
+    pub mass_kg: f64,
+    /// About the centre of mass, body axes (L9).
+    pub I_B: Matrix3<f64>,
+    pub I_B_inverse: Matrix3<f64>,
+    /// I is a multiple of the identity: no gyroscopic term, and I does not turn with the body.
+    pub isotropic: bool,
+    /// Centre of mass in the body frame.
+    pub p_BoBcm: Vector3<f64>,
+    pub geometry: Geometry,
+    /// About the centre of mass.
+    pub bounding_radius_m: f64,
+    /// Of the pair with the container.
+    pub friction: f64,
+    pub restitution: f64,
+}
+
+/// What touches, relative to the centre of mass, in body axes.
+#[derive(Clone, Debug)]
+pub enum Geometry {
+    /// A point without contact.
+    None,
+    /// Nodes of a volume mesh (L18).
+    Mesh {
+        nodes: Vec<Vector3<f64>>,
+        mesh: TetMesh,
+    },
+    /// A box's eight corners.
+    Corners(Vec<Vector3<f64>>),
+    Sphere {
+        centre: Vector3<f64>,
+        radius_m: f64,
+    },
+}
+
+impl Body {
+    /// I = R ᴼI Rᵀ (L10; the slide prints Rᵀ ᴼI R).
+    pub fn I_W(&self, state: &BodyState) -> Matrix3<f64> {
+        self.turned(&self.I_B, state)
+    }
+
+    pub fn I_W_inverse(&self, state: &BodyState) -> Matrix3<f64> {
+        self.turned(&self.I_B_inverse, state)
+    }
+
+    fn turned(&self, tensor_B: &Matrix3<f64>, state: &BodyState) -> Matrix3<f64> {
+        if self.isotropic {
+            return *tensor_B;
+        }
+        let R_WB = state.q_WB.to_rotation_matrix().into_inner();
+        R_WB * tensor_B * R_WB.transpose()
+    }
+
+    /// Where the body frame's origin is.
+    pub fn p_WBo(&self, state: &BodyState) -> Vector3<f64> {
+        state.p_WB - state.q_WB * self.p_BoBcm
+    }
+
+    pub fn touches(&self) -> bool {
+        !matches!(self.geometry, Geometry::None)
+    }
+
+    /// Triangles for a picture, relative to the centre of mass, in body axes.
+    pub fn surface(&self) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
+        match &self.geometry {
+            Geometry::None => (Vec::new(), Vec::new()),
+            Geometry::Mesh { nodes, mesh } => (nodes.clone(), mesh.surface()),
+            Geometry::Corners(corners) => {
+                let unit = mesh::box_mesh([1.0; 3], [2; 3]);
+                (corners.clone(), unit.surface())
+            }
+            Geometry::Sphere { centre, radius_m } => {
+                let ball = mesh::sphere_mesh(*radius_m, 2);
+                (ball.nodes.iter().map(|u| u + centre).collect(), ball.surface())
+            }
+        }
+    }
+}

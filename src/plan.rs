@@ -1,0 +1,108 @@
+//! What this scene needs: the stages that run, and the reasons why others are skipped.
+//!
+//! A skip follows from a property that is checked, never from one mesh or scene, and changes no bit of the motion.
+
+use crate::experiment::types::Method;
+use crate::model::{Geometry, Model};
+
+/// Decided once a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Some body can touch something, and the method looks.
+    pub contact: bool,
+    /// Tangent rows are solved.
+    pub friction: bool,
+    pub stages: Vec<Stage>,
+}
+
+/// A part of the work, for people.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    pub name: &'static str,
+    pub runs: bool,
+    pub why: String,
+}
+
+impl Plan {
+    pub fn new(model: &Model, method: &Method) -> Self {
+        let contact = contact(model, method);
+        let friction = friction(model, method, contact.runs);
+        let (has_contact, has_friction) = (contact.runs, friction.runs);
+        let stages = vec![contact, friction, gyroscopic(model, method), position_correction(method, has_contact)];
+        Plan { contact: has_contact, friction: has_friction, stages }
+    }
+}
+
+fn stage(name: &'static str, runs: bool, why: impl Into<String>) -> Stage {
+    Stage { name, runs, why: why.into() }
+}
+
+fn contact(model: &Model, method: &Method) -> Stage {
+    let name = "contact test";
+    let touching = model.bodies.iter().filter(|b| b.touches()).count();
+    match (&model.container, method) {
+        (_, Method::Free(_)) => stage(name, false, "`free` is motion without contact"),
+        (None, _) => stage(name, false, "no container: nothing to hit"),
+        (_, _) if touching == 0 => stage(name, false, "no body has a shape"),
+        (Some(container), _) => {
+            let points: usize = model
+                .bodies
+                .iter()
+                .map(|body| match &body.geometry {
+                    Geometry::None => 0,
+                    Geometry::Mesh { nodes, .. } | Geometry::Corners(nodes) => nodes.len(),
+                    Geometry::Sphere { .. } => 1,
+                })
+                .sum();
+            let faces = container.faces.len();
+            stage(
+                name,
+                true,
+                format!("{points} points, {faces} faces; a face beyond the bounding radius costs one dot product"),
+            )
+        }
+    }
+}
+
+fn friction(model: &Model, method: &Method, contact: bool) -> Stage {
+    let name = "friction rows";
+    let rough = model.bodies.iter().any(|b| b.touches() && b.friction > 0.0);
+    match method {
+        _ if !contact => stage(name, false, "no contact test"),
+        Method::Lecture(_) if !rough => {
+            stage(name, true, "μ = 0, but the lecture corrects after the sweep: tangent rows are felt inside it")
+        }
+        _ if !rough => stage(name, false, "μ = 0: normal rows only"),
+        _ => stage(name, true, "μ > 0"),
+    }
+}
+
+fn gyroscopic(model: &Model, method: &Method) -> Stage {
+    use crate::experiment::types::Rotation::Literal;
+    let name = "gyroscopic term";
+    let literal = match method {
+        Method::Lecture(s) => s.rotation == Literal,
+        Method::Penalty(s) => s.rotation == Literal,
+        _ => false,
+    };
+    if literal {
+        stage(name, false, "`rotation: literal` leaves it out, as the slides do")
+    } else if model.bodies.iter().all(|b| b.isotropic) {
+        stage(name, false, "all moments of inertia are equal")
+    } else {
+        stage(name, true, "unequal moments of inertia")
+    }
+}
+
+fn position_correction(method: &Method, contact: bool) -> Stage {
+    use crate::experiment::types::PositionCorrection::Projection;
+    let name = "position correction";
+    match method {
+        _ if !contact => stage(name, false, "no contact test"),
+        Method::TimeStepping(s) if s.position_correction == Projection => {
+            stage(name, true, "only in steps with a contact deeper than the slop")
+        }
+        Method::TimeStepping(_) => stage(name, false, "position_correction: none"),
+        _ => stage(name, false, "the method has none"),
+    }
+}

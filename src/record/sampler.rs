@@ -1,0 +1,107 @@
+//! From states to samples, at the rate asked for, into the recording thread's batches.
+//!
+//! A recorded run is the same run: the sampler only looks. What no stream asks for is not computed.
+
+use super::RecordError;
+use super::sample::{BodySample, ContactSample, EnergySample, Event, Severity, Streams};
+use super::writer::Writer;
+use crate::experiment::types::{Record, Stream};
+use crate::measure::deepest_m;
+use crate::measure::energy::Energy;
+use crate::model::Model;
+use crate::row::{Measured, Outcome};
+use crate::state::{BodyState, State};
+use crate::step::{Clock, SolvedContact};
+
+/// Samples of one run.
+pub struct Sampler {
+    writer: Writer,
+    streams: Streams,
+    /// A sample every so many steps.
+    every: u64,
+}
+
+impl Sampler {
+    pub fn new(writer: Writer, record: &Record, clock: &Clock) -> Self {
+        Sampler { writer, streams: streams(record), every: steps_between(record, clock) }
+    }
+
+    pub fn is_due(&self, step: u64) -> bool {
+        step.is_multiple_of(self.every)
+    }
+
+    /// `contacts`: of the step that led to `state`.
+    pub fn sample(&mut self, model: &Model, state: &State, contacts: &[SolvedContact], step_s: f64) {
+        let batch = self.writer.batch();
+        batch.step.push(state.step);
+        batch.time_s.push(state.time_s);
+        if self.streams.bodies {
+            batch.bodies.extend(state.bodies.iter().map(body_sample));
+        }
+        if self.streams.any_contact() {
+            batch.contacts_len.push(contacts.len() as u32);
+            batch.contacts.extend(contacts.iter().map(|solved| contact_sample(solved, step_s)));
+        }
+        if self.streams.energy {
+            let energy = Energy::of(model, state);
+            batch.energy.push(EnergySample {
+                kinetic_j: energy.kinetic_j,
+                potential_j: energy.potential_j,
+                total_j: energy.total_j(),
+                penetration_m: deepest_m(model, state),
+            });
+        }
+        self.writer.sample_done();
+    }
+
+    /// Says how the run ended.
+    pub fn end(&mut self, state: &State, measured: &Measured) {
+        let (severity, text) = match (&measured.outcome, &measured.criterion) {
+            (Outcome::Finished, _) => (Severity::Info, "finished".to_string()),
+            (_, Some(criterion)) => (Severity::Warning, format!("diverged: {criterion}")),
+            (_, None) => (Severity::Warning, "ended early".to_string()),
+        };
+        let text = format!("{text} at t = {} s, step {}", state.time_s, state.step);
+        self.writer.event(Event { step: state.step, time_s: state.time_s, severity, text });
+    }
+
+    /// Writes the rest and closes the files.
+    pub fn finish(self) -> Result<(), RecordError> {
+        self.writer.finish()
+    }
+}
+
+pub fn streams(record: &Record) -> Streams {
+    let on = |stream| record.streams.contains(&stream);
+    Streams {
+        bodies: on(Stream::Bodies),
+        contacts: on(Stream::Contacts),
+        forces: on(Stream::Forces),
+        energy: on(Stream::Energy),
+    }
+}
+
+/// At least one; the whole number nearest to what is asked for.
+pub fn steps_between(record: &Record, clock: &Clock) -> u64 {
+    ((record.every_s / clock.step_s).round() as u64).max(1)
+}
+
+fn body_sample(at: &BodyState) -> BodySample {
+    BodySample {
+        position_m: at.p_WB.into(),
+        orientation_xyzw: at.q_WB.coords.into(),
+        velocity_m_s: at.v_WB.into(),
+        angular_velocity_rad_s: at.w_WB.into(),
+    }
+}
+
+fn contact_sample(solved: &SolvedContact, step_s: f64) -> ContactSample {
+    ContactSample {
+        body: solved.contact.body as u32,
+        other: None,
+        point_m: solved.contact.p_WC.into(),
+        normal: solved.contact.normal.into(),
+        force_n: (solved.impulse_W / step_s).into(),
+        gap_m: solved.contact.gap_m,
+    }
+}

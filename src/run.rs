@@ -1,0 +1,92 @@
+//! THE MAIN LOOP: advance the state, show every step to the judges and the recorders, end in an outcome.
+
+use crate::experiment::types::Experiment;
+use crate::measure::Judge;
+use crate::measure::divergence::Criterion;
+use crate::model::Model;
+use crate::plan::Plan;
+use crate::record::sampler::Sampler;
+use crate::row::{Measured, Outcome, finite};
+use crate::state::State;
+use crate::step::{Clock, SolvedContact, Stepper};
+use std::time::{Duration, Instant};
+
+/// What a run leaves behind.
+pub struct Ended {
+    pub measured: Measured,
+    pub state: State,
+    /// Of the last step.
+    pub contacts: Vec<SolvedContact>,
+    pub step_s: f64,
+}
+
+/// Runs one experiment from `start` to its end or its divergence.
+pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Option<&mut Sampler>) -> Ended {
+    let clock = clock(experiment);
+    let plan = Plan::new(model, &experiment.method);
+    let mut stepper = Stepper::new(&experiment.method, &plan);
+    let mut judge = Judge::new(model, &start, &experiment.diverge, plan.contact);
+    let (mut before, mut state) = (start.clone(), start);
+    let mut stepping = Duration::ZERO;
+    let mut diverged = None;
+    if let Some(sampler) = &mut sampler {
+        sampler.sample(model, &state, &[], clock.step_s);
+    }
+    while state.step < clock.steps && diverged.is_none() {
+        before.clone_from(&state);
+        let started = Instant::now();
+        stepper.step(model, &mut state, &clock);
+        stepping += started.elapsed();
+        diverged = judge.observe(model, &before, &state, stepper.contacts(), clock.step_s);
+        if let Some(sampler) = &mut sampler {
+            let last = diverged.is_some() || state.step == clock.steps;
+            if last || sampler.is_due(state.step) {
+                sampler.sample(model, &state, stepper.contacts(), clock.step_s);
+            }
+        }
+    }
+    let measured = summarize(model, &state, &mut judge, &stepper, &clock, diverged, stepping);
+    if let Some(sampler) = &mut sampler {
+        sampler.end(&state, &measured);
+    }
+    Ended { measured, contacts: stepper.contacts().to_vec(), state, step_s: clock.step_s }
+}
+
+/// Validation has seen to it that there is a step.
+pub fn clock(experiment: &Experiment) -> Clock {
+    let end_s = experiment.time.end_s;
+    Clock::new(experiment.time.step_s.unwrap_or(end_s), end_s)
+}
+
+fn summarize(
+    model: &Model,
+    state: &State,
+    judge: &mut Judge,
+    stepper: &Stepper,
+    clock: &Clock,
+    diverged: Option<Criterion>,
+    stepping: Duration,
+) -> Measured {
+    let penetration_end_m = judge.penetration_end_m(model, state);
+    let mut measured = Measured {
+        outcome: diverged.map_or(Outcome::Finished, |_| Outcome::Diverged),
+        criterion: diverged.map(|criterion| criterion.name().to_string()),
+        end_time_s: finite(state.time_s),
+        steps: state.step,
+        step_used_s: finite(clock.step_s),
+        energy_start_j: finite(judge.energy.start_j()),
+        energy_end_j: finite(judge.energy.end_j()),
+        energy_drift_rel: finite(judge.energy.drift_rel()),
+        energy_rise_max_rel: finite(judge.energy.rise_max_rel()),
+        linear_momentum_drift_rel: finite(judge.momentum.linear_drift_rel()),
+        angular_momentum_drift_rel: finite(judge.momentum.angular_drift_rel()),
+        penetration_max_m: judge.penetration_max_m.and_then(finite),
+        penetration_end_m: penetration_end_m.and_then(finite),
+        contact_gain_max: judge.energy.contact_gain_max.and_then(finite),
+        contacts_max: judge.contacts_max,
+        wall_s: finite(stepping.as_secs_f64()),
+        ..Measured::nothing()
+    };
+    measured.count_work(stepper.work());
+    measured
+}

@@ -1,0 +1,130 @@
+//! The lecture's iteration F^{i+1} = D⁻¹ (S F^i − b) and its correction (L20), in every literal variant.
+//!
+//! One implementation for all who iterate: `gauss-seidel` with `correction: per-contact` is projected Gauss–Seidel, the
+//! solver `pgs` of time-stepping. As printed the slide's formula is Jacobi; Gauss–Seidel uses the values already updated.
+
+use super::problem::{Block, ContactProblem, Coupling};
+use super::{Impulse, corrected};
+use crate::experiment::types::{Correction, Iteration};
+use crate::measure::work::Work;
+use nalgebra::Vector3;
+
+/// How to iterate, and when to stop.
+#[derive(Clone, Copy, Debug)]
+pub struct Sweeps {
+    pub iteration: Iteration,
+    pub correction: Correction,
+    pub most: u32,
+    /// Stop when no impulse changes by more than this part of the largest. At 0 that is when a sweep changes not one
+    /// bit: the sweeps left out would have changed nothing.
+    pub tolerance: f64,
+    /// False where μ = 0 everywhere: tangent rows are left out (per-contact correction only; after a sweep the
+    /// uncorrected tangents have already been felt by the normals).
+    pub friction: bool,
+}
+
+/// The solver's memory between steps, to spare the allocator.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    before: Vec<Impulse>,
+    coupling: super::problem::Memory,
+}
+
+/// Improves `p` by at most `sweeps.most` sweeps.
+pub fn iterate(problem: &ContactProblem, sweeps: &Sweeps, p: &mut [Impulse], scratch: &mut Scratch, work: &mut Work) {
+    let Scratch { before, coupling } = scratch;
+    if problem.is_dense() {
+        sweep_until_done(problem, &mut problem.dense(), sweeps, p, before, work);
+    } else {
+        sweep_until_done(problem, &mut problem.through_bodies(p, coupling), sweeps, p, before, work);
+    }
+}
+
+/// Puts every impulse back into its cone.
+pub fn correct_all(problem: &ContactProblem, p: &mut [Impulse]) {
+    for (block, p) in problem.blocks.iter().zip(p) {
+        *p = corrected(p, block.friction);
+    }
+}
+
+fn sweep_until_done(
+    problem: &ContactProblem,
+    coupling: &mut impl Coupling,
+    sweeps: &Sweeps,
+    p: &mut [Impulse],
+    before: &mut Vec<Impulse>,
+    work: &mut Work,
+) {
+    for _ in 0..sweeps.most {
+        work.sweeps += 1;
+        before.clear();
+        before.extend_from_slice(p);
+        match (sweeps.iteration, sweeps.correction) {
+            (Iteration::Jacobi, _) => jacobi(problem, coupling, before, p),
+            (Iteration::GaussSeidel, Correction::AfterSweep) => {
+                in_place(problem, coupling, p, |block, c, p| three_rows(block, c, p));
+                in_place(problem, coupling, p, |block, _, p| corrected(p, block.friction));
+            }
+            (Iteration::GaussSeidel, Correction::PerContact) if sweeps.friction => {
+                in_place(problem, coupling, p, |block, c, p| corrected(&three_rows(block, c, p), block.friction));
+            }
+            (Iteration::GaussSeidel, Correction::PerContact) => {
+                in_place(problem, coupling, p, |block, c, p| {
+                    Impulse::new((p.x - c.x * block.inverse_diagonal.x).max(0.0), 0.0, 0.0)
+                });
+            }
+        }
+        if has_settled(before, p, sweeps.tolerance) {
+            break;
+        }
+    }
+}
+
+/// One pass over the contacts, each seeing what the ones before it have become.
+///
+/// With `AfterSweep` the rows pass through uncorrected: later contacts see pulling and sticking forces of earlier ones,
+/// and that error grows with the number of contacts.
+#[inline(always)]
+fn in_place(
+    problem: &ContactProblem,
+    coupling: &mut impl Coupling,
+    p: &mut [Impulse],
+    improve: impl Fn(&Block, &Vector3<f64>, &Impulse) -> Impulse,
+) {
+    for (i, block) in problem.blocks.iter().enumerate() {
+        let c = coupling.velocity(i, block, p);
+        let new = improve(block, &c, &p[i]);
+        coupling.moved(block, &(new - p[i]));
+        p[i] = new;
+    }
+}
+
+/// As printed: every row from the forces of the sweep before.
+fn jacobi(problem: &ContactProblem, coupling: &mut impl Coupling, before: &[Impulse], p: &mut [Impulse]) {
+    for (i, block) in problem.blocks.iter().enumerate() {
+        let c = coupling.velocity(i, block, before);
+        p[i] = corrected(&(before[i] - c.component_mul(&block.inverse_diagonal)), block.friction);
+    }
+    for (i, block) in problem.blocks.iter().enumerate() {
+        coupling.moved(block, &(p[i] - before[i]));
+    }
+}
+
+/// Gauss–Seidel over the rows of one contact, from its velocity `c` = b + A p before.
+#[inline(always)]
+fn three_rows(block: &Block, c: &Vector3<f64>, p: &Impulse) -> Impulse {
+    let (A, d) = (&block.A, &block.inverse_diagonal);
+    let d1 = -c.x * d.x;
+    let d2 = -(c.y + A[(1, 0)] * d1) * d.y;
+    let d3 = -(c.z + A[(2, 0)] * d1 + A[(2, 1)] * d2) * d.z;
+    p + Vector3::new(d1, d2, d3)
+}
+
+fn has_settled(before: &[Impulse], p: &[Impulse], tolerance: f64) -> bool {
+    if tolerance == 0.0 {
+        return before == p;
+    }
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+    let change = largest(&mut before.iter().zip(p).map(|(old, new)| (new - old).amax()));
+    change <= tolerance * largest(&mut p.iter().map(|p| p.amax()))
+}

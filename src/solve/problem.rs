@@ -1,0 +1,250 @@
+//! Contacts gathered once for every solver (L12, L13, L16): J, M⁻¹ and b, with A = J M⁻¹ Jᵀ as a view of them.
+//!
+//! With impulses p = F Δt the slide's ᶜV_C[n+1] = b + A ᶜF_C reads c = b + (J M⁻¹ Jᵀ) p. Rows of a contact are ordered
+//! normal, tangent 1, tangent 2. The target is c = 0 (plastic); Newton restitution adds e v⁻ to the normal row of b.
+
+use crate::collide::Contact;
+use crate::model::Model;
+use crate::state::{BodyState, State};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+use super::Impulse;
+
+/// Velocity of a body, or a change of it: the lecture's generalised V (L13).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twist {
+    pub v: Vector3<f64>,
+    pub w: Vector3<f64>,
+}
+
+impl Twist {
+    pub const ZERO: Twist = Twist { v: Vector3::new(0.0, 0.0, 0.0), w: Vector3::new(0.0, 0.0, 0.0) };
+
+    fn add_scaled(&mut self, other: &Twist, factor: f64) {
+        self.v += other.v * factor;
+        self.w += other.w * factor;
+    }
+}
+
+/// One row of J and of M⁻¹Jᵀ.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    /// [eᵀ (u_c × e)ᵀ]: times V, the contact point's velocity along e.
+    j: Twist,
+    /// What a unit impulse along e does to V.
+    response: Twist,
+}
+
+impl Row {
+    fn along(&self, u: &Twist) -> f64 {
+        self.j.v.dot(&u.v) + self.j.w.dot(&u.w)
+    }
+}
+
+/// One contact: its three rows, its 3×3 block of A, its part of b.
+#[derive(Clone, Copy, Debug)]
+pub struct Block {
+    pub body: usize,
+    pub friction: f64,
+    rows: [Row; 3],
+    pub A: Matrix3<f64>,
+    /// D⁻¹ of the lecture.
+    pub inverse_diagonal: Vector3<f64>,
+    pub b: Vector3<f64>,
+    /// Normal and two tangents, world axes.
+    pub frame: [Vector3<f64>; 3],
+}
+
+/// All contacts of a step.
+#[derive(Clone, Debug, Default)]
+pub struct ContactProblem {
+    pub blocks: Vec<Block>,
+    bodies: usize,
+    /// Empty for many contacts.
+    A_blocks: Vec<Matrix3<f64>>,
+}
+
+/// Contacts up to which A is worked out. A sweep costs 9 L² products with A and 36 L (in long chains) without it.
+const DENSE: usize = 32;
+
+impl ContactProblem {
+    /// `V = V[n] + M⁻¹ F_E Δt` is in `free`, the state before the step in `state`.
+    pub fn gather(&mut self, model: &Model, state: &State, free: &[Twist], contacts: &[Contact]) {
+        self.blocks.clear();
+        self.bodies = model.bodies.len();
+        let mut inertia = (usize::MAX, Matrix3::zeros());
+        for contact in contacts {
+            if inertia.0 != contact.body {
+                let body = &model.bodies[contact.body];
+                inertia = (contact.body, body.I_W_inverse(&state.bodies[contact.body]));
+            }
+            let mass_kg = model.bodies[contact.body].mass_kg;
+            let before = &state.bodies[contact.body];
+            self.blocks.push(Block::new(contact, before, &free[contact.body], mass_kg, &inertia.1));
+        }
+        self.A_blocks.clear();
+        if contacts.len() <= DENSE {
+            let blocks = &self.blocks;
+            self.A_blocks.extend(blocks.iter().flat_map(|row| blocks.iter().map(|column| row.coupling(column))));
+        }
+    }
+
+    /// A was worked out: for few contacts that costs less than going through the bodies in every sweep.
+    pub fn is_dense(&self) -> bool {
+        !self.blocks.is_empty() && self.A_blocks.len() == self.blocks.len() * self.blocks.len()
+    }
+
+    /// A p by A's 3×3 blocks. Only if `is_dense`.
+    pub fn dense(&self) -> Dense<'_> {
+        Dense { A_blocks: &self.A_blocks }
+    }
+
+    /// A p = J (M⁻¹ Jᵀ p), without A.
+    pub fn through_bodies<'a>(&self, impulses: &[Impulse], memory: &'a mut Memory) -> ThroughBodies<'a> {
+        self.response(impulses, &mut memory.u);
+        ThroughBodies { u: &mut memory.u }
+    }
+
+    /// u = M⁻¹ Jᵀ p.
+    pub fn response(&self, impulses: &[Impulse], u: &mut Vec<Twist>) {
+        u.clear();
+        u.resize(self.bodies, Twist::ZERO);
+        for (block, p) in self.blocks.iter().zip(impulses) {
+            block.apply(p, u);
+        }
+    }
+
+    /// ½ pᵀ A p + pᵀ b: for plastic contacts the kinetic energy that `p` adds.
+    pub fn energy(&self, impulses: &[Impulse], u: &[Twist]) -> f64 {
+        let half = |block: &Block, p: &Impulse| p.dot(&(block.velocity(u) + block.b)) / 2.0;
+        self.blocks.iter().zip(impulses).map(|(block, p)| half(block, p)).sum()
+    }
+
+    /// A as a dense matrix, 3L × 3L.
+    pub fn A(&self) -> DMatrix<f64> {
+        let n = self.blocks.len();
+        DMatrix::from_fn(3 * n, 3 * n, |i, j| self.blocks[i / 3].coupling(&self.blocks[j / 3])[(i % 3, j % 3)])
+    }
+
+    pub fn b(&self) -> DVector<f64> {
+        DVector::from_iterator(3 * self.blocks.len(), self.blocks.iter().flat_map(|block| block.b.iter().copied()))
+    }
+}
+
+/// How contacts feel each other: c = b + A p.
+pub trait Coupling {
+    /// c of contact `i` at the present impulses.
+    fn velocity(&self, i: usize, block: &Block, p: &[Impulse]) -> Vector3<f64>;
+    /// The contact's impulse has changed.
+    fn moved(&mut self, block: &Block, change: &Impulse);
+}
+
+/// Through A itself.
+pub struct Dense<'a> {
+    /// Block (i, j) at i L + j.
+    A_blocks: &'a [Matrix3<f64>],
+}
+
+impl Coupling for Dense<'_> {
+    #[inline(always)]
+    fn velocity(&self, i: usize, block: &Block, p: &[Impulse]) -> Vector3<f64> {
+        let row = &self.A_blocks[i * p.len()..][..p.len()];
+        row.iter().zip(p).fold(block.b, |c, (A, p)| c + A * p)
+    }
+
+    #[inline(always)]
+    fn moved(&mut self, _: &Block, _: &Impulse) {}
+}
+
+/// Through the bodies' velocities.
+pub struct ThroughBodies<'a> {
+    /// M⁻¹ Jᵀ p.
+    u: &'a mut [Twist],
+}
+
+impl Coupling for ThroughBodies<'_> {
+    fn velocity(&self, _: usize, block: &Block, _: &[Impulse]) -> Vector3<f64> {
+        block.velocity(self.u)
+    }
+
+    fn moved(&mut self, block: &Block, change: &Impulse) {
+        if *change != Impulse::zeros() {
+            block.apply(change, self.u);
+        }
+    }
+}
+
+/// Memory of `ThroughBodies` between steps.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    u: Vec<Twist>,
+}
+
+impl Block {
+    /// c = b + J u.
+    fn velocity(&self, u: &[Twist]) -> Vector3<f64> {
+        let u = &u[self.body];
+        self.b + Vector3::new(self.rows[0].along(u), self.rows[1].along(u), self.rows[2].along(u))
+    }
+
+    /// u += M⁻¹ Jᵀ Δp.
+    fn apply(&self, change: &Impulse, u: &mut [Twist]) {
+        for (row, p) in self.rows.iter().zip(change.iter()) {
+            u[self.body].add_scaled(&row.response, *p);
+        }
+    }
+
+    /// The normal row of J u.
+    pub fn normal_motion(&self, u: &[Twist]) -> f64 {
+        self.rows[0].along(&u[self.body])
+    }
+
+    /// u += M⁻¹ J_nᵀ Δp.
+    pub fn apply_normal(&self, change: f64, u: &mut [Twist]) {
+        u[self.body].add_scaled(&self.rows[0].response, change);
+    }
+
+    /// The 3×3 block of A between two contacts.
+    fn coupling(&self, other: &Block) -> Matrix3<f64> {
+        if self.body != other.body {
+            return Matrix3::zeros();
+        }
+        Matrix3::from_fn(|i, j| self.rows[i].along(&other.rows[j].response))
+    }
+
+    fn new(contact: &Contact, before: &BodyState, free: &Twist, mass_kg: f64, I_W_inverse: &Matrix3<f64>) -> Self {
+        let frame = contact_frame(&contact.normal);
+        let rows = frame.map(|e| {
+            let j = Twist { v: e, w: contact.r_BC_W.cross(&e) };
+            Row { j, response: Twist { v: e / mass_kg, w: I_W_inverse * j.w } }
+        });
+        let mut b = Vector3::from_fn(|i, _| rows[i].along(free));
+        let approach = rows[0].along(&Twist { v: before.v_WB, w: before.w_WB });
+        if approach < 0.0 {
+            b.x += contact.restitution * approach;
+        }
+        let A = Matrix3::from_fn(|i, j| rows[i].along(&rows[j].response));
+        Block {
+            body: contact.body,
+            friction: contact.friction,
+            rows,
+            A,
+            inverse_diagonal: A.diagonal().map(|d| 1.0 / d),
+            b,
+            frame,
+        }
+    }
+
+    /// An impulse in world axes.
+    pub fn in_world(&self, p: &Impulse) -> Vector3<f64> {
+        self.frame[0] * p.x + self.frame[1] * p.y + self.frame[2] * p.z
+    }
+}
+
+/// e₁ = n and two tangents; for the faces of a box the tangents are the other coordinate axes.
+fn contact_frame(normal: &Vector3<f64>) -> [Vector3<f64>; 3] {
+    let least = normal.iamin();
+    let along = Vector3::ith(least, 1.0);
+    let t1 = (along - normal * normal[least]).normalize();
+    [*normal, t1, normal.cross(&t1)]
+}

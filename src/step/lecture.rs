@@ -1,0 +1,56 @@
+//! The lecture's simulation (L16–L21), its five steps visible as five, in all literal variants.
+
+use super::{Clock, Scratch, move_body};
+use crate::collide::detect;
+use crate::experiment::types::Lecture as Settings;
+use crate::model::Model;
+use crate::solve::gauss_seidel::{Sweeps, correct_all, iterate};
+use crate::solve::problem::Twist;
+use crate::solve::start::first_guess;
+use crate::state::State;
+
+pub struct Lecture {
+    settings: Settings,
+    pub(super) scratch: Scratch,
+}
+
+impl Lecture {
+    pub fn new(settings: &Settings) -> Self {
+        Lecture { settings: settings.clone(), scratch: Scratch::default() }
+    }
+
+    pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
+        // 1. Contact test.
+        detect(model, state, 0.0, &mut self.scratch.found, &mut self.scratch.work);
+        // 2. Constraint forces.
+        self.scratch.free_velocities(model, state, clock.step_s);
+        self.solve_constraints(model, state);
+        // 3. Velocities: M (V[n+1] − V[n]) = (F_E + F_C) Δt. 4. Position and attitude.
+        let s = &mut self.scratch;
+        for (i, (body, at)) in model.bodies.iter().zip(&mut state.bodies).enumerate() {
+            let new = Twist { v: s.free[i].v + s.response[i].v, w: s.free[i].w + s.response[i].w };
+            move_body(body, at, &new, self.settings.update, self.settings.rotation, clock.step_s, &mut s.work);
+        }
+        // 5. Time.
+        clock.advance(state);
+    }
+
+    /// First guess, correction, sweeps (L20).
+    fn solve_constraints(&mut self, model: &Model, state: &State) {
+        let s = &mut self.scratch;
+        s.problem.gather(model, state, &s.free, &s.found);
+        first_guess(&s.problem, self.settings.start, &mut s.impulses);
+        if !s.found.is_empty() {
+            correct_all(&s.problem, &mut s.impulses);
+            let sweeps = Sweeps {
+                iteration: self.settings.iteration,
+                correction: self.settings.correction,
+                most: self.settings.sweeps,
+                tolerance: 0.0,
+                friction: true,
+            };
+            iterate(&s.problem, &sweeps, &mut s.impulses, &mut s.solver, &mut s.work);
+        }
+        s.take_solution();
+    }
+}

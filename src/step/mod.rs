@@ -1,0 +1,164 @@
+//! The exchangeable unit: one step of the whole system, a page each.
+//!
+//! A `match` on the method picks it, once a run. A free product of integrators and contact solvers would permit
+//! nonsense and forbid substeps and events.
+
+mod free;
+mod lecture;
+mod penalty;
+mod time_stepping;
+
+use crate::collide::Contact;
+use crate::experiment::types::{Method, Rotation, Update};
+use crate::integrate::rotation::{turn_at_momentum, turn_literally, w_from_momentum};
+use crate::measure::work::Work;
+use crate::model::{Body, Model};
+use crate::plan::Plan;
+use crate::solve::problem::{ContactProblem, Twist};
+use crate::solve::{Impulse, gauss_seidel};
+use crate::state::{BodyState, State};
+use nalgebra::Vector3;
+
+/// Equal steps up to an end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clock {
+    pub steps: u64,
+    pub end_s: f64,
+    pub step_s: f64,
+}
+
+impl Clock {
+    /// n = max(1, round(end/step)) equal steps of end/n.
+    pub fn new(step_s: f64, end_s: f64) -> Self {
+        let steps = ((end_s / step_s).round() as u64).max(1);
+        Clock { steps, end_s, step_s: end_s / steps as f64 }
+    }
+
+    /// From the count, so that no rounding adds up.
+    fn advance(&self, state: &mut State) {
+        state.step += 1;
+        state.time_s = if state.step == self.steps { self.end_s } else { state.step as f64 * self.step_s };
+    }
+}
+
+/// A contact of the last step and the impulse that it put on its body, world axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolvedContact {
+    pub contact: Contact,
+    pub impulse_W: Vector3<f64>,
+}
+
+/// What a method needs in every step and nobody outside does.
+#[derive(Debug, Default)]
+struct Scratch {
+    found: Vec<Contact>,
+    problem: ContactProblem,
+    /// V[n] + M⁻¹ F_E Δt of every body.
+    free: Vec<Twist>,
+    impulses: Vec<Impulse>,
+    solver: gauss_seidel::Scratch,
+    /// M⁻¹ Jᵀ p of every body.
+    response: Vec<Twist>,
+    solved: Vec<SolvedContact>,
+    work: Work,
+}
+
+/// A method and its scratch.
+pub enum Stepper {
+    Free(free::Free),
+    Lecture(lecture::Lecture),
+    Penalty(penalty::Penalty),
+    TimeStepping(time_stepping::TimeStepping),
+}
+
+impl Stepper {
+    pub fn new(method: &Method, plan: &Plan) -> Self {
+        match method {
+            Method::Free(settings) => Stepper::Free(free::Free::new(settings)),
+            Method::Lecture(settings) => Stepper::Lecture(lecture::Lecture::new(settings)),
+            Method::Penalty(settings) => Stepper::Penalty(penalty::Penalty::new(settings)),
+            Method::TimeStepping(settings) => {
+                Stepper::TimeStepping(time_stepping::TimeStepping::new(settings, plan.friction))
+            }
+        }
+    }
+
+    pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
+        match self {
+            Stepper::Free(method) => method.step(model, state, clock),
+            Stepper::Lecture(method) => method.step(model, state, clock),
+            Stepper::Penalty(method) => method.step(model, state, clock),
+            Stepper::TimeStepping(method) => method.step(model, state, clock),
+        }
+    }
+
+    /// Contacts of the last step.
+    pub fn contacts(&self) -> &[SolvedContact] {
+        match self {
+            Stepper::Free(_) => &[],
+            Stepper::Lecture(method) => &method.scratch.solved,
+            Stepper::Penalty(method) => &method.scratch.solved,
+            Stepper::TimeStepping(method) => &method.scratch.solved,
+        }
+    }
+
+    pub fn work(&self) -> &Work {
+        match self {
+            Stepper::Free(method) => &method.work,
+            Stepper::Lecture(method) => &method.scratch.work,
+            Stepper::Penalty(method) => &method.scratch.work,
+            Stepper::TimeStepping(method) => &method.scratch.work,
+        }
+    }
+}
+
+impl Scratch {
+    /// V + M⁻¹ F_E Δt with gravity as the only external force (L14).
+    fn free_velocities(&mut self, model: &Model, state: &State, step_s: f64) {
+        self.free.clear();
+        let gained = model.gravity_m_s2 * step_s;
+        self.free.extend(state.bodies.iter().map(|at| Twist { v: at.v_WB + gained, w: at.w_WB }));
+    }
+
+    /// Contacts of this step with their impulses in world axes, and the response M⁻¹ Jᵀ p to just these.
+    fn take_solution(&mut self) {
+        self.work.contacts += self.found.len() as u64;
+        self.work.contact_solves += u64::from(!self.found.is_empty());
+        self.solved.clear();
+        let solved = self.found.iter().zip(&self.problem.blocks).zip(&self.impulses);
+        self.solved.extend(
+            solved.map(|((contact, block), p)| SolvedContact { contact: *contact, impulse_W: block.in_world(p) }),
+        );
+        self.problem.response(&self.impulses, &mut self.response);
+    }
+}
+
+/// Position and attitude by the old or the new velocity; `new` becomes the body's velocity (steps 3 and 4 of L21).
+fn move_body(
+    body: &Body,
+    at: &mut BodyState,
+    new: &Twist,
+    update: Update,
+    rotation: Rotation,
+    step_s: f64,
+    work: &mut Work,
+) {
+    let old = Twist { v: at.v_WB, w: at.w_WB };
+    let moving = match update {
+        Update::Explicit => &old,
+        Update::SemiImplicit => new,
+    };
+    at.p_WB += moving.v * step_s;
+    at.v_WB = new.v;
+    match rotation {
+        Rotation::Literal => {
+            turn_literally(at, &moving.w, step_s);
+            at.w_WB = new.w;
+        }
+        Rotation::Momentum => {
+            let I_W = body.I_W(at);
+            turn_at_momentum(body, at, &(I_W * moving.w), step_s, work);
+            at.w_WB = if body.isotropic { new.w } else { w_from_momentum(body, at, &(I_W * new.w)) };
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The penalty method (L15): a spring and a damper in every penetrating node, regularised Coulomb friction.
+
+use super::{Clock, Scratch, SolvedContact, move_body};
+use crate::collide::{Contact, detect};
+use crate::experiment::types::Penalty as Settings;
+use crate::model::Model;
+use crate::solve::problem::Twist;
+use crate::state::{BodyState, State};
+use nalgebra::Vector3;
+
+pub struct Penalty {
+    settings: Settings,
+    pub(super) scratch: Scratch,
+}
+
+impl Penalty {
+    pub fn new(settings: &Settings) -> Self {
+        Penalty { settings: settings.clone(), scratch: Scratch::default() }
+    }
+
+    pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
+        // 1. Contact test.
+        let s = &mut self.scratch;
+        detect(model, state, 0.0, &mut s.found, &mut s.work);
+        s.work.contacts += s.found.len() as u64;
+        // 2. Contact forces, from the old positions and velocities. 3. Velocities.
+        s.free_velocities(model, state, clock.step_s);
+        s.solved.clear();
+        for contact in &s.found {
+            let at = &state.bodies[contact.body];
+            let impulse_W = force(&self.settings, contact, at) * clock.step_s;
+            let body = &model.bodies[contact.body];
+            let new = &mut s.free[contact.body];
+            new.v += impulse_W / body.mass_kg;
+            new.w += body.I_W_inverse(at) * contact.r_BC_W.cross(&impulse_W);
+            s.solved.push(SolvedContact { contact: *contact, impulse_W });
+        }
+        // 4. Position and attitude.
+        for (i, (body, at)) in model.bodies.iter().zip(&mut state.bodies).enumerate() {
+            let new: Twist = s.free[i];
+            move_body(body, at, &new, self.settings.update, self.settings.rotation, clock.step_s, &mut s.work);
+        }
+        // 5. Time.
+        clock.advance(state);
+    }
+}
+
+/// k depth − c v_n, never pulling; μ f_n against the slip, linear in it below `slip_speed_m_s`.
+fn force(settings: &Settings, contact: &Contact, at: &BodyState) -> Vector3<f64> {
+    let velocity = at.v_WB + at.w_WB.cross(&contact.r_BC_W);
+    let along = velocity.dot(&contact.normal);
+    let push = (-settings.stiffness_n_m * contact.gap_m - settings.damping_n_s_m * along).max(0.0);
+    let slip = velocity - contact.normal * along;
+    contact.normal * push - slip * (contact.friction * push / slip.norm().max(settings.slip_speed_m_s))
+}

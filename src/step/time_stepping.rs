@@ -1,0 +1,120 @@
+//! Velocity–impulse time-stepping: the sound default.
+//!
+//! As the lecture's constraint method, but every contact is put back into its cone right after its rows (projected
+//! Gauss–Seidel), started from last step's impulses; rotation conserves angular momentum; penetration is removed by a
+//! displacement of its own that is no velocity and adds no kinetic energy (split impulse).
+
+use super::{Clock, Scratch};
+use crate::collide::{Contact, detect};
+use crate::experiment::types::{Correction, Iteration, PositionCorrection, TimeStepping as Settings};
+use crate::integrate::rotation::{exponential, turn_at_momentum, w_from_momentum};
+use crate::model::Model;
+use crate::solve::Impulse;
+use crate::solve::gauss_seidel::{Sweeps, iterate};
+use crate::solve::position::push_out;
+use crate::solve::problem::Twist;
+use crate::state::State;
+
+/// Of a body's bounding radius: a body resting at gap zero is in contact whatever its last bit says.
+const MARGIN: f64 = 1e-9;
+
+pub struct TimeStepping {
+    settings: Settings,
+    friction: bool,
+    /// Which contact had which impulse in the last step, in the order of contacts.
+    last: Vec<(usize, (u32, u32), Impulse)>,
+    /// Multipliers and displacements of the position correction.
+    pushes: Vec<f64>,
+    pushed: Vec<Twist>,
+    pub(super) scratch: Scratch,
+}
+
+impl TimeStepping {
+    pub fn new(settings: &Settings, friction: bool) -> Self {
+        TimeStepping {
+            settings: settings.clone(),
+            friction,
+            last: Vec::new(),
+            pushes: Vec::new(),
+            pushed: Vec::new(),
+            scratch: Scratch::default(),
+        }
+    }
+
+    pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
+        // 1. Contact test.
+        detect(model, state, MARGIN, &mut self.scratch.found, &mut self.scratch.work);
+        // 2. Contact impulses; displacements that remove penetration.
+        self.scratch.free_velocities(model, state, clock.step_s);
+        self.solve_contacts(model, state);
+        let pushed = self.push_out(model);
+        // 3. Velocities. 4. Position and attitude, at constant angular momentum.
+        let s = &mut self.scratch;
+        for (i, (body, at)) in model.bodies.iter().zip(&mut state.bodies).enumerate() {
+            at.v_WB = s.free[i].v + s.response[i].v;
+            at.w_WB = s.free[i].w + s.response[i].w;
+            at.p_WB += at.v_WB * clock.step_s;
+            let L_W = body.I_W(at) * at.w_WB;
+            turn_at_momentum(body, at, &L_W, clock.step_s, &mut s.work);
+            if pushed {
+                at.p_WB += self.pushed[i].v;
+                at.q_WB = exponential(&self.pushed[i].w) * at.q_WB;
+            }
+            if !body.isotropic {
+                at.w_WB = w_from_momentum(body, at, &L_W);
+            }
+        }
+        // 5. Time.
+        clock.advance(state);
+    }
+
+    fn solve_contacts(&mut self, model: &Model, state: &State) {
+        let s = &mut self.scratch;
+        s.problem.gather(model, state, &s.free, &s.found);
+        warm_start(&s.found, &self.last, &mut s.impulses);
+        s.problem.response(&s.impulses, &mut s.response);
+        // Projected Gauss–Seidel only descends: from a start that adds energy it might not come below zero in time.
+        if s.problem.energy(&s.impulses, &s.response) > 0.0 {
+            s.impulses.fill(Impulse::zeros());
+        }
+        if !s.found.is_empty() {
+            let sweeps = Sweeps {
+                iteration: Iteration::GaussSeidel,
+                correction: Correction::PerContact,
+                most: self.settings.sweeps,
+                tolerance: self.settings.tolerance,
+                friction: self.friction,
+            };
+            iterate(&s.problem, &sweeps, &mut s.impulses, &mut s.solver, &mut s.work);
+        }
+        self.last.clear();
+        self.last.extend(s.found.iter().zip(&s.impulses).map(|(c, p)| (c.body, c.feature, *p)));
+        s.take_solution();
+    }
+
+    fn push_out(&mut self, model: &Model) -> bool {
+        let s = &mut self.scratch;
+        self.settings.position_correction == PositionCorrection::Projection
+            && push_out(
+                &s.problem,
+                &s.found,
+                model,
+                self.settings.sweeps,
+                &mut self.pushes,
+                &mut self.pushed,
+                &mut s.work,
+            )
+    }
+}
+
+/// Last step's impulse of every contact that is still there, else 0. Both lists are in the order of contacts.
+fn warm_start(found: &[Contact], last: &[(usize, (u32, u32), Impulse)], impulses: &mut Vec<Impulse>) {
+    impulses.clear();
+    let mut last = last.iter().peekable();
+    for contact in found {
+        let key = (contact.body, contact.feature);
+        while last.next_if(|(body, feature, _)| (*body, *feature) < key).is_some() {}
+        let same = last.next_if(|(body, feature, _)| (*body, *feature) == key);
+        impulses.push(same.map_or_else(Impulse::zeros, |(_, _, p)| *p));
+    }
+}

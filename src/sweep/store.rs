@@ -1,0 +1,198 @@
+//! A folder of results: plan.json, journal.jsonl, rows.csv, rows.parquet.
+//!
+//! A row goes to the journal as soon as its case ends, so that nothing computed is lost; the tables are written from it
+//! in plan order. The journal holds what was measured by case id, the plan holds the axes: a sweep whose axes have
+//! grown finds its old rows again.
+
+use super::table;
+use crate::build_info::{BUILD, PROGRAM};
+use crate::case::{Case, hex};
+use crate::row::{Measured, Row};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+use sha2::{Digest, Sha256};
+use std::collections::HashMap;
+use std::fs::{File, OpenOptions};
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+
+/// The machine failed: disk full, no permission.
+#[derive(Debug, thiserror::Error)]
+#[error("{path}: {reason}")]
+pub struct StoreError {
+    pub path: PathBuf,
+    pub reason: String,
+}
+
+impl StoreError {
+    pub fn new(path: &Path, reason: impl std::fmt::Display) -> Self {
+        StoreError { path: path.to_path_buf(), reason: reason.to_string() }
+    }
+}
+
+/// What `plan.json` says.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct PlanFile {
+    pub program: String,
+    pub build: String,
+    /// Of the axes and the case ids.
+    pub hash: String,
+    pub axes: Vec<PlanAxis>,
+    /// Case ids with their values on the axes, in plan order.
+    pub cases: Vec<PlanCase>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct PlanAxis {
+    pub path: String,
+    pub values: Vec<Value>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct PlanCase {
+    pub case: String,
+    pub at: Map<String, Value>,
+}
+
+impl PlanFile {
+    pub fn new(cases: &[Case]) -> Self {
+        let mut axes: Vec<PlanAxis> = Vec::new();
+        for (path, value) in cases.iter().flat_map(|case| &case.axes) {
+            match axes.iter_mut().find(|axis| axis.path == *path) {
+                Some(axis) if axis.values.contains(value) => {}
+                Some(axis) => axis.values.push(value.clone()),
+                None => axes.push(PlanAxis { path: path.clone(), values: vec![value.clone()] }),
+            }
+        }
+        let cases: Vec<_> = cases.iter().map(|c| PlanCase { case: c.id.clone(), at: c.axes.clone() }).collect();
+        let digest = Sha256::digest(json!([&axes, &cases]).to_string());
+        PlanFile { program: PROGRAM.to_string(), build: BUILD.to_string(), hash: hex(&digest[..8]), axes, cases }
+    }
+}
+
+/// One line of the journal.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Entry {
+    case: String,
+    build: String,
+    #[serde(flatten)]
+    measured: Measured,
+}
+
+/// A folder of results, open for adding rows.
+pub struct Store {
+    dir: PathBuf,
+    plan: PlanFile,
+    journal: File,
+    done: HashMap<String, (String, Measured)>,
+}
+
+impl Store {
+    /// Opens or makes the folder and writes the plan. Rows of another build count as missing, unless `keep`.
+    pub fn open(dir: &Path, plan: PlanFile, keep: bool) -> Result<Self, StoreError> {
+        std::fs::create_dir_all(dir).map_err(|error| StoreError::new(dir, error))?;
+        let mut done = read_journal(dir)?;
+        if !keep {
+            done.retain(|_, (build, _)| build == BUILD);
+        }
+        write_whole(&dir.join("plan.json"), serde_json::to_string_pretty(&plan).unwrap_or_default().as_bytes())?;
+        let path = journal_path(dir);
+        let journal = OpenOptions::new().create(true).append(true).open(&path);
+        let mut store = Store {
+            dir: dir.to_path_buf(),
+            plan,
+            journal: journal.map_err(|error| StoreError::new(&path, error))?,
+            done,
+        };
+        store.end_torn_line()?;
+        Ok(store)
+    }
+
+    /// Opens a folder for reading its rows, of whatever build.
+    pub fn read(dir: &Path) -> Result<(PlanFile, HashMap<String, (String, Measured)>), StoreError> {
+        let path = dir.join("plan.json");
+        let text = std::fs::read(&path).map_err(|error| StoreError::new(&path, error))?;
+        let plan = serde_json::from_slice(&text).map_err(|error| StoreError::new(&path, error))?;
+        Ok((plan, read_journal(dir)?))
+    }
+
+    pub fn measured(&self, case: &str) -> Option<&Measured> {
+        self.done.get(case).map(|(_, measured)| measured)
+    }
+
+    /// Appends to the journal at once.
+    pub fn add(&mut self, case: &str, measured: Measured) -> Result<(), StoreError> {
+        let entry = Entry { case: case.to_string(), build: BUILD.to_string(), measured };
+        let mut line = serde_json::to_string(&entry).unwrap_or_default();
+        line.push('\n');
+        self.journal.write_all(line.as_bytes()).map_err(|error| StoreError::new(&journal_path(&self.dir), error))?;
+        self.done.insert(entry.case, (entry.build, entry.measured));
+        Ok(())
+    }
+
+    /// Rows that there are, in plan order.
+    pub fn rows(&self) -> Vec<Row> {
+        rows(&self.plan, &self.done)
+    }
+
+    pub fn write_tables(&self) -> Result<(), StoreError> {
+        let table = table::Table::new(&self.plan.axes, &self.rows());
+        let csv = self.dir.join("rows.csv");
+        write_whole(&csv, &table.to_csv().map_err(|error| StoreError::new(&csv, error))?)?;
+        let parquet = self.dir.join("rows.parquet");
+        write_whole(&parquet, &table.to_parquet().map_err(|error| StoreError::new(&parquet, error))?)
+    }
+
+    /// A killed run may have left half a line: end it, so that the next one starts at its beginning.
+    fn end_torn_line(&mut self) -> Result<(), StoreError> {
+        let path = journal_path(&self.dir);
+        let text = std::fs::read(&path).map_err(|error| StoreError::new(&path, error))?;
+        if text.last().is_some_and(|last| *last != b'\n') {
+            self.journal.write_all(b"\n").map_err(|error| StoreError::new(&path, error))?;
+        }
+        Ok(())
+    }
+}
+
+/// Rows of a plan that there are, in its order.
+pub fn rows(plan: &PlanFile, done: &HashMap<String, (String, Measured)>) -> Vec<Row> {
+    let row = |planned: &PlanCase| {
+        let (build, measured) = done.get(&planned.case)?;
+        Some(Row {
+            case: planned.case.clone(),
+            axes: planned.at.clone(),
+            measured: measured.clone(),
+            build: build.clone(),
+        })
+    };
+    plan.cases.iter().filter_map(row).collect()
+}
+
+fn journal_path(dir: &Path) -> PathBuf {
+    dir.join("journal.jsonl")
+}
+
+/// Later lines win; half a line, left by a kill, counts for nothing.
+fn read_journal(dir: &Path) -> Result<HashMap<String, (String, Measured)>, StoreError> {
+    let path = journal_path(dir);
+    let file = match File::open(&path) {
+        Ok(file) => file,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(HashMap::new()),
+        Err(error) => return Err(StoreError::new(&path, error)),
+    };
+    let mut done = HashMap::new();
+    for line in BufReader::new(file).split(b'\n') {
+        let line = line.map_err(|error| StoreError::new(&path, error))?;
+        if let Ok(entry) = serde_json::from_slice::<Entry>(&line) {
+            done.insert(entry.case, (entry.build, entry.measured));
+        }
+    }
+    Ok(done)
+}
+
+/// Under a temporary name first: a file with the final name is whole.
+fn write_whole(path: &Path, content: &[u8]) -> Result<(), StoreError> {
+    let partial = path.with_extension("partial");
+    std::fs::write(&partial, content).map_err(|error| StoreError::new(&partial, error))?;
+    std::fs::rename(&partial, path).map_err(|error| StoreError::new(path, error))
+}

@@ -1,0 +1,47 @@
+//! The experiment file: `good.rs` reads, `bad.rs` refuses, `sets.rs` overrides, `axes.rs` sweeps.
+
+mod axes;
+mod bad;
+mod good;
+mod sets;
+
+use gotai::experiment::types::Experiment;
+use gotai::experiment::{ExperimentError, ExperimentFile};
+use std::path::Path;
+
+/// A file without faults whose lines the tests count on: change it at its end only.
+pub const BASE: &str = "\
+scene:
+  friction: 0.3
+  container:
+    box:
+      size_m: [4, 4, 4]
+  bodies:
+    - name: cube
+      shape: { box: { size_m: [1, 1, 1] } }
+      mesh: { nodes_per_edge: 3 }
+      mass_kg: 1.0
+      position_m: [0, 2, 0]
+    - name: point
+      shape: none
+      mass_kg: 0.5
+seed: 7
+method: lecture
+time:
+  step_s: 0.01
+  end_s: 1.0
+";
+
+pub fn file(text: &str, sets: &[&str]) -> Result<ExperimentFile, ExperimentError> {
+    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
+    ExperimentFile::from_text(Path::new("a.yaml"), text, &sets)
+}
+
+pub fn experiment(text: &str, sets: &[&str]) -> Result<Experiment, ExperimentError> {
+    file(text, sets)?.experiment()
+}
+
+/// `BASE` and a sweep of these lines.
+pub fn swept(lines: &str) -> String {
+    format!("{BASE}sweep:\n  axes:\n{lines}")
+}

@@ -45,13 +45,21 @@ fn contact(model: &Model, method: &Method) -> Stage {
         (None, _) => stage(name, false, "no container: nothing to hit"),
         (_, _) if touching == 0 => stage(name, false, "no body has a shape"),
         (Some(container), _) => {
-            let points: usize = model.bodies.iter().map(|body| match &body.geometry {
-                Geometry::None => 0,
-                Geometry::Mesh { nodes, .. } | Geometry::Corners(nodes) => nodes.len(),
-                Geometry::Sphere { .. } => 1,
-            }).sum();
+            let points: usize = model
+                .bodies
+                .iter()
+                .map(|body| match &body.geometry {
+                    Geometry::None => 0,
+                    Geometry::Mesh { nodes, .. } | Geometry::Corners(nodes) => nodes.len(),
+                    Geometry::Sphere { .. } => 1,
+                })
+                .sum();
             let faces = container.faces.len();
-            stage(name, true, format!("{points} points, {faces} faces; a face beyond the bounding radius costs one dot product"))
+            stage(
+                name,
+                true,
+                format!("{points} points, {faces} faces; a face beyond the bounding radius costs one dot product"),
+            )
         }
     }
 }

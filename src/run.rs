@@ -1,8 +1,8 @@
 //! THE MAIN LOOP: advance the state, show every step to the judges and the recorders, end in an outcome.
 
 use crate::experiment::types::Experiment;
-use crate::measure::divergence::Criterion;
 use crate::measure::Judge;
+use crate::measure::divergence::Criterion;
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::record::sampler::Sampler;

@@ -132,7 +132,11 @@ fn keep_rows_when_interrupted(store: &Arc<Mutex<Store>>, dir: &Path) -> Result<(
             if let Err(error) = store.write_tables() {
                 eprintln!("gotai: {error}");
             }
-            eprintln!("interrupted: {} rows are kept in {}; run again to do the rest", store.rows().len(), dir.display());
+            eprintln!(
+                "interrupted: {} rows are kept in {}; run again to do the rest",
+                store.rows().len(),
+                dir.display()
+            );
             std::process::exit(128 + signal);
         }
     });

@@ -21,18 +21,12 @@ impl<'de> Visitor<'de> for NodesVisitor {
     }
 
     fn visit_u64<E: Error>(self, n: u64) -> Result<NodesPerEdge, E> {
-        u32::try_from(n)
-            .map(NodesPerEdge::Shortest)
-            .map_err(|_| E::invalid_value(Unexpected::Unsigned(n), &self))
+        u32::try_from(n).map(NodesPerEdge::Shortest).map_err(|_| E::invalid_value(Unexpected::Unsigned(n), &self))
     }
 
     fn visit_f64<E: Error>(self, x: f64) -> Result<NodesPerEdge, E> {
         let is_whole = x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&x);
-        if is_whole {
-            Ok(NodesPerEdge::Shortest(x as u32))
-        } else {
-            Err(E::invalid_value(Unexpected::Float(x), &self))
-        }
+        if is_whole { Ok(NodesPerEdge::Shortest(x as u32)) } else { Err(E::invalid_value(Unexpected::Float(x), &self)) }
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<NodesPerEdge, A::Error> {
@@ -41,10 +35,7 @@ impl<'de> Visitor<'de> for NodesVisitor {
             counts.push(count);
         }
         let len = counts.len();
-        counts
-            .try_into()
-            .map(NodesPerEdge::Each)
-            .map_err(|_| A::Error::invalid_length(len, &self))
+        counts.try_into().map(NodesPerEdge::Each).map_err(|_| A::Error::invalid_length(len, &self))
     }
 }
 
@@ -119,8 +110,6 @@ impl<'de> Visitor<'de> for EntryVisitor {
             row.push(x);
         }
         let len = row.len();
-        row.try_into()
-            .map(Entry::Row)
-            .map_err(|_| A::Error::invalid_length(len, &self))
+        row.try_into().map(Entry::Row).map_err(|_| A::Error::invalid_length(len, &self))
     }
 }

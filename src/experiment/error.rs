@@ -105,35 +105,19 @@ impl ExperimentError {
 
     pub(crate) fn not_available(path: KeyPath, word: Option<&str>) -> Self {
         let subject = word.map(|word| format!("`{word}` is ")).unwrap_or_default();
-        Self::new(
-            Kind::NotAvailable,
-            path,
-            format!("{subject}not available in this version"),
-        )
+        Self::new(Kind::NotAvailable, path, format!("{subject}not available in this version"))
     }
 
     /// A combination that a later version can do.
     pub(crate) fn feature_not_available(path: KeyPath, feature: &str) -> Self {
-        Self::new(
-            Kind::NotAvailable,
-            path,
-            format!("{feature} is not available in this version"),
-        )
+        Self::new(Kind::NotAvailable, path, format!("{feature} is not available in this version"))
     }
 
     /// `what` says what to write there, and may be empty.
     pub(crate) fn missing(path: KeyPath, what: &str) -> Self {
-        let message = if what.is_empty() {
-            "missing".to_string()
-        } else {
-            format!("missing: {what}")
-        };
+        let message = if what.is_empty() { "missing".to_string() } else { format!("missing: {what}") };
         let mut error = Self::new(Kind::Missing, path, message);
-        error.0.expected = Some(if what.is_empty() {
-            "a value".to_string()
-        } else {
-            what.to_string()
-        });
+        error.0.expected = Some(if what.is_empty() { "a value".to_string() } else { what.to_string() });
         error.0.found = Some("nothing".to_string());
         error
     }
@@ -191,16 +175,7 @@ impl std::error::Error for ExperimentError {}
 
 impl fmt::Display for ExperimentError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Details {
-            file,
-            line,
-            set,
-            axis,
-            case,
-            path,
-            message,
-            ..
-        } = self.details();
+        let Details { file, line, set, axis, case, path, message, .. } = self.details();
         match (set, file, line) {
             (Some(set), _, _) => write!(f, "--set {}: ", in_one_line(set))?,
             (None, Some(file), Some(line)) => write!(f, "{file}:{line}: ")?,
@@ -263,11 +238,7 @@ pub(crate) fn describe(value: &Value) -> String {
         Value::Sequence(items) => format!("a list of {}", items.len()),
         Value::Mapping(mapping) if mapping.is_empty() => "an empty mapping".to_string(),
         Value::Mapping(mapping) => {
-            let keys: Vec<String> = mapping
-                .keys()
-                .take(8)
-                .map(|key| format!("`{}`", key_text(key)))
-                .collect();
+            let keys: Vec<String> = mapping.keys().take(8).map(|key| format!("`{}`", key_text(key))).collect();
             format!("a mapping of {}", keys.join(", "))
         }
         Value::Tagged(tagged) => format!("the tag `{}`", tagged.tag),

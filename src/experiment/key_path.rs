@@ -111,15 +111,8 @@ impl Serialize for KeyPath {
 #[derive(Clone, Copy)]
 pub enum Path<'a> {
     Base(&'a KeyPath),
-    Key {
-        parent: &'a Path<'a>,
-        key: &'a str,
-    },
-    Item {
-        parent: &'a Path<'a>,
-        index: usize,
-        name: Option<&'a str>,
-    },
+    Key { parent: &'a Path<'a>, key: &'a str },
+    Item { parent: &'a Path<'a>, index: usize, name: Option<&'a str> },
 }
 
 impl<'a> Path<'a> {
@@ -128,24 +121,16 @@ impl<'a> Path<'a> {
     }
 
     pub fn item(&'a self, index: usize, name: Option<&'a str>) -> Path<'a> {
-        Path::Item {
-            parent: self,
-            index,
-            name: name.filter(|name| is_addressable(name)),
-        }
+        Path::Item { parent: self, index, name: name.filter(|name| is_addressable(name)) }
     }
 
     pub fn to_key_path(self) -> KeyPath {
         match self {
             Path::Base(base) => base.clone(),
             Path::Key { parent, key } => with(parent.to_key_path(), Segment::Key(key.to_string())),
-            Path::Item { parent, index, name } => with(
-                parent.to_key_path(),
-                Segment::Item {
-                    index,
-                    name: name.map(str::to_string),
-                },
-            ),
+            Path::Item { parent, index, name } => {
+                with(parent.to_key_path(), Segment::Item { index, name: name.map(str::to_string) })
+            }
         }
     }
 }

@@ -3,10 +3,7 @@
 /// What the key or word stands in (the Rust type of `types.rs`), and the words. A word leaves this list in the change
 /// that adds its field or variant.
 const LATER: &[(&str, &[&str])] = &[
-    (
-        "Experiment",
-        &["expect", "bench", "exact", "reference", "measure", "limits"],
-    ),
+    ("Experiment", &["expect", "bench", "exact", "reference", "measure", "limits"]),
     ("Sweep", &["where", "sample", "search"]),
     ("Scene", &["pairs", "pins", "forces", "air", "allow_overlap"]),
     ("Container", &["mesh"]),
@@ -15,17 +12,7 @@ const LATER: &[(&str, &[&str])] = &[
     ("Random", &["place"]),
     ("Method", &["event-driven", "auto"]),
     ("Free", &["tolerance"]),
-    (
-        "Integrator",
-        &[
-            "crank-nicolson",
-            "implicit-midpoint",
-            "rk4",
-            "dop853",
-            "taylor",
-            "exact",
-        ],
-    ),
+    ("Integrator", &["crank-nicolson", "implicit-midpoint", "rk4", "dop853", "taylor", "exact"]),
     ("Solver", &["newton"]),
     ("Scheme", &["moreau"]),
     ("Impact", &["poisson", "sequential"]),
@@ -33,7 +20,5 @@ const LATER: &[(&str, &[&str])] = &[
 
 /// Whether a later version knows this word in this type.
 pub fn is_later(type_name: &str, word: &str) -> bool {
-    LATER
-        .iter()
-        .any(|(name, words)| *name == type_name && words.contains(&word))
+    LATER.iter().any(|(name, words)| *name == type_name && words.contains(&word))
 }

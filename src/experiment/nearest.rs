@@ -9,9 +9,8 @@ pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     if word.is_empty() {
         return None;
     }
-    let without_unit = known
-        .iter()
-        .find(|key| plain(key).strip_prefix(&word).is_some_and(|rest| rest.starts_with('_')));
+    let without_unit =
+        known.iter().find(|key| plain(key).strip_prefix(&word).is_some_and(|rest| rest.starts_with('_')));
     if let Some(key) = without_unit {
         return Some(key);
     }

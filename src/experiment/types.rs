@@ -444,12 +444,7 @@ pub struct Diverge {
 
 impl Default for Diverge {
     fn default() -> Self {
-        Diverge {
-            energy_factor: Some(1000.0),
-            escape: true,
-            speed_m_s: None,
-            penetration_m: None,
-        }
+        Diverge { energy_factor: Some(1000.0), escape: true, speed_m_s: None, penetration_m: None }
     }
 }
 
@@ -468,12 +463,7 @@ pub struct Record {
 impl Default for Record {
     /// 100 Hz: above every display's rate, small beside the step count of an accurate run.
     fn default() -> Self {
-        Record {
-            to: None,
-            every_s: 0.01,
-            cases: RecordCases::Few,
-            streams: Stream::ALL.to_vec(),
-        }
+        Record { to: None, every_s: 0.01, cases: RecordCases::Few, streams: Stream::ALL.to_vec() }
     }
 }
 

@@ -26,11 +26,7 @@ pub fn validate(experiment: &Experiment) -> Result<()> {
 
 /// Any multiple of a unit quaternion may be written; from here on they are unit ones.
 pub fn normalise_quaternions(experiment: &mut Experiment) {
-    let orientations = experiment
-        .scene
-        .bodies
-        .iter_mut()
-        .filter_map(|body| body.orientation.as_mut());
+    let orientations = experiment.scene.bodies.iter_mut().filter_map(|body| body.orientation.as_mut());
     for q in orientations.filter_map(|orientation| orientation.quaternion_xyzw.as_mut()) {
         let largest = q.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
         let scaled = q.map(|x| x / largest);
@@ -53,17 +49,10 @@ fn validate_scene(scene: &Scene, at: Path) -> Result<()> {
         validate_body(body, bodies.item(i, Some(&body.name)))?;
         if let Some(first) = scene.bodies[..i].iter().position(|other| other.name == body.name) {
             let found = format!("`{}`, which item {first} of the list has", body.name);
-            return Err(unexpected(
-                bodies.item(i, None).key("name"),
-                "a name of its own",
-                &found,
-            ));
+            return Err(unexpected(bodies.item(i, None).key("name"), "a name of its own", &found));
         }
     }
-    scene
-        .random
-        .as_ref()
-        .map_or(Ok(()), |random| validate_random(random, scene, at.key("random")))
+    scene.random.as_ref().map_or(Ok(()), |random| validate_random(random, scene, at.key("random")))
 }
 
 fn validate_container(container: &Container, at: Path) -> Result<()> {
@@ -75,10 +64,7 @@ fn validate_container(container: &Container, at: Path) -> Result<()> {
         }
         Container::Planes(planes) => {
             let list = at.key("planes");
-            planes
-                .iter()
-                .enumerate()
-                .try_for_each(|(i, plane)| validate_plane(plane, list.item(i, None)))
+            planes.iter().enumerate().try_for_each(|(i, plane)| validate_plane(plane, list.item(i, None)))
         }
     }
 }
@@ -88,23 +74,13 @@ fn validate_plane(plane: &Plane, at: Path) -> Result<()> {
 }
 
 fn validate_random(random: &Random, scene: &Scene, at: Path) -> Result<()> {
-    random
-        .speed_m_s
-        .map_or(Ok(()), |speed| not_negative(speed, at.key("speed_m_s")))?;
-    random
-        .spin_rad_s
-        .map_or(Ok(()), |spin| not_negative(spin, at.key("spin_rad_s")))?;
+    random.speed_m_s.map_or(Ok(()), |speed| not_negative(speed, at.key("speed_m_s")))?;
+    random.spin_rad_s.map_or(Ok(()), |spin| not_negative(spin, at.key("spin_rad_s")))?;
     if random.direction.is_some() && random.speed_m_s.is_none() {
-        return Err(ExperimentError::missing(
-            at.key("speed_m_s").to_key_path(),
-            "`direction` needs a speed",
-        ));
+        return Err(ExperimentError::missing(at.key("speed_m_s").to_key_path(), "`direction` needs a speed"));
     }
     let is_point = |shape: &Shape| *shape == Shape::None;
-    let point = scene
-        .bodies
-        .iter()
-        .find(|body| is_point(&body.shape) && body.inertia_kg_m2.is_none());
+    let point = scene.bodies.iter().find(|body| is_point(&body.shape) && body.inertia_kg_m2.is_none());
     match (point, random.spin_rad_s) {
         (Some(point), Some(spin)) if spin > 0.0 => {
             let expected = format!("no spin, as `{}` is a point without `inertia_kg_m2`", point.name);
@@ -179,11 +155,7 @@ fn no_restitution(scene: &Scene, at: Path) -> Result<()> {
 
 fn one_shape(scene: &Scene, at: Path) -> Result<()> {
     let bodies = at.key("bodies");
-    let mut shaped = scene
-        .bodies
-        .iter()
-        .enumerate()
-        .filter(|(_, body)| body.shape != Shape::None);
+    let mut shaped = scene.bodies.iter().enumerate().filter(|(_, body)| body.shape != Shape::None);
     match (shaped.next(), shaped.next()) {
         (Some((_, first)), Some((i, second))) => {
             let path = bodies.item(i, Some(&second.name)).key("shape").to_key_path();
@@ -199,43 +171,23 @@ fn validate_time(time: &Time, at: Path) -> Result<()> {
     positive(time.end_s, at.key("end_s"))?;
     let step = at.key("step_s");
     let Some(step_s) = time.step_s else {
-        return Err(ExperimentError::missing(
-            step.to_key_path(),
-            "the length of a step, in seconds",
-        ));
+        return Err(ExperimentError::missing(step.to_key_path(), "the length of a step, in seconds"));
     };
     positive(step_s, step)?;
     let steps = time.end_s / step_s;
     if steps > MOST_STEPS {
-        let found = format!(
-            "{} ({} steps to {} s)",
-            number(step_s),
-            number(steps.round()),
-            number(time.end_s)
-        );
-        return Err(unexpected(
-            step,
-            &format!("a step that needs at most {MOST_STEPS:e} steps"),
-            &found,
-        ));
+        let found = format!("{} ({} steps to {} s)", number(step_s), number(steps.round()), number(time.end_s));
+        return Err(unexpected(step, &format!("a step that needs at most {MOST_STEPS:e} steps"), &found));
     }
     Ok(())
 }
 
 fn validate_diverge(diverge: &Diverge, at: Path) -> Result<()> {
     if let Some(factor) = diverge.energy_factor.filter(|factor| *factor <= 1.0) {
-        return Err(unexpected(
-            at.key("energy_factor"),
-            "a number greater than 1",
-            &number(factor),
-        ));
+        return Err(unexpected(at.key("energy_factor"), "a number greater than 1", &number(factor)));
     }
-    diverge
-        .speed_m_s
-        .map_or(Ok(()), |speed| positive(speed, at.key("speed_m_s")))?;
-    diverge
-        .penetration_m
-        .map_or(Ok(()), |depth| positive(depth, at.key("penetration_m")))
+    diverge.speed_m_s.map_or(Ok(()), |speed| positive(speed, at.key("speed_m_s")))?;
+    diverge.penetration_m.map_or(Ok(()), |depth| positive(depth, at.key("penetration_m")))
 }
 
 fn validate_record(record: &Record, at: Path) -> Result<()> {
@@ -251,50 +203,27 @@ pub(super) fn unexpected(at: Path, expected: &str, found: &str) -> ExperimentErr
 }
 
 pub(super) fn positive(x: f64, at: Path) -> Result<()> {
-    if x > 0.0 {
-        Ok(())
-    } else {
-        Err(unexpected(at, "a number greater than 0", &number(x)))
-    }
+    if x > 0.0 { Ok(()) } else { Err(unexpected(at, "a number greater than 0", &number(x))) }
 }
 
 pub(super) fn not_negative(x: f64, at: Path) -> Result<()> {
-    if x >= 0.0 {
-        Ok(())
-    } else {
-        Err(unexpected(at, "a number of at least 0", &number(x)))
-    }
+    if x >= 0.0 { Ok(()) } else { Err(unexpected(at, "a number of at least 0", &number(x))) }
 }
 
 /// A coefficient of restitution.
 pub(super) fn a_part(x: f64, at: Path) -> Result<()> {
-    if (0.0..=1.0).contains(&x) {
-        Ok(())
-    } else {
-        Err(unexpected(at, "a number from 0 to 1", &number(x)))
-    }
+    if (0.0..=1.0).contains(&x) { Ok(()) } else { Err(unexpected(at, "a number from 0 to 1", &number(x))) }
 }
 
 fn at_least_one(n: u32, at: Path) -> Result<()> {
-    if n >= 1 {
-        Ok(())
-    } else {
-        Err(unexpected(at, "a whole number of at least 1", &n.to_string()))
-    }
+    if n >= 1 { Ok(()) } else { Err(unexpected(at, "a whole number of at least 1", &n.to_string())) }
 }
 
 pub(super) fn sizes(sizes: &[f64; 3], at: Path) -> Result<()> {
-    sizes
-        .iter()
-        .enumerate()
-        .try_for_each(|(i, size)| positive(*size, at.item(i, None)))
+    sizes.iter().enumerate().try_for_each(|(i, size)| positive(*size, at.item(i, None)))
 }
 
 pub(super) fn direction(v: &[f64], at: Path) -> Result<()> {
     let is_zero = v.iter().all(|x| *x == 0.0);
-    if is_zero {
-        Err(unexpected(at, "a direction", "the zero vector"))
-    } else {
-        Ok(())
-    }
+    if is_zero { Err(unexpected(at, "a direction", "the zero vector")) } else { Ok(()) }
 }

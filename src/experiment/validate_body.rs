@@ -23,10 +23,8 @@ pub fn validate_body(body: &Body, at: Path) -> Result<()> {
         validate_orientation(orientation, at.key("orientation"))?;
     }
     validate_spin(body, at)?;
-    body.friction
-        .map_or(Ok(()), |friction| not_negative(friction, at.key("friction")))?;
-    body.restitution
-        .map_or(Ok(()), |restitution| a_part(restitution, at.key("restitution")))
+    body.friction.map_or(Ok(()), |friction| not_negative(friction, at.key("friction")))?;
+    body.restitution.map_or(Ok(()), |restitution| a_part(restitution, at.key("restitution")))
 }
 
 /// Names stand in key paths, `--set`s, columns and the paths of recordings; contacts call the container `container`.
@@ -53,11 +51,7 @@ fn validate_shape(shape: &Shape, at: Path) -> Result<()> {
 }
 
 fn validate_mesh(body: &Body, at: Path) -> Result<()> {
-    let Some(MeshSpec {
-        nodes_per_edge,
-        subdivisions,
-    }) = &body.mesh
-    else {
+    let Some(MeshSpec { nodes_per_edge, subdivisions }) = &body.mesh else {
         return Ok(());
     };
     let (nodes, levels) = (at.key("nodes_per_edge"), at.key("subdivisions"));
@@ -66,15 +60,12 @@ fn validate_mesh(body: &Body, at: Path) -> Result<()> {
         (Shape::Box(_), _, Some(_)) => Err(unexpected(levels, "`nodes_per_edge` for a box", "`subdivisions`")),
         (Shape::Sphere(_), Some(_), _) => Err(unexpected(nodes, "`subdivisions` for a sphere", "`nodes_per_edge`")),
         (Shape::Box(_), None, None) => Err(ExperimentError::missing(nodes.to_key_path(), "the nodes along an edge")),
-        (Shape::Sphere(_), None, None) => Err(ExperimentError::missing(
-            levels.to_key_path(),
-            "the subdivisions of the icosphere",
-        )),
-        (Shape::Sphere(_), None, Some(n)) if *n > FINEST_SPHERE => Err(unexpected(
-            levels,
-            &format!("a whole number from 0 to {FINEST_SPHERE}"),
-            &n.to_string(),
-        )),
+        (Shape::Sphere(_), None, None) => {
+            Err(ExperimentError::missing(levels.to_key_path(), "the subdivisions of the icosphere"))
+        }
+        (Shape::Sphere(_), None, Some(n)) if *n > FINEST_SPHERE => {
+            Err(unexpected(levels, &format!("a whole number from 0 to {FINEST_SPHERE}"), &n.to_string()))
+        }
         (Shape::Sphere(_), None, Some(_)) => Ok(()),
         (Shape::Box(box_), Some(count), None) => validate_nodes(box_, count, nodes),
     }
@@ -91,11 +82,7 @@ fn validate_nodes(shape: &BoxShape, count: &NodesPerEdge, at: Path) -> Result<()
     let nodes = node_count(shape, count);
     if nodes > MOST_NODES {
         let found = format!("{} nodes", number(nodes.round()));
-        return Err(unexpected(
-            at,
-            &format!("a mesh of at most {MOST_NODES:e} nodes"),
-            &found,
-        ));
+        return Err(unexpected(at, &format!("a mesh of at most {MOST_NODES:e} nodes"), &found));
     }
     Ok(())
 }
@@ -107,11 +94,7 @@ fn node_count(shape: &BoxShape, count: &NodesPerEdge) -> f64 {
         NodesPerEdge::Shortest(n) => {
             let shortest = shape.size_m.iter().fold(f64::INFINITY, |min, size| min.min(*size));
             let cells = f64::from(*n - 1);
-            shape
-                .size_m
-                .iter()
-                .map(|size| (size / shortest * cells).round() + 1.0)
-                .product()
+            shape.size_m.iter().map(|size| (size / shortest * cells).round() + 1.0).product()
         }
     }
 }
@@ -120,18 +103,13 @@ fn validate_mass(body: &Body, at: Path) -> Result<()> {
     let (mass, density) = (at.key("mass_kg"), at.key("density_kg_m3"));
     match (body.mass_kg, body.density_kg_m3) {
         (Some(_), Some(_)) => Err(unexpected(density, "either `mass_kg` or `density_kg_m3`", "both")),
-        (None, Some(_)) if body.shape == Shape::None => Err(unexpected(
-            density,
-            "`mass_kg`, as the shape `none` has no volume",
-            "`density_kg_m3`",
-        )),
+        (None, Some(_)) if body.shape == Shape::None => {
+            Err(unexpected(density, "`mass_kg`, as the shape `none` has no volume", "`density_kg_m3`"))
+        }
         (None, None) if body.shape == Shape::None => {
             Err(ExperimentError::missing(mass.to_key_path(), "the mass of the point"))
         }
-        (None, None) => Err(ExperimentError::missing(
-            mass.to_key_path(),
-            "give `mass_kg` or `density_kg_m3`",
-        )),
+        (None, None) => Err(ExperimentError::missing(mass.to_key_path(), "give `mass_kg` or `density_kg_m3`")),
         (Some(kg), None) => positive(kg, mass),
         (None, Some(kg_m3)) => positive(kg_m3, density),
     }
@@ -161,14 +139,7 @@ fn validate_inertia(body: &Body, at: Path) -> Result<()> {
 fn validate_moments(mut moments: [f64; 3], at: Path) -> Result<()> {
     moments.sort_by(f64::total_cmp);
     let [small, middle, large] = moments;
-    let found = || {
-        format!(
-            "principal moments {}, {}, {}",
-            number(small),
-            number(middle),
-            number(large)
-        )
-    };
+    let found = || format!("principal moments {}, {}, {}", number(small), number(middle), number(large));
     if small <= 0.0 {
         return Err(unexpected(at, "moments of inertia greater than 0", &found()));
     }
@@ -180,45 +151,28 @@ fn validate_moments(mut moments: [f64; 3], at: Path) -> Result<()> {
 }
 
 fn validate_orientation(orientation: &Orientation, at: Path) -> Result<()> {
-    let Orientation {
-        axis,
-        angle_deg,
-        quaternion_xyzw,
-        euler_xyz_deg,
-    } = orientation;
+    let Orientation { axis, angle_deg, quaternion_xyzw, euler_xyz_deg } = orientation;
     let is_turn = axis.is_some() || angle_deg.is_some();
     let forms = [is_turn, quaternion_xyzw.is_some(), euler_xyz_deg.is_some()];
     let count = forms.iter().filter(|is_given| **is_given).count();
     if count != 1 {
         let found = if count == 0 { "none" } else { "more than one of them" };
-        return Err(unexpected(
-            at,
-            "one of {axis, angle_deg}, {quaternion_xyzw}, {euler_xyz_deg}",
-            found,
-        ));
+        return Err(unexpected(at, "one of {axis, angle_deg}, {quaternion_xyzw}, {euler_xyz_deg}", found));
     }
     match (axis, angle_deg) {
         (Some(_), None) => {
-            return Err(ExperimentError::missing(
-                at.key("angle_deg").to_key_path(),
-                "the angle about `axis`",
-            ));
+            return Err(ExperimentError::missing(at.key("angle_deg").to_key_path(), "the angle about `axis`"));
         }
         (None, Some(_)) => {
-            return Err(ExperimentError::missing(
-                at.key("axis").to_key_path(),
-                "the axis of `angle_deg`",
-            ));
+            return Err(ExperimentError::missing(at.key("axis").to_key_path(), "the axis of `angle_deg`"));
         }
         _ => {}
     }
     axis.map_or(Ok(()), |axis| direction(&axis, at.key("axis")))?;
     match quaternion_xyzw {
-        Some(q) if q.iter().all(|x| *x == 0.0) => Err(unexpected(
-            at.key("quaternion_xyzw"),
-            "a rotation",
-            "the zero quaternion",
-        )),
+        Some(q) if q.iter().all(|x| *x == 0.0) => {
+            Err(unexpected(at.key("quaternion_xyzw"), "a rotation", "the zero quaternion"))
+        }
         _ => Ok(()),
     }
 }
@@ -226,23 +180,12 @@ fn validate_orientation(orientation: &Orientation, at: Path) -> Result<()> {
 fn validate_spin(body: &Body, at: Path) -> Result<()> {
     let (world, local) = (at.key("angular_velocity_rad_s"), at.key("angular_velocity_body_rad_s"));
     if body.angular_velocity_rad_s.is_some() && body.angular_velocity_body_rad_s.is_some() {
-        return Err(unexpected(
-            local,
-            "either `angular_velocity_rad_s` or `angular_velocity_body_rad_s`",
-            "both",
-        ));
+        return Err(unexpected(local, "either `angular_velocity_rad_s` or `angular_velocity_body_rad_s`", "both"));
     }
     let is_point = body.shape == Shape::None && body.inertia_kg_m2.is_none();
-    for (velocity, at) in [
-        (body.angular_velocity_rad_s, world),
-        (body.angular_velocity_body_rad_s, local),
-    ] {
+    for (velocity, at) in [(body.angular_velocity_rad_s, world), (body.angular_velocity_body_rad_s, local)] {
         if is_point && velocity.is_some_and(|w| w != [0.0; 3]) {
-            return Err(unexpected(
-                at,
-                "no rotation, as a point without `inertia_kg_m2` cannot spin",
-                "one",
-            ));
+            return Err(unexpected(at, "no rotation, as a point without `inertia_kg_m2` cannot spin", "one"));
         }
     }
     Ok(())

@@ -18,10 +18,7 @@ type Result<T> = std::result::Result<T, ExperimentError>;
 
 /// A `T` from the value that stands at `base`.
 pub fn from_value<T: DeserializeOwned>(value: &Value, base: &KeyPath) -> Result<T> {
-    T::deserialize(Node {
-        value: Some(value),
-        path: Path::Base(base),
-    })
+    T::deserialize(Node { value: Some(value), path: Path::Base(base) })
 }
 
 /// The name of a list item, when it has one.
@@ -65,10 +62,7 @@ impl<'de, 'p> Node<'de, 'p> {
     }
 
     fn finite(&self, number: &Number) -> Result<f64> {
-        number
-            .as_f64()
-            .filter(|x| x.is_finite())
-            .ok_or_else(|| self.unexpected("a finite number"))
+        number.as_f64().filter(|x| x.is_finite()).ok_or_else(|| self.unexpected("a finite number"))
     }
 
     /// An empty section (`diverge:` with nothing below) is an empty mapping.
@@ -104,11 +98,7 @@ impl<'de, 'p> Node<'de, 'p> {
                 if let Some((second, _)) = mapping.iter().skip(1).last() {
                     let path = self.path.key(second.as_str().unwrap_or_default()).to_key_path();
                     let found = format!("`{}` beside `{word}`", key_text(second));
-                    return Err(ExperimentError::unexpected(
-                        path,
-                        &format!("only {}", expected()),
-                        &found,
-                    ));
+                    return Err(ExperimentError::unexpected(path, &format!("only {}", expected()), &found));
                 }
                 Ok((word, Some(content)))
             }
@@ -151,10 +141,7 @@ fn whole(number: &Number) -> Option<u64> {
     const EXACT: f64 = 9_007_199_254_740_992.0;
     match number.as_u64() {
         Some(n) => Some(n),
-        None => number
-            .as_f64()
-            .filter(|x| x.fract() == 0.0 && (0.0..=EXACT).contains(x))
-            .map(|x| x as u64),
+        None => number.as_f64().filter(|x| x.fract() == 0.0 && (0.0..=EXACT).contains(x)).map(|x| x as u64),
     }
 }
 
@@ -264,11 +251,7 @@ impl<'de> Deserializer<'de> for Node<'de, '_> {
         visitor: V,
     ) -> Result<V::Value> {
         let (word, content) = self.variant(name, variants)?;
-        self.located(visitor.visit_enum(Word {
-            word,
-            content,
-            path: &self.path,
-        }))
+        self.located(visitor.visit_enum(Word { word, content, path: &self.path }))
     }
 
     forward_to_deserialize_any! {
@@ -284,10 +267,7 @@ struct Items<'de, 'p> {
 
 impl<'de, 'p> Items<'de, 'p> {
     fn new(items: &'de [Value], path: &'p Path<'p>) -> Self {
-        Items {
-            items: items.iter().enumerate(),
-            path,
-        }
+        Items { items: items.iter().enumerate(), path }
     }
 }
 
@@ -299,11 +279,7 @@ impl<'de> SeqAccess<'de> for Items<'de, '_> {
             return Ok(None);
         };
         let path = self.path.item(index, item_name(value));
-        seed.deserialize(Node {
-            value: Some(value),
-            path,
-        })
-        .map(Some)
+        seed.deserialize(Node { value: Some(value), path }).map(Some)
     }
 
     fn size_hint(&self) -> Option<usize> {
@@ -321,11 +297,7 @@ struct Entries<'de, 'p> {
 
 impl<'de, 'p> Entries<'de, 'p> {
     fn new(mapping: Option<&'de Mapping>, path: &'p Path<'p>) -> Self {
-        Entries {
-            entries: mapping.map(Mapping::iter),
-            current: None,
-            path,
-        }
+        Entries { entries: mapping.map(Mapping::iter), current: None, path }
     }
 }
 
@@ -337,11 +309,7 @@ impl<'de> MapAccess<'de> for Entries<'de, '_> {
             return Ok(None);
         };
         let Value::String(key) = key else {
-            return Err(ExperimentError::unexpected(
-                self.path.to_key_path(),
-                "keys that are text",
-                &describe(key),
-            ));
+            return Err(ExperimentError::unexpected(self.path.to_key_path(), "keys that are text", &describe(key)));
         };
         self.current = Some((key, value));
         seed.deserialize(BorrowedStrDeserializer::new(key)).map(Some)
@@ -351,10 +319,7 @@ impl<'de> MapAccess<'de> for Entries<'de, '_> {
         let Some((key, value)) = self.current.take() else {
             return Err(serde::de::Error::custom("a value was asked for before its key"));
         };
-        seed.deserialize(Node {
-            value: Some(value),
-            path: self.path.key(key),
-        })
+        seed.deserialize(Node { value: Some(value), path: self.path.key(key) })
     }
 }
 
@@ -367,10 +332,7 @@ struct Word<'de, 'p> {
 
 impl<'de, 'p> Word<'de, 'p> {
     fn settings(&'p self) -> Node<'de, 'p> {
-        Node {
-            value: self.content,
-            path: self.path.key(self.word),
-        }
+        Node { value: self.content, path: self.path.key(self.word) }
     }
 }
 

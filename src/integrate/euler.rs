@@ -9,7 +9,14 @@ use crate::state::BodyState;
 use nalgebra::Vector3;
 
 /// One step of a body under a constant acceleration.
-pub fn step(body: &Body, at: &mut BodyState, acceleration: &Vector3<f64>, update: Update, step_s: f64, work: &mut Work) {
+pub fn step(
+    body: &Body,
+    at: &mut BodyState,
+    acceleration: &Vector3<f64>,
+    update: Update,
+    step_s: f64,
+    work: &mut Work,
+) {
     let old = *at;
     at.v_WB += acceleration * step_s;
     if !body.isotropic {

@@ -160,7 +160,8 @@ fn first_state(described: &file::Body, body: &Body, scene: &file::Scene, seed: u
 }
 
 fn attitude(orientation: &file::Orientation) -> UnitQuaternion<f64> {
-    let about = |axis: Vector3<f64>, deg: f64| UnitQuaternion::from_axis_angle(&Unit::new_normalize(axis), deg.to_radians());
+    let about =
+        |axis: Vector3<f64>, deg: f64| UnitQuaternion::from_axis_angle(&Unit::new_normalize(axis), deg.to_radians());
     if let Some([x, y, z, w]) = orientation.quaternion_xyzw {
         return UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
     }

@@ -57,10 +57,16 @@ pub enum Geometry {
     /// A point without contact.
     None,
     /// Nodes of a volume mesh (L18).
-    Mesh { nodes: Vec<Vector3<f64>>, mesh: TetMesh },
+    Mesh {
+        nodes: Vec<Vector3<f64>>,
+        mesh: TetMesh,
+    },
     /// A box's eight corners.
     Corners(Vec<Vector3<f64>>),
-    Sphere { centre: Vector3<f64>, radius_m: f64 },
+    Sphere {
+        centre: Vector3<f64>,
+        radius_m: f64,
+    },
 }
 
 impl Body {

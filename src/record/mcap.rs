@@ -39,12 +39,13 @@ pub struct McapRecorder {
 
 impl McapRecorder {
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordError> {
-        let failed = |error: &dyn std::fmt::Display| RecordError::new(path, error);
-        let file = File::create(path).map_err(|error| failed(&error))?;
-        let mut out = Out::new(file, &header.program).map_err(|error| failed(&error))?;
-        let channels = out.head(header).map_err(|error| failed(&error))?;
-        out.send(channels.scene, 0, 0, &surfaces(header))
-            .map_err(|error| failed(&error))?;
+        Self::try_create(path, header).map_err(|error| RecordError::caused(path, &error))
+    }
+
+    fn try_create(path: &Path, header: &Header) -> McapResult<Self> {
+        let mut out = Out::new(File::create(path)?, &header.program)?;
+        let channels = out.head(header)?;
+        out.send(channels.scene, 0, 0, &surfaces(header))?;
         Ok(McapRecorder {
             path: path.to_path_buf(),
             streams: header.streams,
@@ -57,12 +58,7 @@ impl McapRecorder {
     }
 
     fn sample(&mut self, sample: &Sample<'_>) -> McapResult<()> {
-        let Self {
-            out,
-            channels,
-            messages,
-            ..
-        } = self;
+        let Self { out, channels, messages, .. } = self;
         let time_ns = schema::time_ns(sample.time_s);
         if let Some(channel) = channels.bodies {
             out.send(channel, time_ns, sample.step, messages.bodies(sample))?;
@@ -83,8 +79,7 @@ impl McapRecorder {
 
     fn picture(&mut self, sample: &Sample<'_>, time_ns: u64) -> McapResult<()> {
         if let Some(channel) = self.channels.transforms {
-            self.out
-                .send(channel, time_ns, sample.step, self.scene.transforms(sample, time_ns))?;
+            self.out.send(channel, time_ns, sample.step, self.scene.transforms(sample, time_ns))?;
         }
         if let Some(channel) = self.channels.scene_contacts
             && let Some(update) = self.scene.contacts(sample, time_ns)
@@ -98,14 +93,12 @@ impl McapRecorder {
 impl Recorder for McapRecorder {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
         let bodies = self.messages.bodies.bodies.len();
-        batch
-            .check(self.streams, bodies)
-            .map_err(|reason| RecordError::new(&self.path, reason))?;
+        batch.check(self.streams, bodies).map_err(|reason| RecordError::new(&self.path, reason))?;
         batch
             .samples()
             .try_for_each(|sample| self.sample(&sample))
             .and_then(|()| self.out.writer.flush())
-            .map_err(|error| RecordError::new(&self.path, error))
+            .map_err(|error| RecordError::caused(&self.path, &error))
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
@@ -114,12 +107,12 @@ impl Recorder for McapRecorder {
         self.out
             .send(self.channels.log, time_ns, event.step, &log)
             .and_then(|()| self.out.writer.flush())
-            .map_err(|error| RecordError::new(&self.path, error))
+            .map_err(|error| RecordError::caused(&self.path, &error))
     }
 
     fn finish(self: Box<Self>) -> Result<(), RecordError> {
         let McapRecorder { path, out, .. } = *self;
-        close(out.writer).map_err(|error| RecordError::new(&path, error))
+        close(out.writer).map_err(|error| RecordError::caused(&path, &error))
     }
 }
 
@@ -156,10 +149,7 @@ impl Out {
             .compression_threads(0)
             .chunk_size(Some(CHUNK_BYTES))
             .create(BufWriter::new(file))?;
-        Ok(Out {
-            writer,
-            buffer: Vec::new(),
-        })
+        Ok(Out { writer, buffer: Vec::new() })
     }
 
     /// Configuration, versions and channels, before the first sample.
@@ -183,35 +173,19 @@ impl Out {
             })
             .transpose()
         };
-        let contacts_topic = if streams.contacts {
-            schema::CONTACTS
-        } else {
-            schema::FORCES
-        };
+        let contacts_topic = if streams.contacts { schema::CONTACTS } else { schema::FORCES };
         let bodies = own_channel(streams.bodies, schema::BODIES, "Bodies")?;
         let contacts = own_channel(streams.any_contact(), contacts_topic, "Contacts")?;
         let energy = own_channel(streams.energy, schema::ENERGY, "Energy")?;
 
         use foxglove::messages::{FrameTransforms, Log, SceneUpdate};
-        let transforms = streams
-            .bodies
-            .then(|| self.foxglove_channel::<FrameTransforms>(schema::TRANSFORMS))
-            .transpose()?;
-        let scene_contacts = streams
-            .any_contact()
-            .then(|| self.foxglove_channel::<SceneUpdate>(schema::SCENE_CONTACTS))
-            .transpose()?;
+        let transforms =
+            streams.bodies.then(|| self.foxglove_channel::<FrameTransforms>(schema::TRANSFORMS)).transpose()?;
+        let scene_contacts =
+            streams.any_contact().then(|| self.foxglove_channel::<SceneUpdate>(schema::SCENE_CONTACTS)).transpose()?;
         let scene = self.foxglove_channel::<SceneUpdate>(schema::SCENE)?;
         let log = self.foxglove_channel::<Log>(schema::LOG)?;
-        Ok(Channels {
-            bodies,
-            contacts,
-            energy,
-            transforms,
-            scene,
-            scene_contacts,
-            log,
-        })
+        Ok(Channels { bodies, contacts, energy, transforms, scene, scene_contacts, log })
     }
 
     fn foxglove_channel<T: Encode>(&mut self, topic: &str) -> McapResult<u16> {
@@ -220,8 +194,7 @@ impl Out {
             // The format's number for "no schema".
             None => 0,
         };
-        self.writer
-            .add_channel(id, topic, &T::get_message_encoding(), &BTreeMap::new())
+        self.writer.add_channel(id, topic, &T::get_message_encoding(), &BTreeMap::new())
     }
 
     fn send(&mut self, channel_id: u16, time_ns: u64, step: u64, message: &impl Message) -> McapResult<()> {
@@ -229,12 +202,7 @@ impl Out {
         // Encoding into a growing buffer cannot fail.
         message.encode_raw(&mut self.buffer);
         // The format's number has 32 bits; the messages hold all 64.
-        let header = MessageHeader {
-            channel_id,
-            sequence: step as u32,
-            log_time: time_ns,
-            publish_time: time_ns,
-        };
+        let header = MessageHeader { channel_id, sequence: step as u32, log_time: time_ns, publish_time: time_ns };
         self.writer.write_to_known_channel(&header, &self.buffer)
     }
 }
@@ -248,14 +216,8 @@ fn metadata(header: &Header) -> Metadata {
         ("step_s", header.step_s.to_string()),
         ("sample_every_s", header.sample_every_s.to_string()),
     ];
-    let metadata = entries
-        .into_iter()
-        .map(|(key, value)| (key.to_owned(), value))
-        .collect();
-    Metadata {
-        name: schema::METADATA.to_owned(),
-        metadata,
-    }
+    let metadata = entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+    Metadata { name: schema::METADATA.to_owned(), metadata }
 }
 
 /// Messages that are filled again for every sample; their memory and the bodies' names stay.
@@ -266,15 +228,9 @@ struct Messages {
 
 impl Messages {
     fn new(headers: &[BodyHeader]) -> Self {
-        let state = |body: &BodyHeader| schema::BodyState {
-            name: body.name.clone(),
-            ..Default::default()
-        };
+        let state = |body: &BodyHeader| schema::BodyState { name: body.name.clone(), ..Default::default() };
         Messages {
-            bodies: schema::Bodies {
-                bodies: headers.iter().map(state).collect(),
-                ..Default::default()
-            },
+            bodies: schema::Bodies { bodies: headers.iter().map(state).collect(), ..Default::default() },
             contacts: schema::Contacts::default(),
         }
     }
@@ -283,10 +239,10 @@ impl Messages {
         let message = &mut self.bodies;
         (message.time_s, message.step) = (sample.time_s, sample.step);
         for (state, body) in message.bodies.iter_mut().zip(sample.bodies) {
-            state.position_m = body.position_m.into();
-            state.orientation_xyzw = body.orientation_xyzw.into();
-            state.velocity_m_s = body.velocity_m_s.into();
-            state.angular_velocity_rad_s = body.angular_velocity_rad_s.into();
+            set(&mut state.position_m, &body.position_m);
+            set(&mut state.orientation_xyzw, &body.orientation_xyzw);
+            set(&mut state.velocity_m_s, &body.velocity_m_s);
+            set(&mut state.angular_velocity_rad_s, &body.angular_velocity_rad_s);
         }
         message
     }
@@ -296,15 +252,13 @@ impl Messages {
         let bodies = &self.bodies.bodies;
         let name = |body: u32| bodies.get(body as usize).map_or("", |state| &state.name);
         (message.time_s, message.step) = (sample.time_s, sample.step);
-        message
-            .contacts
-            .resize_with(sample.contacts.len(), schema::Contact::default);
+        message.contacts.resize_with(sample.contacts.len(), schema::Contact::default);
         for (to, from) in message.contacts.iter_mut().zip(sample.contacts) {
             name(from.body).clone_into(&mut to.body);
             from.other.map_or(schema::CONTAINER, name).clone_into(&mut to.other);
-            to.point_m = from.point_m.into();
-            to.normal = streams.contacts.then(|| from.normal.into());
-            to.force_n = streams.forces.then(|| from.force_n.into());
+            set(&mut to.point_m, &from.point_m);
+            set(&mut to.normal, if streams.contacts { &from.normal } else { &[] });
+            set(&mut to.force_n, if streams.forces { &from.force_n } else { &[] });
             to.gap_m = if streams.contacts { from.gap_m } else { f64::NAN };
         }
         message
@@ -320,4 +274,9 @@ impl Messages {
             penetration_m: energy.penetration_m,
         }
     }
+}
+
+fn set(array: &mut Vec<f64>, values: &[f64]) {
+    array.clear();
+    array.extend_from_slice(values);
 }

@@ -14,6 +14,7 @@ pub mod schema;
 pub mod writer;
 
 use sample::{Batch, Event};
+use std::error::Error;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
@@ -36,9 +37,21 @@ pub struct RecordError {
 
 impl RecordError {
     pub fn new(path: &Path, reason: impl Display) -> Self {
-        RecordError {
-            path: path.to_path_buf(),
-            reason: reason.to_string(),
+        RecordError { path: path.to_path_buf(), reason: reason.to_string() }
+    }
+
+    /// With every cause: libraries say "cannot write" and keep "no space left" for the next in the chain.
+    pub fn caused(path: &Path, error: &dyn Error) -> Self {
+        let mut reason = error.to_string();
+        let mut cause = error.source();
+        while let Some(error) = cause {
+            let text = error.to_string();
+            // Some errors repeat their cause.
+            if !reason.contains(&text) {
+                reason = format!("{reason}: {text}");
+            }
+            cause = error.source();
         }
+        RecordError::new(path, reason)
     }
 }

@@ -55,7 +55,7 @@ pub struct RerunRecorder {
 
 impl RerunRecorder {
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordError> {
-        Self::try_create(path, header).map_err(|error| RecordError::new(path, error))
+        Self::try_create(path, header).map_err(|error| RecordError::caused(path, error.as_ref()))
     }
 
     fn try_create(path: &Path, header: &Header) -> Result<Self, Box<dyn Error>> {
@@ -69,13 +69,7 @@ impl RerunRecorder {
         }
         out.encoder.flush_blocking()?;
         let path = path.to_path_buf();
-        Ok(RerunRecorder {
-            path,
-            streams: header.streams,
-            arrow_m_per_n: header.arrow_m_per_n,
-            bodies,
-            out,
-        })
+        Ok(RerunRecorder { path, streams: header.streams, arrow_m_per_n: header.arrow_m_per_n, bodies, out })
     }
 
     fn batch(&mut self, batch: &Batch) -> Written {
@@ -108,56 +102,40 @@ impl RerunRecorder {
             let poses = Transform3D::update_fields()
                 .with_many_translation(states().map(|body| body.position_m))
                 .with_many_quaternion(states().map(|body| body.orientation_xyzw.map(|q| q as f32)));
-            self.out
-                .columns(path.clone(), times, poses.columns_of_unit_batches()?)?;
+            self.out.columns(path.clone(), times, poses.columns_of_unit_batches()?)?;
         }
         Ok(())
     }
 
     fn contact_points(&mut self, batch: &Batch, times: &Times) -> Written {
         let points = Points3D::update_fields().with_positions(batch.contacts.iter().map(|contact| contact.point_m));
-        self.out
-            .columns(CONTACTS.into(), times, points.columns(lengths(batch))?)?;
-        self.out.scalars(
-            CONTACT_COUNT.into(),
-            times,
-            batch.contacts_len.iter().map(|&len| f64::from(len)),
-        )
+        self.out.columns(CONTACTS.into(), times, points.columns(lengths(batch))?)?;
+        self.out.scalars(CONTACT_COUNT.into(), times, batch.contacts_len.iter().map(|&len| f64::from(len)))
     }
 
     fn forces(&mut self, batch: &Batch, times: &Times) -> Written {
         let arrows = Arrows3D::update_fields()
-            .with_vectors(
-                batch
-                    .contacts
-                    .iter()
-                    .map(|contact| contact.force_n.map(|f| f * self.arrow_m_per_n)),
-            )
+            .with_vectors(batch.contacts.iter().map(|contact| contact.force_n.map(|f| f * self.arrow_m_per_n)))
             .with_origins(batch.contacts.iter().map(|contact| contact.point_m));
-        self.out
-            .columns(FORCES.into(), times, arrows.columns(lengths(batch))?)?;
-        let sums = batch
-            .samples()
-            .map(|sample| sample.contacts.iter().map(|contact| norm(contact.force_n)).sum());
+        self.out.columns(FORCES.into(), times, arrows.columns(lengths(batch))?)?;
+        let sums = batch.samples().map(|sample| sample.contacts.iter().map(|contact| norm(contact.force_n)).sum());
         self.out.scalars(CONTACT_FORCE.into(), times, sums)
     }
 }
 
 impl Recorder for RerunRecorder {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
-        self.batch(batch).map_err(|error| RecordError::new(&self.path, error))
+        self.batch(batch).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        self.out
-            .event(event)
-            .map_err(|error| RecordError::new(&self.path, error))
+        self.out.event(event).map_err(|error| RecordError::new(&self.path, error))
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), RecordError> {
         let encoder = &mut self.out.encoder;
         let finished = encoder.finish().and_then(|()| encoder.flush_blocking());
-        finished.map_err(|error| RecordError::new(&self.path, error))
+        finished.map_err(|error| RecordError::caused(&self.path, &error))
     }
 }
 
@@ -175,14 +153,10 @@ impl Out {
         times: &Times,
         columns: impl Iterator<Item = SerializedComponentColumn>,
     ) -> Written {
-        let timelines = times
-            .iter()
-            .map(|column| (*column.timeline().name(), column.clone()))
-            .collect();
+        let timelines = times.iter().map(|column| (*column.timeline().name(), column.clone())).collect();
         let components = columns.map(|column| (column.descriptor, column.list_array)).collect();
         let chunk = Chunk::from_auto_row_ids(ChunkId::new(), path, timelines, components)?;
-        self.encoder
-            .append(&LogMsg::ArrowMsg(self.store.clone(), chunk.to_arrow_msg()?))?;
+        self.encoder.append(&LogMsg::ArrowMsg(self.store.clone(), chunk.to_arrow_msg()?))?;
         Ok(())
     }
 
@@ -196,14 +170,8 @@ impl Out {
             super::sample::Severity::Info => TextLogLevel::INFO,
             super::sample::Severity::Warning => TextLogLevel::WARN,
         };
-        let text = TextLog::update_fields()
-            .with_many_text([event.text.as_str()])
-            .with_many_level([level]);
-        self.columns(
-            LOG.into(),
-            &times(&[event.step], &[event.time_s]),
-            text.columns_of_unit_batches()?,
-        )?;
+        let text = TextLog::update_fields().with_many_text([event.text.as_str()]).with_many_level([level]);
+        self.columns(LOG.into(), &times(&[event.step], &[event.time_s]), text.columns_of_unit_batches()?)?;
         Ok(self.encoder.flush_blocking()?)
     }
 }

@@ -61,10 +61,7 @@ impl Header {
     pub fn container_box_m(&self) -> Option<([f64; 3], [f64; 3])> {
         self.container_strips_m.iter().flatten().fold(None, |corners, p| {
             let (low, high) = corners.unwrap_or((*p, *p));
-            Some((
-                std::array::from_fn(|i| low[i].min(p[i])),
-                std::array::from_fn(|i| high[i].max(p[i])),
-            ))
+            Some((std::array::from_fn(|i| low[i].min(p[i])), std::array::from_fn(|i| high[i].max(p[i]))))
         })
     }
 
@@ -74,11 +71,7 @@ impl Header {
             let d: [f64; 3] = std::array::from_fn(|i| high[i] - low[i]);
             (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
         });
-        let largest_m = self
-            .bodies
-            .iter()
-            .map(|body| 2.0 * body.bounding_radius_m)
-            .fold(0.0, f64::max);
+        let largest_m = self.bodies.iter().map(|body| 2.0 * body.bounding_radius_m).fold(0.0, f64::max);
         diagonal_m.unwrap_or(largest_m)
     }
 }

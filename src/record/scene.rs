@@ -38,13 +38,8 @@ impl Scene {
             streams: header.streams,
             size_m: header.scene_size_m(),
             arrow_m_per_n: header.arrow_m_per_n,
-            transforms: FrameTransforms {
-                transforms: header.bodies.iter().map(frame).collect(),
-            },
-            contacts: SceneUpdate {
-                entities: vec![entity("contacts", schema::WORLD)],
-                ..Default::default()
-            },
+            transforms: FrameTransforms { transforms: header.bodies.iter().map(frame).collect() },
+            contacts: SceneUpdate { entities: vec![entity("contacts", schema::WORLD)], ..Default::default() },
             blank: true,
         }
     }
@@ -71,17 +66,10 @@ impl Scene {
             entity.spheres.clear();
             entity.arrows.clear();
             if self.streams.contacts {
-                entity
-                    .spheres
-                    .extend(sample.contacts.iter().map(|contact| sphere(contact, size_m)));
+                entity.spheres.extend(sample.contacts.iter().map(|contact| sphere(contact, size_m)));
             }
             if self.streams.forces {
-                entity.arrows.extend(
-                    sample
-                        .contacts
-                        .iter()
-                        .map(|contact| arrow(contact, size_m, arrow_m_per_n)),
-                );
+                entity.arrows.extend(sample.contacts.iter().map(|contact| arrow(contact, size_m, arrow_m_per_n)));
             }
         }
         Some(&self.contacts)
@@ -108,15 +96,9 @@ pub fn surfaces(header: &Header) -> SceneUpdate {
         color: Some(color(schema::CONTAINER_COLOUR)),
         ..Default::default()
     });
-    let container = SceneEntity {
-        lines: lines.collect(),
-        ..entity(schema::CONTAINER, schema::WORLD)
-    };
+    let container = SceneEntity { lines: lines.collect(), ..entity(schema::CONTAINER, schema::WORLD) };
     let drawn = !container.lines.is_empty();
-    SceneUpdate {
-        entities: drawn.then_some(container).into_iter().chain(bodies).collect(),
-        ..Default::default()
-    }
+    SceneUpdate { entities: drawn.then_some(container).into_iter().chain(bodies).collect(), ..Default::default() }
 }
 
 pub fn log(event: &Event, time_ns: u64) -> Log {
@@ -147,10 +129,7 @@ fn entity(id: &str, frame: &str) -> SceneEntity {
 fn sphere(contact: &ContactSample, size_m: f64) -> SpherePrimitive {
     let diameter_m = POINT_PART * size_m;
     SpherePrimitive {
-        pose: Some(Pose {
-            position: Some(vector(contact.point_m)),
-            orientation: Some(along_x([1.0, 0.0, 0.0])),
-        }),
+        pose: Some(Pose { position: Some(vector(contact.point_m)), orientation: Some(along_x([1.0, 0.0, 0.0])) }),
         size: Some(vector([diameter_m; 3])),
         color: Some(color(schema::CONTACT_COLOUR)),
     }
@@ -160,19 +139,12 @@ fn sphere(contact: &ContactSample, size_m: f64) -> SpherePrimitive {
 fn arrow(contact: &ContactSample, size_m: f64, arrow_m_per_n: f64) -> ArrowPrimitive {
     let [x, y, z] = contact.force_n;
     let force_n = (x * x + y * y + z * z).sqrt();
-    let direction = if force_n > 0.0 {
-        contact.force_n.map(|f| f / force_n)
-    } else {
-        [1.0, 0.0, 0.0]
-    };
+    let direction = if force_n > 0.0 { contact.force_n.map(|f| f / force_n) } else { [1.0, 0.0, 0.0] };
     let length_m = force_n * arrow_m_per_n;
     let shaft_m = SHAFT_PART * size_m;
     let head_m = (3.0 * shaft_m).min(length_m);
     ArrowPrimitive {
-        pose: Some(Pose {
-            position: Some(vector(contact.point_m)),
-            orientation: Some(along_x(direction)),
-        }),
+        pose: Some(Pose { position: Some(vector(contact.point_m)), orientation: Some(along_x(direction)) }),
         shaft_length: length_m - head_m,
         shaft_diameter: shaft_m,
         head_length: head_m,
@@ -186,19 +158,9 @@ fn along_x([x, y, z]: [f64; 3]) -> Quaternion {
     let half = (2.0 * (1.0 + x)).sqrt();
     // Opposite to the x axis the shortest turn is not unique, and close to it badly conditioned.
     if half < 1e-9 {
-        return Quaternion {
-            x: 0.0,
-            y: 1.0,
-            z: 0.0,
-            w: 0.0,
-        };
+        return Quaternion { x: 0.0, y: 1.0, z: 0.0, w: 0.0 };
     }
-    Quaternion {
-        x: 0.0,
-        y: -z / half,
-        z: y / half,
-        w: 0.5 * half,
-    }
+    Quaternion { x: 0.0, y: -z / half, z: y / half, w: 0.5 * half }
 }
 
 fn vector([x, y, z]: [f64; 3]) -> Vector3 {
@@ -211,12 +173,7 @@ fn point([x, y, z]: [f64; 3]) -> Point3 {
 
 fn color([r, g, b]: Rgb) -> Color {
     let part = |channel| f64::from(channel) / 255.0;
-    Color {
-        r: part(r),
-        g: part(g),
-        b: part(b),
-        a: 1.0,
-    }
+    Color { r: part(r), g: part(g), b: part(b), a: 1.0 }
 }
 
 fn timestamp(time_ns: u64) -> Timestamp {

@@ -49,13 +49,7 @@ impl Writer {
             .name("record".to_owned())
             .spawn(move || record(sinks, &inbox, &outbox))
             .map_err(|error| RecordError::new(Path::new("recordings"), format!("no recording thread: {error}")))?;
-        Ok(Writer {
-            filling: Batch::default(),
-            made: 1,
-            full,
-            empty,
-            thread: Some(thread),
-        })
+        Ok(Writer { filling: Batch::default(), made: 1, full, empty, thread: Some(thread) })
     }
 
     /// The batch being filled: push one entry to each column of a stream that is on, then call `sample_done`.
@@ -111,13 +105,8 @@ impl Writer {
             Some(Ok(result)) => result,
             Some(Err(panic)) => {
                 let text = panic.downcast_ref::<String>().map(String::as_str);
-                let text = text
-                    .or(panic.downcast_ref::<&str>().copied())
-                    .unwrap_or("for no stated reason");
-                Err(RecordError::new(
-                    Path::new("recordings"),
-                    format!("the recording thread panicked: {text}"),
-                ))
+                let text = text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("for no stated reason");
+                Err(RecordError::new(Path::new("recordings"), format!("the recording thread panicked: {text}")))
             }
             None => Ok(()),
         }
@@ -187,11 +176,8 @@ pub enum Target {
 
 impl Target {
     /// Every kind that this build can write.
-    pub const AVAILABLE: &[Target] = if cfg!(feature = "rerun") {
-        &[Target::Rerun, Target::Mcap]
-    } else {
-        &[Target::Mcap]
-    };
+    pub const AVAILABLE: &[Target] =
+        if cfg!(feature = "rerun") { &[Target::Rerun, Target::Mcap] } else { &[Target::Mcap] };
 
     pub fn extension(self) -> &'static str {
         match self {
@@ -209,11 +195,7 @@ pub fn open(targets: &[Target], dir: &Path, header: &Header) -> Result<Writer, R
         let partial = dir.join(format!("{}.partial.{}", header.case, target.extension()));
         let complete = dir.join(format!("{}.{}", header.case, target.extension()));
         let file = create(target, &partial, header)?;
-        sinks.push(Box::new(Renamed {
-            file,
-            partial,
-            complete,
-        }));
+        sinks.push(Box::new(Renamed { file, partial, complete }));
     }
     Writer::start(sinks)
 }
@@ -224,10 +206,7 @@ fn create(target: Target, path: &Path, header: &Header) -> Result<Box<dyn Record
         #[cfg(feature = "rerun")]
         Target::Rerun => Ok(Box::new(super::rerun::RerunRecorder::create(path, header)?)),
         #[cfg(not(feature = "rerun"))]
-        Target::Rerun => Err(RecordError::new(
-            path,
-            "this build has no Rerun (cargo feature `rerun`)",
-        )),
+        Target::Rerun => Err(RecordError::new(path, "this build has no Rerun (cargo feature `rerun`)")),
     }
 }
 
@@ -249,6 +228,6 @@ impl Recorder for Renamed {
 
     fn finish(self: Box<Self>) -> Result<(), RecordError> {
         self.file.finish()?;
-        std::fs::rename(&self.partial, &self.complete).map_err(|error| RecordError::new(&self.complete, error))
+        std::fs::rename(&self.partial, &self.complete).map_err(|error| RecordError::caused(&self.complete, &error))
     }
 }

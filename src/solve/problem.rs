@@ -123,9 +123,7 @@ impl ContactProblem {
     /// A as a dense matrix, 3L × 3L.
     pub fn A(&self) -> DMatrix<f64> {
         let n = self.blocks.len();
-        DMatrix::from_fn(3 * n, 3 * n, |i, j| {
-            self.blocks[i / 3].coupling(&self.blocks[j / 3])[(i % 3, j % 3)]
-        })
+        DMatrix::from_fn(3 * n, 3 * n, |i, j| self.blocks[i / 3].coupling(&self.blocks[j / 3])[(i % 3, j % 3)])
     }
 
     pub fn b(&self) -> DVector<f64> {

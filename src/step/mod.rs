@@ -14,8 +14,8 @@ use crate::integrate::rotation::{turn_at_momentum, turn_literally, w_from_moment
 use crate::measure::work::Work;
 use crate::model::{Body, Model};
 use crate::plan::Plan;
-use crate::solve::{Impulse, gauss_seidel};
 use crate::solve::problem::{ContactProblem, Twist};
+use crate::solve::{Impulse, gauss_seidel};
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
@@ -126,7 +126,9 @@ impl Scratch {
         self.work.contact_solves += u64::from(!self.found.is_empty());
         self.solved.clear();
         let solved = self.found.iter().zip(&self.problem.blocks).zip(&self.impulses);
-        self.solved.extend(solved.map(|((contact, block), p)| SolvedContact { contact: *contact, impulse_W: block.in_world(p) }));
+        self.solved.extend(
+            solved.map(|((contact, block), p)| SolvedContact { contact: *contact, impulse_W: block.in_world(p) }),
+        );
         self.problem.response(&self.impulses, &mut self.response);
     }
 }

@@ -112,19 +112,13 @@ impl Axes {
 
     fn check_size(&self) -> Result<()> {
         let lengths = || self.groups.iter().map(|group| self.group_len(group));
-        let size = lengths()
-            .try_fold(1_usize, |size, len| size.checked_mul(len))
-            .filter(|size| *size <= MOST_CASES);
+        let size = lengths().try_fold(1_usize, |size, len| size.checked_mul(len)).filter(|size| *size <= MOST_CASES);
         if size.is_some() {
             return Ok(());
         }
         let found = lengths().map(|len| len.to_string()).collect::<Vec<_>>().join(" × ");
         let path = KeyPath::of_keys(&["sweep", "axes"]);
-        Err(ExperimentError::unexpected(
-            path,
-            &format!("at most {MOST_CASES} cases"),
-            &found,
-        ))
+        Err(ExperimentError::unexpected(path, &format!("at most {MOST_CASES} cases"), &found))
     }
 }
 
@@ -141,20 +135,14 @@ pub fn value_path(key: &str, index: usize) -> KeyPath {
 }
 
 fn read_axes(axes: &Mapping) -> Result<Vec<Axis>> {
-    axes.iter()
-        .map(|(key, spec)| read_axis(key.as_str().unwrap_or_default(), spec))
-        .collect()
+    axes.iter().map(|(key, spec)| read_axis(key.as_str().unwrap_or_default(), spec)).collect()
 }
 
 fn read_axis(key: &str, spec: &Value) -> Result<Axis> {
     let at = axis_path(key);
     let segments = split(key).map_err(|error| error.at(at.clone()))?;
     if segments[0] == "sweep" {
-        return Err(ExperimentError::unexpected(
-            at,
-            "a key of the experiment outside `sweep`",
-            &format!("`{key}`"),
-        ));
+        return Err(ExperimentError::unexpected(at, "a key of the experiment outside `sweep`", &format!("`{key}`")));
     }
     let values = match spec {
         Value::Sequence(items) => read_list(items, &at)?,
@@ -168,35 +156,21 @@ fn read_axis(key: &str, spec: &Value) -> Result<Axis> {
         return Err(ExperimentError::unexpected(at, "at least one value", "none"));
     }
     refuse_repeats(key, &values)?;
-    Ok(Axis {
-        path: key.to_string(),
-        segments,
-        values,
-    })
+    Ok(Axis { path: key.to_string(), segments, values })
 }
 
 fn read_list(items: &[Value], at: &KeyPath) -> Result<Vec<AxisValue>> {
     let base = Path::Base(at);
-    items
-        .iter()
-        .enumerate()
-        .map(|(i, item)| read_item(item, base.item(i, None)))
-        .collect()
+    items.iter().enumerate().map(|(i, item)| read_item(item, base.item(i, None))).collect()
 }
 
 /// `label` is no key of the vocabulary, so a mapping that has it is a labelled value.
 fn read_item(item: &Value, at: Path) -> Result<AxisValue> {
     if item.get("label").is_none() {
-        return Ok(AxisValue {
-            label: None,
-            value: item.clone(),
-        });
+        return Ok(AxisValue { label: None, value: item.clone() });
     }
     let Labelled { label, value } = from_value(item, &at.to_key_path())?;
-    Ok(AxisValue {
-        label: Some(label),
-        value,
-    })
+    Ok(AxisValue { label: Some(label), value })
 }
 
 #[derive(Deserialize)]
@@ -241,11 +215,7 @@ fn read_groups(together: &[Vec<String>], axes: &[Axis]) -> Result<Vec<Vec<usize>
             let axis = find_axis(axes, name, &together_path(g, Some(i)))?;
             if group_of[axis].replace(g).is_some() {
                 let message = format!("the axis `{name}` is named twice");
-                return Err(ExperimentError::new(
-                    Kind::Unexpected,
-                    together_path(g, Some(i)),
-                    message,
-                ));
+                return Err(ExperimentError::new(Kind::Unexpected, together_path(g, Some(i)), message));
             }
         }
         check_lengths(g, axes, &group_of)?;
@@ -262,24 +232,13 @@ fn read_groups(together: &[Vec<String>], axes: &[Axis]) -> Result<Vec<Vec<usize>
 }
 
 fn check_lengths(g: usize, axes: &[Axis], group_of: &[Option<usize>]) -> Result<()> {
-    let members = || {
-        axes.iter()
-            .zip(group_of)
-            .filter(|(_, group)| **group == Some(g))
-            .map(|(axis, _)| axis)
-    };
+    let members = || axes.iter().zip(group_of).filter(|(_, group)| **group == Some(g)).map(|(axis, _)| axis);
     let first = members().next().map_or(0, |axis| axis.values.len());
     if members().all(|axis| axis.values.len() == first) {
         return Ok(());
     }
-    let found: Vec<String> = members()
-        .map(|axis| format!("{} of {}", axis.values.len(), axis.path))
-        .collect();
-    Err(ExperimentError::unexpected(
-        together_path(g, None),
-        "axes of the same length",
-        &found.join(", "),
-    ))
+    let found: Vec<String> = members().map(|axis| format!("{} of {}", axis.values.len(), axis.path)).collect();
+    Err(ExperimentError::unexpected(together_path(g, None), "axes of the same length", &found.join(", ")))
 }
 
 fn find_axis(axes: &[Axis], name: &str, at: &KeyPath) -> Result<usize> {
@@ -290,10 +249,7 @@ fn find_axis(axes: &[Axis], name: &str, at: &KeyPath) -> Result<usize> {
 
 fn together_path(group: usize, member: Option<usize>) -> KeyPath {
     let mut path = KeyPath::of_keys(&["sweep", "together"]);
-    path.push(Segment::Item {
-        index: group,
-        name: None,
-    });
+    path.push(Segment::Item { index: group, name: None });
     if let Some(index) = member {
         path.push(Segment::Item { index, name: None });
     }
@@ -340,13 +296,7 @@ impl Form {
             Form::Log(spaced) => spaced.values(base.key("log"), logarithmic)?,
             Form::Linear(spaced) => spaced.values(base.key("linear"), linear)?,
         };
-        Ok(numbers
-            .into_iter()
-            .map(|number| AxisValue {
-                label: None,
-                value: Value::Number(number),
-            })
-            .collect())
+        Ok(numbers.into_iter().map(|number| AxisValue { label: None, value: Value::Number(number) }).collect())
     }
 }
 
@@ -375,11 +325,7 @@ impl Range {
         check_count((whole as u128).saturating_add(1), at)?;
         let hits_end = (steps - whole).abs() <= SLACK * steps.max(1.0);
         let value = |i: u64| {
-            if hits_end && i as f64 == whole {
-                to
-            } else {
-                decimal(from + i as f64 * step)
-            }
+            if hits_end && i as f64 == whole { to } else { decimal(from + i as f64 * step) }
         };
         Ok((0..=whole as u64).map(|i| Number::from(value(i))).collect())
     }
@@ -391,11 +337,7 @@ impl Range {
             (_, true) => format!("a step that leads {way}"),
             _ => return Ok(()),
         };
-        Err(ExperimentError::unexpected(
-            at.key("step").to_key_path(),
-            &expected,
-            &self.step.to_string(),
-        ))
+        Err(ExperimentError::unexpected(at.key("step").to_key_path(), &expected, &self.step.to_string()))
     }
 }
 
@@ -405,11 +347,7 @@ impl Spaced {
         check_count(u128::from(self.count), at)?;
         let (from, to) = (float(&self.from), float(&self.to));
         if self.count == 0 || (self.count == 1 && from != to) {
-            let expected = if self.count == 0 {
-                "at least 1"
-            } else {
-                "at least 2, as `from` and `to` differ"
-            };
+            let expected = if self.count == 0 { "at least 1" } else { "at least 2, as `from` and `to` differ" };
             let path = at.key("count").to_key_path();
             return Err(ExperimentError::unexpected(path, expected, &self.count.to_string()));
         }
@@ -428,9 +366,7 @@ impl Spaced {
         let is_integer = integer(&self.from).is_some() && integer(&self.to).is_some();
         let as_integer = |x: &f64| (x.fract() == 0.0).then(|| to_number(*x as i128)).flatten();
         let integers = values.iter().map(as_integer).collect::<Option<Vec<Number>>>();
-        integers
-            .filter(|_| is_integer)
-            .unwrap_or_else(|| values.iter().map(|x| Number::from(*x)).collect())
+        integers.filter(|_| is_integer).unwrap_or_else(|| values.iter().map(|x| Number::from(*x)).collect())
     }
 }
 
@@ -443,20 +379,12 @@ fn logarithmic(from: f64, to: f64, t: f64, at: Path) -> Result<f64> {
     for (key, end) in [("from", from), ("to", to)] {
         if end <= 0.0 {
             let found = error::number(end);
-            return Err(ExperimentError::unexpected(
-                at.key(key).to_key_path(),
-                "a number greater than 0",
-                &found,
-            ));
+            return Err(ExperimentError::unexpected(at.key(key).to_key_path(), "a number greater than 0", &found));
         }
     }
     let ratio = to / from;
     let is_normal = ratio.is_normal();
-    Ok(if is_normal {
-        from * libm::pow(ratio, t)
-    } else {
-        libm::pow(from, 1.0 - t) * libm::pow(to, t)
-    })
+    Ok(if is_normal { from * libm::pow(ratio, t) } else { libm::pow(from, 1.0 - t) * libm::pow(to, t) })
 }
 
 /// To 15 significant digits: what a decimal step means (0.3), instead of the rounding of its multiples
@@ -470,25 +398,15 @@ fn check_count(count: u128, at: Path) -> Result<()> {
         return Ok(());
     }
     let expected = format!("at most {MOST_VALUES} values");
-    Err(ExperimentError::unexpected(
-        at.to_key_path(),
-        &expected,
-        &count.to_string(),
-    ))
+    Err(ExperimentError::unexpected(at.to_key_path(), &expected, &count.to_string()))
 }
 
 fn integer(number: &Number) -> Option<i128> {
-    number
-        .as_i64()
-        .map(i128::from)
-        .or_else(|| number.as_u64().map(i128::from))
+    number.as_i64().map(i128::from).or_else(|| number.as_u64().map(i128::from))
 }
 
 fn to_number(n: i128) -> Option<Number> {
-    i64::try_from(n)
-        .map(Number::from)
-        .or_else(|_| u64::try_from(n).map(Number::from))
-        .ok()
+    i64::try_from(n).map(Number::from).or_else(|_| u64::try_from(n).map(Number::from)).ok()
 }
 
 /// A `Number` always converts; the reader of values has refused what is not finite.

@@ -66,13 +66,7 @@ impl PlanFile {
         }
         let cases: Vec<_> = cases.iter().map(|c| PlanCase { case: c.id.clone(), at: c.axes.clone() }).collect();
         let digest = Sha256::digest(json!([&axes, &cases]).to_string());
-        PlanFile {
-            program: PROGRAM.to_string(),
-            build: BUILD.to_string(),
-            hash: hex(&digest[..8]),
-            axes,
-            cases,
-        }
+        PlanFile { program: PROGRAM.to_string(), build: BUILD.to_string(), hash: hex(&digest[..8]), axes, cases }
     }
 }
 

@@ -11,11 +11,7 @@ fn axes(lines: &str) -> Axes {
 }
 
 fn shown(spec: &str) -> Vec<String> {
-    axes(&format!("    time.end_s: {spec}\n")).axes[0]
-        .values
-        .iter()
-        .map(|value| value.shown())
-        .collect()
+    axes(&format!("    time.end_s: {spec}\n")).axes[0].values.iter().map(|value| value.shown()).collect()
 }
 
 #[test]
@@ -35,41 +31,20 @@ fn a_range_includes_both_ends_and_integers_stay_integers() {
 fn a_range_of_decimals_has_decimal_values() {
     let tenths = ["0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1.0"];
     assert_eq!(shown("{ range: { from: 0.1, to: 1, step: 0.1 } }"), tenths);
-    assert_eq!(
-        shown("{ range: { from: 0, to: 0.35, step: 0.1 } }"),
-        ["0.0", "0.1", "0.2", "0.3"]
-    );
+    assert_eq!(shown("{ range: { from: 0, to: 0.35, step: 0.1 } }"), ["0.0", "0.1", "0.2", "0.3"]);
 }
 
 #[test]
 fn logarithmic_and_linear_axes_meet_both_ends() {
-    assert_eq!(
-        shown("{ log: { from: 1e-3, to: 1e-1, count: 5 } }")[..3],
-        ["0.001", "0.00316227766016838", "0.01"]
-    );
-    assert_eq!(
-        shown("{ log: { from: 0.1, to: 1e-3, count: 3 } }"),
-        ["0.1", "0.01", "0.001"]
-    );
-    assert_eq!(
-        shown("{ log: { from: 2, to: 32, count: 5 } }"),
-        ["2", "4", "8", "16", "32"]
-    );
+    assert_eq!(shown("{ log: { from: 1e-3, to: 1e-1, count: 5 } }")[..3], ["0.001", "0.00316227766016838", "0.01"]);
+    assert_eq!(shown("{ log: { from: 0.1, to: 1e-3, count: 3 } }"), ["0.1", "0.01", "0.001"]);
+    assert_eq!(shown("{ log: { from: 2, to: 32, count: 5 } }"), ["2", "4", "8", "16", "32"]);
     assert_eq!(shown("{ log: { from: 1e-300, to: 1e300, count: 3 } }")[1], "1.0");
-    assert_eq!(
-        shown("{ linear: { from: 0, to: 1, count: 5 } }"),
-        ["0.0", "0.25", "0.5", "0.75", "1.0"]
-    );
+    assert_eq!(shown("{ linear: { from: 0, to: 1, count: 5 } }"), ["0.0", "0.25", "0.5", "0.75", "1.0"]);
     assert_eq!(shown("{ linear: { from: 3, to: 1, count: 3 } }"), ["3", "2", "1"]);
     assert_eq!(shown("{ linear: { from: 3, to: 3, count: 1 } }"), ["3"]);
-    let ends = axes("    time.step_s: { log: { from: 1e-3, to: 5e-2, count: 8 } }\n")
-        .axes
-        .remove(0)
-        .values;
-    assert_eq!(
-        (ends[0].value.as_f64(), ends[7].value.as_f64()),
-        (Some(1e-3), Some(5e-2))
-    );
+    let ends = axes("    time.step_s: { log: { from: 1e-3, to: 5e-2, count: 8 } }\n").axes.remove(0).values;
+    assert_eq!((ends[0].value.as_f64(), ends[7].value.as_f64()), (Some(1e-3), Some(5e-2)));
 }
 
 #[test]
@@ -85,10 +60,7 @@ fn axes_together_advance_side_by_side_in_the_place_of_the_first() {
     let axes = axes(&format!("{lines}  together: [[time.end_s, seed]]\n"));
     assert_eq!((axes.len(), axes.groups.clone()), (6, vec![vec![0, 2], vec![1]]));
     let points: Vec<Vec<usize>> = (0..axes.len()).map(|i| axes.point(i)).collect();
-    assert_eq!(
-        points,
-        [[0, 0, 0], [0, 1, 0], [0, 2, 0], [1, 0, 1], [1, 1, 1], [1, 2, 1]]
-    );
+    assert_eq!(points, [[0, 0, 0], [0, 1, 0], [0, 2, 0], [1, 0, 1], [1, 1, 1], [1, 2, 1]]);
 }
 
 #[test]
@@ -106,14 +78,7 @@ fn a_case_has_the_values_of_its_point() {
 fn a_method_is_an_axis_like_any_other() {
     let text = swept("    method.lecture.sweeps: [5]\n    method: [lecture, { lecture: { start: direct } }]\n");
     let method = file(&text, &[]).unwrap().case(&[0, 1]).unwrap().method;
-    assert_eq!(
-        method,
-        Method::Lecture(Lecture {
-            sweeps: 5,
-            start: Start::Direct,
-            ..Lecture::default()
-        })
-    );
+    assert_eq!(method, Method::Lecture(Lecture { sweeps: 5, start: Start::Direct, ..Lecture::default() }));
 }
 
 #[test]
@@ -130,30 +95,19 @@ fn a_labelled_value_is_a_whole_subtree_and_shows_its_label() {
     );
     let file = file(&text, &[]).unwrap();
     let values = &file.axes().axes[0].values;
-    assert_eq!(
-        (values[0].shown(), values[0].cell()),
-        ("fine".to_string(), json!("fine"))
-    );
+    assert_eq!((values[0].shown(), values[0].cell()), ("fine".to_string(), json!("fine")));
     assert_eq!(
         (values[1].shown(), values[1].cell()),
         (r#"{"nodes_per_edge":2}"#.to_string(), json!(r#"{"nodes_per_edge":2}"#))
     );
-    let nodes = file.case(&[0]).unwrap().scene.bodies[0]
-        .mesh
-        .clone()
-        .unwrap()
-        .nodes_per_edge;
+    let nodes = file.case(&[0]).unwrap().scene.bodies[0].mesh.clone().unwrap().nodes_per_edge;
     assert_eq!(nodes, Some(NodesPerEdge::Shortest(9)));
 }
 
 #[test]
 fn numbers_and_flags_stay_what_they_are_in_a_column() {
     let cells = |path: &str, spec: &str| -> Vec<serde_json::Value> {
-        axes(&format!("    {path}: {spec}\n")).axes[0]
-            .values
-            .iter()
-            .map(|value| value.cell())
-            .collect()
+        axes(&format!("    {path}: {spec}\n")).axes[0].values.iter().map(|value| value.cell()).collect()
     };
     assert_eq!(cells("seed", "[1, { label: two, value: 2 }]"), [json!(1), json!("two")]);
     assert_eq!(cells("diverge.escape", "[true, false]"), [json!(true), json!(false)]);
@@ -286,10 +240,7 @@ fn an_error_that_only_some_cases_have_names_the_case() {
     let file = file(&text, &[]).unwrap();
     file.case(&[0, 0]).unwrap();
     let error = file.case(&[0, 1]).unwrap_err().to_string();
-    assert!(
-        error.starts_with("a.yaml:7: scene.bodies.cube.mesh: missing"),
-        "{error}"
-    );
+    assert!(error.starts_with("a.yaml:7: scene.bodies.cube.mesh: missing"), "{error}");
     assert!(error.ends_with(" (in the case seed = 4, method = lecture)"), "{error}");
 }
 
@@ -297,8 +248,5 @@ fn an_error_that_only_some_cases_have_names_the_case() {
 fn an_error_that_all_cases_have_names_none() {
     let text = swept("    seed: [4]\n").replace("mass_kg: 1.0", "mass_kg: 0");
     let error = file(&text, &[]).unwrap().case(&[0]).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "a.yaml:10: scene.bodies.cube.mass_kg: expected a number greater than 0, found 0"
-    );
+    assert_eq!(error.to_string(), "a.yaml:10: scene.bodies.cube.mass_kg: expected a number greater than 0, found 0");
 }

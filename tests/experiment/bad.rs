@@ -6,14 +6,7 @@ use gotai::experiment::error::Kind;
 use std::path::Path;
 
 /// What is wrong, the edit of `BASE` that makes it so, the line and key path of the message, and a part of it.
-type Row = (
-    &'static str,
-    &'static str,
-    &'static str,
-    usize,
-    &'static str,
-    &'static str,
-);
+type Row = (&'static str, &'static str, &'static str, usize, &'static str, &'static str);
 
 const CUBE: &str = "      mass_kg: 1.0\n";
 const LECTURE: &str = "method: lecture\n";
@@ -129,11 +122,7 @@ fn a_bad_input_is_refused_with_its_line_its_key_path_and_what_was_expected() {
         let error = experiment(&edited(from, to), &[]).expect_err(what);
         let details = error.details();
         let text = error.to_string();
-        assert_eq!(
-            (details.line, details.path.to_string().as_str()),
-            (Some(*line), *path),
-            "{what}: {text}"
-        );
+        assert_eq!((details.line, details.path.to_string().as_str()), (Some(*line), *path), "{what}: {text}");
         assert!(text.contains(fragment), "{what}: {text}");
         assert!(text.starts_with(&format!("a.yaml:{line}: ")), "{what}: {text}");
         assert!(!text.contains('\n') && !error.is_machine(), "{what}: {text}");
@@ -158,9 +147,7 @@ fn penalty_refuses_restitution_wherever_it_is_written() {
 
 #[test]
 fn bodies_that_never_touch_may_be_many() {
-    let text = BASE
-        .replace("shape: none", "shape: { sphere: { radius_m: 1 } }")
-        .replace("lecture", "free");
+    let text = BASE.replace("shape: none", "shape: { sphere: { radius_m: 1 } }").replace("lecture", "free");
     experiment(&text, &[]).unwrap();
 }
 
@@ -168,17 +155,11 @@ fn bodies_that_never_touch_may_be_many() {
 fn a_file_without_content_says_so() {
     for text in ["", "\n\n", "# only a comment\n", "---\n"] {
         let error = file(text, &[]).unwrap_err();
-        assert!(
-            error.to_string().starts_with("a.yaml: the file is empty"),
-            "{text:?}: {error}"
-        );
+        assert!(error.to_string().starts_with("a.yaml: the file is empty"), "{text:?}: {error}");
     }
     for text in ["[1, 2]", "just text", "5"] {
         let error = file(text, &[]).unwrap_err();
-        assert!(
-            error.to_string().starts_with("a.yaml: expected an experiment"),
-            "{text:?}: {error}"
-        );
+        assert!(error.to_string().starts_with("a.yaml: expected an experiment"), "{text:?}: {error}");
     }
     let two = file("a: 1\n---\nb: 2\n", &[]).unwrap_err();
     assert_eq!(
@@ -191,10 +172,7 @@ fn a_file_without_content_says_so() {
 #[test]
 fn a_list_without_bodies_is_refused() {
     let error = experiment("scene: { bodies: [] }\ntime: { step_s: 1, end_s: 1 }\n", &[]).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "a.yaml:1: scene.bodies: expected at least one body, found an empty list"
-    );
+    assert_eq!(error.to_string(), "a.yaml:1: scene.bodies: expected at least one body, found an empty list");
 }
 
 #[test]
@@ -252,9 +230,8 @@ fn any_slip_of_one_character_gives_an_experiment_or_one_line_that_says_where() {
 
 #[test]
 fn an_error_below_an_alias_points_to_the_line_that_uses_it() {
-    let text = BASE
-        .replace("[0, 2, 0]", "&here [0, 2]")
-        .replace("mass_kg: 0.5", "mass_kg: 0.5\n      position_m: *here");
+    let text =
+        BASE.replace("[0, 2, 0]", "&here [0, 2]").replace("mass_kg: 0.5", "mass_kg: 0.5\n      position_m: *here");
     let error = experiment(&text, &["scene.bodies.cube.position_m=[0,0,0]"]).unwrap_err();
     assert_eq!(error.details().line, Some(15), "{error}");
 }
@@ -274,21 +251,11 @@ fn the_machine_readable_form_has_every_part() {
 
 #[test]
 fn another_module_can_complain_about_a_value_at_its_line() {
-    let error = file(BASE, &[])
-        .unwrap()
-        .error_at(&[], "scene.bodies.cube.position_m", "no overlap", "overlap");
-    assert_eq!(
-        error.to_string(),
-        "a.yaml:11: scene.bodies.cube.position_m: expected no overlap, found overlap"
-    );
+    let error = file(BASE, &[]).unwrap().error_at(&[], "scene.bodies.cube.position_m", "no overlap", "overlap");
+    assert_eq!(error.to_string(), "a.yaml:11: scene.bodies.cube.position_m: expected no overlap, found overlap");
     let error = file(BASE, &["scene.bodies.cube.position_m=[0,0,0]"]).unwrap();
     let error = error.error_at(&[], "scene.bodies.cube.position_m", "no overlap", "overlap");
-    assert!(
-        error
-            .to_string()
-            .starts_with("--set scene.bodies.cube.position_m=[0,0,0]: "),
-        "{error}"
-    );
+    assert!(error.to_string().starts_with("--set scene.bodies.cube.position_m=[0,0,0]: "), "{error}");
 }
 
 #[test]

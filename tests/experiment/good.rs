@@ -38,9 +38,7 @@ time: { step_s: 0.01, end_s: 1 }
 ";
 
 fn with_method(method: &str) -> Method {
-    experiment(&BASE.replace("method: lecture", &format!("method: {method}")), &[])
-        .unwrap()
-        .method
+    experiment(&BASE.replace("method: lecture", &format!("method: {method}")), &[]).unwrap().method
 }
 
 fn with_cube(lines: &str) -> Body {
@@ -56,13 +54,7 @@ fn the_complete_example_is_read() {
     assert_eq!((last.seed, last.time.step_s), (39, Some(5e-2)));
     let cube = &last.scene.bodies[0];
     let six = Some(NodesPerEdge::Shortest(6));
-    assert_eq!(
-        cube.mesh,
-        Some(MeshSpec {
-            nodes_per_edge: six,
-            subdivisions: None
-        })
-    );
+    assert_eq!(cube.mesh, Some(MeshSpec { nodes_per_edge: six, subdivisions: None }));
     assert_eq!(cube.inertia_from, InertiaFrom::Lumped);
     assert_eq!(last.record.to, Some(RecordTo::Both));
     assert_eq!(last.scene.random.unwrap().spin_rad_s, Some(6.0));
@@ -71,9 +63,7 @@ fn the_complete_example_is_read() {
 #[test]
 fn every_case_of_the_complete_example_resolves() {
     let file = file(COMPLETE, &[]).unwrap();
-    let seeds: u64 = (0..file.axes().len())
-        .map(|i| file.case(&file.axes().point(i)).unwrap().seed)
-        .sum();
+    let seeds: u64 = (0..file.axes().len()).map(|i| file.case(&file.axes().point(i)).unwrap().seed).sum();
     assert_eq!(seeds, 8 * 5 * (39 * 40 / 2));
 }
 
@@ -92,10 +82,7 @@ fn what_is_not_written_has_its_default() {
 fn an_empty_section_has_its_defaults() {
     let text = format!("{SMALLEST}diverge:\nrecord:\nmethod:\n  lecture:\n");
     let experiment = experiment(&text, &[]).unwrap();
-    assert_eq!(
-        (experiment.diverge, experiment.record),
-        (Diverge::default(), Record::default())
-    );
+    assert_eq!((experiment.diverge, experiment.record), (Diverge::default(), Record::default()));
     assert_eq!(experiment.method, Method::Lecture(Lecture::default()));
 }
 
@@ -108,29 +95,15 @@ fn null_switches_the_energy_criterion_off() {
 #[test]
 fn a_method_is_one_word_or_one_key_with_settings() {
     let lecture = Method::Lecture(Lecture::default());
-    for text in [
-        "lecture",
-        "{ lecture: {} }",
-        "{ lecture: }",
-        "{ lecture: { sweeps: 50 } }",
-    ] {
+    for text in ["lecture", "{ lecture: {} }", "{ lecture: }", "{ lecture: { sweeps: 50 } }"] {
         assert_eq!(with_method(text), lecture, "{text}");
     }
-    let direct = Lecture {
-        start: Start::Direct,
-        iteration: Iteration::Jacobi,
-        ..Lecture::default()
-    };
-    assert_eq!(
-        with_method("{ lecture: { start: direct, iteration: jacobi } }"),
-        Method::Lecture(direct)
-    );
+    let direct = Lecture { start: Start::Direct, iteration: Iteration::Jacobi, ..Lecture::default() };
+    assert_eq!(with_method("{ lecture: { start: direct, iteration: jacobi } }"), Method::Lecture(direct));
     assert_eq!(with_method("time-stepping"), Method::default());
     assert_eq!(
         with_method("{ free: { integrator: explicit-euler } }"),
-        Method::Free(Free {
-            integrator: Integrator::ExplicitEuler
-        })
+        Method::Free(Free { integrator: Integrator::ExplicitEuler })
     );
 }
 
@@ -138,38 +111,22 @@ fn a_method_is_one_word_or_one_key_with_settings() {
 fn a_word_without_settings_may_be_written_as_a_key() {
     let word = experiment(BASE, &[]).unwrap();
     for text in ["{ none: {} }", "{ none: }"] {
-        assert_eq!(
-            experiment(&BASE.replace("shape: none", &format!("shape: {text}")), &[]).unwrap(),
-            word
-        );
+        assert_eq!(experiment(&BASE.replace("shape: none", &format!("shape: {text}")), &[]).unwrap(), word);
     }
 }
 
 #[test]
 fn recorded_cases_are_a_word_or_a_sample() {
-    let cases = |text: &str| {
-        experiment(&format!("{SMALLEST}record: {{ cases: {text} }}\n"), &[])
-            .unwrap()
-            .record
-            .cases
-    };
+    let cases = |text: &str| experiment(&format!("{SMALLEST}record: {{ cases: {text} }}\n"), &[]).unwrap().record.cases;
     assert_eq!(cases("all"), RecordCases::All);
     assert_eq!(cases("{ sample: 20 }"), RecordCases::Sample(20));
 }
 
 #[test]
 fn whole_numbers_are_numbers_and_whole_floats_are_whole() {
-    let experiment = experiment(
-        &BASE.replace("seed: 7", "seed: 7.0").replace("end_s: 1.0", "end_s: 1"),
-        &[],
-    )
-    .unwrap();
+    let experiment = experiment(&BASE.replace("seed: 7", "seed: 7.0").replace("end_s: 1.0", "end_s: 1"), &[]).unwrap();
     assert_eq!((experiment.seed, experiment.time.end_s), (7, 1.0));
-    let seed = file(&BASE.replace("seed: 7", "seed: 18446744073709551615"), &[])
-        .unwrap()
-        .experiment()
-        .unwrap()
-        .seed;
+    let seed = file(&BASE.replace("seed: 7", "seed: 18446744073709551615"), &[]).unwrap().experiment().unwrap().seed;
     assert_eq!(seed, u64::MAX);
 }
 
@@ -177,11 +134,7 @@ fn whole_numbers_are_numbers_and_whole_floats_are_whole() {
 fn nodes_are_counted_along_the_shortest_edge_or_along_each() {
     let nodes = |text: &str| {
         let text = BASE.replace("nodes_per_edge: 3", &format!("nodes_per_edge: {text}"));
-        experiment(&text, &[]).unwrap().scene.bodies[0]
-            .mesh
-            .clone()
-            .unwrap()
-            .nodes_per_edge
+        experiment(&text, &[]).unwrap().scene.bodies[0].mesh.clone().unwrap().nodes_per_edge
     };
     assert_eq!(nodes("4"), Some(NodesPerEdge::Shortest(4)));
     assert_eq!(nodes("4.0"), Some(NodesPerEdge::Shortest(4)));
@@ -194,23 +147,15 @@ fn inertia_is_three_moments_or_a_matrix_and_may_be_that_of_a_flat_body() {
     assert_eq!(inertia("[1, 2, 3]"), Some(Inertia::Principal([1.0, 2.0, 3.0])));
     assert_eq!(inertia("[0.1, 0.2, 0.3]"), Some(Inertia::Principal([0.1, 0.2, 0.3])));
     let rows = [[2.0, 0.5, 0.0], [0.5, 2.0, 0.0], [0.0, 0.0, 3.0]];
-    assert_eq!(
-        inertia("[[2, 0.5, 0], [0.5, 2, 0], [0, 0, 3]]"),
-        Some(Inertia::Full(rows))
-    );
+    assert_eq!(inertia("[[2, 0.5, 0], [0.5, 2, 0], [0, 0, 3]]"), Some(Inertia::Full(rows)));
 }
 
 #[test]
 fn quaternions_are_normalised_whatever_their_size() {
     for scale in ["3", "1e-200", "1e200"] {
-        let body = with_cube(&format!(
-            "      mass_kg: 1\n      orientation: {{ quaternion_xyzw: [0, 0, 0, -{scale}] }}\n"
-        ));
-        assert_eq!(
-            body.orientation.unwrap().quaternion_xyzw,
-            Some([0.0, 0.0, 0.0, -1.0]),
-            "{scale}"
-        );
+        let body =
+            with_cube(&format!("      mass_kg: 1\n      orientation: {{ quaternion_xyzw: [0, 0, 0, -{scale}] }}\n"));
+        assert_eq!(body.orientation.unwrap().quaternion_xyzw, Some([0.0, 0.0, 0.0, -1.0]), "{scale}");
     }
 }
 
@@ -220,10 +165,7 @@ fn a_point_with_an_inertia_spins() {
         "mass_kg: 0.5",
         "mass_kg: 0.5\n      inertia_kg_m2: [1, 1, 1]\n      angular_velocity_rad_s: [0, 1, 0]",
     );
-    assert_eq!(
-        experiment(&text, &[]).unwrap().scene.bodies[1].angular_velocity_rad_s,
-        Some([0.0, 1.0, 0.0])
-    );
+    assert_eq!(experiment(&text, &[]).unwrap().scene.bodies[1].angular_velocity_rad_s, Some([0.0, 1.0, 0.0]));
 }
 
 #[test]
@@ -246,10 +188,7 @@ fn a_resolved_experiment_survives_json() {
 fn anchors_and_merged_keys_are_yaml() {
     let text = BASE.replace("- name: cube\n", "- &cube\n      name: cube\n")
         + "diverge: &d { speed_m_s: 3 }\nquestion: &q why\n";
-    let merged = text.replace(
-        "diverge: &d { speed_m_s: 3 }",
-        "diverge: { <<: { speed_m_s: 3 }, escape: false }",
-    );
+    let merged = text.replace("diverge: &d { speed_m_s: 3 }", "diverge: { <<: { speed_m_s: 3 }, escape: false }");
     let diverge = experiment(&merged, &[]).unwrap().diverge;
     assert_eq!((diverge.speed_m_s, diverge.escape), (Some(3.0), false));
 }
@@ -258,13 +197,7 @@ fn anchors_and_merged_keys_are_yaml() {
 fn a_byte_order_mark_and_windows_line_ends_do_not_matter() {
     let text = format!("\u{feff}{}", BASE.replace('\n', "\r\n"));
     assert_eq!(experiment(&text, &[]).unwrap(), experiment(BASE, &[]).unwrap());
-    assert_eq!(
-        experiment(&text.replace("seed", "sede"), &[])
-            .unwrap_err()
-            .details()
-            .line,
-        Some(15)
-    );
+    assert_eq!(experiment(&text.replace("seed", "sede"), &[]).unwrap_err().details().line, Some(15));
 }
 
 #[test]

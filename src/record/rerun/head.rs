@@ -20,27 +20,22 @@ const ARROW_RADIUS: f32 = 2.0;
 const LINE_RADIUS: f32 = 1.0;
 const PLOT_WIDTH: f32 = 1.5;
 
+/// Up to this many triangles a body is shaded by facet, 72 bytes each; above, corners are shared, half of that.
+const FACETED_TRIANGLES: usize = 20_000;
+
 /// Opacity of bodies, of 255: the forces on a body mostly point into it and should be seen.
-const BODY_ALPHA: u8 = 255;
+const BODY_ALPHA: u8 = 190;
 
 /// The recording's name and its first messages. `bodies`: the bodies' entities, in the header's order.
 pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
     // Cases of another build have the same id; the viewer would merge recordings that share one.
     let id = format!("{} {}", header.case, header.build);
-    let (stream, memory) = RecordingStreamBuilder::new(APPLICATION)
-        .recording_id(id)
-        .enabled(true)
-        .memory()?;
+    let (stream, memory) = RecordingStreamBuilder::new(APPLICATION).recording_id(id).enabled(true).memory()?;
     let store = memory.store_id().ok_or("Rerun made no recording")?;
 
     let mut messages = layout::messages(header)?;
     describe(header, &stream)?;
-    for ((body, path), colour) in header
-        .bodies
-        .iter()
-        .zip(bodies)
-        .zip(schema::BODY_COLOURS.iter().cycle())
-    {
+    for ((body, path), colour) in header.bodies.iter().zip(bodies).zip(schema::BODY_COLOURS.iter().cycle()) {
         stream.log_static(path.clone(), &surface(body, *colour))?;
     }
     if !header.container_strips_m.is_empty() {
@@ -72,16 +67,54 @@ fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<
 }
 
 fn surface(body: &BodyHeader, [r, g, b]: Rgb) -> Mesh3D {
-    Mesh3D::new(body.vertices_m.iter().copied())
-        .with_triangle_indices(body.triangles.iter().copied())
-        .with_albedo_factor(*Color::from_unmultiplied_rgba(r, g, b, BODY_ALPHA))
+    let mesh = if body.triangles.len() <= FACETED_TRIANGLES { faceted(body) } else { smooth(body) };
+    mesh.with_albedo_factor(*Color::from_unmultiplied_rgba(r, g, b, BODY_ALPHA))
+}
+
+/// Triangles with corners and normals of their own: edges show.
+fn faceted(body: &BodyHeader) -> Mesh3D {
+    let (mut vertices_m, mut normals) = (Vec::new(), Vec::new());
+    for triangle in &body.triangles {
+        let Some((corners, normal)) = corners_and_normal(body, triangle) else {
+            continue;
+        };
+        vertices_m.extend(corners);
+        normals.extend([normal; 3]);
+    }
+    Mesh3D::new(vertices_m).with_vertex_normals(normals)
+}
+
+/// Triangles that share corners, shaded by area-weighted normals.
+fn smooth(body: &BodyHeader) -> Mesh3D {
+    let mut normals = vec![[0.0; 3]; body.vertices_m.len()];
+    for triangle in &body.triangles {
+        let Some((_, normal)) = corners_and_normal(body, triangle) else {
+            continue;
+        };
+        for &corner in triangle {
+            let sum: &mut [f64; 3] = &mut normals[corner as usize];
+            *sum = std::array::from_fn(|i| sum[i] + normal[i]);
+        }
+    }
+    Mesh3D::new(&body.vertices_m).with_triangle_indices(&body.triangles).with_vertex_normals(normals)
+}
+
+/// The normal's length is twice the area; the viewer takes its direction. None: no such vertices.
+fn corners_and_normal(body: &BodyHeader, triangle: &[u32; 3]) -> Option<([[f64; 3]; 3], [f64; 3])> {
+    let corner = |i: usize| body.vertices_m.get(triangle[i] as usize).copied();
+    let (a, b, c) = (corner(0)?, corner(1)?, corner(2)?);
+    let (u, v) = (minus(b, a), minus(c, a));
+    let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    Some(([a, b, c], normal))
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| a[i] - b[i])
 }
 
 fn container(header: &Header) -> LineStrips3D {
-    let strips = header
-        .container_strips_m
-        .iter()
-        .map(|strip| strip.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>());
+    let strips =
+        header.container_strips_m.iter().map(|strip| strip.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>());
     LineStrips3D::new(strips)
         .with_colors([color(schema::CONTAINER_COLOUR)])
         .with_radii([Radius::new_ui_points(LINE_RADIUS)])
@@ -109,10 +142,7 @@ fn styles(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()
 }
 
 fn line(label: &str, colour: Rgb) -> SeriesLines {
-    SeriesLines::new()
-        .with_names([label])
-        .with_colors([color(colour)])
-        .with_widths([PLOT_WIDTH])
+    SeriesLines::new().with_names([label]).with_colors([color(colour)]).with_widths([PLOT_WIDTH])
 }
 
 fn color([r, g, b]: Rgb) -> Color {

@@ -1,0 +1,194 @@
+use super::synthetic::{self as s, ALL, NONE};
+use ::mcap::{MessageStream, Summary, read::Options};
+use foxglove::messages::{FrameTransforms, Log, SceneUpdate};
+use gotai::record::mcap::McapRecorder;
+use gotai::record::sample::{Event, Severity, Streams};
+use gotai::record::{Recorder, schema};
+use prost::Message;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Records samples 0..n in batches of 300, with one event after the last.
+fn record(path: &Path, n: u64, streams: Streams) {
+    let mut recorder = McapRecorder::create(path, &s::header(streams)).unwrap();
+    for start in (0..n).step_by(300) {
+        recorder.write(&s::batch(start..n.min(start + 300), streams)).unwrap();
+    }
+    let event = Event { step: n, time_s: s::time_s(n), severity: Severity::Warning, text: "the end".to_owned() };
+    recorder.event(&event).unwrap();
+    Box::new(recorder).finish().unwrap();
+}
+
+/// Encoded messages by topic, in the order of the file, with their log times.
+type Topics = BTreeMap<String, Vec<(u64, Vec<u8>)>>;
+
+fn read(bytes: &[u8]) -> Topics {
+    let mut topics = Topics::new();
+    // A file that ends early gives its complete chunks, then one error.
+    let stream = MessageStream::new_with_options(bytes, Options::IgnoreEndMagic.into()).unwrap();
+    for message in stream.map_while(Result::ok) {
+        assert_eq!(message.channel.message_encoding, "protobuf");
+        assert_eq!(message.log_time, message.publish_time);
+        let schema = message.channel.schema.as_ref().unwrap();
+        assert!(prost_types::FileDescriptorSet::decode(&schema.data[..]).is_ok(), "{}", schema.name);
+        topics.entry(message.channel.topic.clone()).or_default().push((message.log_time, message.data.to_vec()));
+    }
+    topics
+}
+
+fn decode<T: Message + Default>(topics: &Topics, topic: &str) -> Vec<T> {
+    topics[topic].iter().map(|(_, data)| T::decode(&data[..]).unwrap()).collect()
+}
+
+#[test]
+fn an_mcap_holds_every_sample_to_the_last_bit() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    record(&path, 1000, ALL);
+    let topics = read(&std::fs::read(&path).unwrap());
+
+    let bodies: Vec<schema::Bodies> = decode(&topics, schema::BODIES);
+    let contacts: Vec<schema::Contacts> = decode(&topics, schema::CONTACTS);
+    let energies: Vec<schema::Energy> = decode(&topics, schema::ENERGY);
+    assert_eq!((bodies.len(), contacts.len(), energies.len()), (1000, 1000, 1000));
+    for i in 0..1000 {
+        let (body, energy, expected) = (&bodies[i as usize], &energies[i as usize], s::energy(i));
+        assert_eq!((body.step, body.time_s.to_bits()), (i, s::time_s(i).to_bits()));
+        assert_eq!(body.bodies[0].name, "cube[0]");
+        assert_eq!(body.bodies[0].position_m, s::body(i).position_m);
+        assert_eq!(body.bodies[0].orientation_xyzw, s::body(i).orientation_xyzw);
+        assert_eq!(body.bodies[0].velocity_m_s, s::body(i).velocity_m_s);
+        assert_eq!(body.bodies[0].angular_velocity_rad_s, s::body(i).angular_velocity_rad_s);
+        assert_eq!(energy.kinetic_j.to_bits(), expected.kinetic_j.to_bits());
+        assert_eq!(energy.potential_j.to_bits(), expected.potential_j.to_bits());
+        assert_eq!(energy.total_j.to_bits(), expected.total_j.to_bits());
+        assert_eq!(energy.penetration_m.to_bits(), expected.penetration_m.to_bits());
+        let expected = s::contacts(i);
+        assert_eq!(contacts[i as usize].contacts.len(), expected.len());
+        for (contact, expected) in contacts[i as usize].contacts.iter().zip(&expected) {
+            assert_eq!((contact.body.as_str(), contact.other.as_str()), ("cube[0]", "container"));
+            assert_eq!(contact.point_m, expected.point_m);
+            assert_eq!(contact.normal, expected.normal);
+            assert_eq!(contact.force_n, expected.force_n);
+            assert_eq!(contact.gap_m, expected.gap_m);
+        }
+    }
+    let counts: std::collections::BTreeSet<_> = contacts.iter().map(|message| message.contacts.len()).collect();
+    assert!(counts.contains(&0) && counts.len() > 1, "the synthetic run has varying contacts: {counts:?}");
+    assert!(topics[schema::ENERGY].iter().zip(0..).all(|((log_time, _), i)| *log_time == i * 1_000_000));
+}
+
+#[test]
+fn pictures_come_at_display_rate_and_surfaces_once() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    record(&path, 1000, ALL);
+    let topics = read(&std::fs::read(&path).unwrap());
+
+    let frames: Vec<FrameTransforms> = decode(&topics, schema::TRANSFORMS);
+    // One second at 1000 Hz, shown at 60 Hz.
+    assert_eq!(frames.len(), 60);
+    assert_eq!(frames[0].transforms[0].child_frame_id, "cube[0]");
+    let scene: Vec<SceneUpdate> = decode(&topics, schema::SCENE);
+    assert_eq!(scene.len(), 1);
+    let ids: Vec<_> = scene[0].entities.iter().map(|entity| (entity.id.as_str(), entity.frame_id.as_str())).collect();
+    assert_eq!(ids, [("container", "world"), ("cube[0]", "cube[0]")]);
+    assert_eq!(scene[0].entities[1].triangles[0].indices.len(), 36);
+    // Contacts are drawn while there are some, and cleared once.
+    let contacts: Vec<SceneUpdate> = decode(&topics, schema::SCENE_CONTACTS);
+    let drawn: Vec<_> = contacts.iter().map(|update| update.entities[0].arrows.len()).collect();
+    assert!(drawn.windows(2).all(|pair| pair != [0, 0]), "{drawn:?}");
+    assert!(drawn.contains(&0) && drawn.iter().any(|&n| n > 0), "{drawn:?}");
+    for arrow in contacts.iter().flat_map(|update| &update.entities[0].arrows) {
+        let q = arrow.pose.as_ref().unwrap().orientation.unwrap();
+        let norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+        assert!((norm - 1.0).abs() < 1e-12, "{q:?}");
+    }
+    let log: Vec<Log> = decode(&topics, schema::LOG);
+    assert_eq!(log.iter().map(|log| log.message.as_str()).collect::<Vec<_>>(), ["the end"]);
+}
+
+#[test]
+fn configuration_and_versions_are_attached() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    record(&path, 10, ALL);
+    let bytes = std::fs::read(&path).unwrap();
+    let summary = Summary::read(&bytes).unwrap().unwrap();
+
+    let attachment = ::mcap::read::attachment(&bytes, &summary.attachment_indexes[0]).unwrap();
+    assert_eq!(attachment.name, "experiment.yaml");
+    assert_eq!(attachment.data, s::CONFIG.as_bytes());
+    let metadata = ::mcap::read::metadata(&bytes, &summary.metadata_indexes[0]).unwrap();
+    assert_eq!(metadata.name, "gotai");
+    assert_eq!(metadata.metadata["case"], "bouncing");
+    assert_eq!(metadata.metadata["build"], "0123abcd");
+    assert_eq!(metadata.metadata["step_s"], "0.001");
+}
+
+#[test]
+fn the_same_run_gives_the_same_bytes() {
+    let dir = tempfile::tempdir().unwrap();
+    let files = ["a.mcap", "b.mcap"].map(|name| {
+        record(&dir.path().join(name), 500, ALL);
+        std::fs::read(dir.path().join(name)).unwrap()
+    });
+    assert!(files[0] == files[1]);
+}
+
+#[test]
+fn streams_that_are_off_leave_no_topic() {
+    let dir = tempfile::tempdir().unwrap();
+    let topics = |streams| {
+        let path = dir.path().join("a.mcap");
+        record(&path, 100, streams);
+        let bytes = std::fs::read(&path).unwrap();
+        let summary = Summary::read(&bytes).unwrap().unwrap();
+        let mut topics: Vec<_> = summary.channels.values().map(|channel| channel.topic.clone()).collect();
+        topics.sort();
+        (topics, read(&bytes))
+    };
+    assert_eq!(topics(NONE).0, ["/log", "/scene"]);
+    assert_eq!(topics(Streams { energy: true, ..NONE }).0, ["/energy", "/log", "/scene"]);
+    assert_eq!(topics(Streams { bodies: true, ..NONE }).0, ["/bodies", "/log", "/scene", "/tf"]);
+
+    let (names, messages) = topics(Streams { contacts: true, ..NONE });
+    assert_eq!(names, ["/contacts", "/log", "/scene", "/scene/contacts"]);
+    let contacts: Vec<schema::Contacts> = decode(&messages, schema::CONTACTS);
+    assert!(contacts[0].contacts.iter().all(|contact| contact.force_n.is_empty() && contact.normal.len() == 3));
+
+    let (names, messages) = topics(Streams { forces: true, ..NONE });
+    assert_eq!(names, ["/forces", "/log", "/scene", "/scene/contacts"]);
+    let forces: Vec<schema::Contacts> = decode(&messages, schema::FORCES);
+    assert!(forces[0].contacts.iter().all(|contact| contact.force_n.len() == 3 && contact.normal.is_empty()));
+}
+
+#[test]
+fn a_killed_recording_keeps_every_batch_that_was_written() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    let mut recorder = McapRecorder::create(&path, &s::header(ALL)).unwrap();
+    for start in [0, 1000, 2000] {
+        recorder.write(&s::batch(start..start + 1000, ALL)).unwrap();
+    }
+    // No destructor runs, as after SIGKILL.
+    std::mem::forget(recorder);
+    let bytes = std::fs::read(&path).unwrap();
+    assert_eq!(read(&bytes)[schema::ENERGY].len(), 3000);
+
+    let cut = read(&bytes[..bytes.len() - 10]);
+    let energies: Vec<schema::Energy> = decode(&cut, schema::ENERGY);
+    assert!(energies.len() > 2000, "{}", energies.len());
+    assert!(energies.iter().zip(0..).all(|(energy, i)| energy.step == i));
+}
+
+#[test]
+fn a_batch_that_does_not_fit_the_header_is_an_error() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut recorder = McapRecorder::create(&dir.path().join("a.mcap"), &s::header(ALL)).unwrap();
+    let mut batch = s::batch(0..10, ALL);
+    batch.contacts.pop();
+    assert!(recorder.write(&batch).unwrap_err().to_string().contains("contacts"));
+    let without_energy = s::batch(0..10, Streams { energy: false, ..ALL });
+    assert!(recorder.write(&without_energy).unwrap_err().to_string().contains("energy"));
+}

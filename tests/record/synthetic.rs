@@ -1,0 +1,130 @@
+//! A made-up run to record: a cube bounces, turning, on the floor of a 4 m box. Everything follows from the sample's
+//! number, so that a test can say what a file must hold.
+
+use gotai::record::sample::{Batch, BodyHeader, BodySample, ContactSample, EnergySample, Header, Streams};
+
+pub const ALL: Streams = Streams { bodies: true, contacts: true, forces: true, energy: true };
+pub const NONE: Streams = Streams { bodies: false, contacts: false, forces: false, energy: false };
+
+pub const STEP_S: f64 = 0.001;
+pub const CONFIG: &str = "name: bouncing\nscene:\n  bodies:\n    - { name: cube, shape: { cube: { edge_m: 0.8 } } }\n";
+
+const HALF_EDGE_M: f64 = 0.4;
+const MASS_KG: f64 = 1.0;
+const BOUNCE_M: f64 = 2.0;
+
+pub fn header(streams: Streams) -> Header {
+    Header {
+        case: "bouncing".to_owned(),
+        title: "A cube bounces in a box".to_owned(),
+        program: "gotai 0.0.0".to_owned(),
+        build: "0123abcd".to_owned(),
+        config_yaml: CONFIG.to_owned(),
+        step_s: STEP_S,
+        sample_every_s: STEP_S,
+        streams,
+        bodies: vec![BodyHeader {
+            name: "cube[0]".to_owned(),
+            vertices_m: corners(HALF_EDGE_M).to_vec(),
+            triangles: TRIANGLES.to_vec(),
+            bounding_radius_m: HALF_EDGE_M * 3.0_f64.sqrt(),
+        }],
+        container_strips_m: box_strips(),
+        arrow_m_per_n: 0.02,
+    }
+}
+
+/// Appends sample number `i` to a batch.
+pub fn push(batch: &mut Batch, i: u64, streams: Streams) {
+    let body = body(i);
+    let contacts = contacts(i);
+    batch.step.push(i);
+    batch.time_s.push(time_s(i));
+    if streams.bodies {
+        batch.bodies.push(body);
+    }
+    if streams.any_contact() {
+        batch.contacts_len.push(contacts.len() as u32);
+        batch.contacts.extend(contacts);
+    }
+    if streams.energy {
+        batch.energy.push(energy(i));
+    }
+}
+
+pub fn batch(samples: std::ops::Range<u64>, streams: Streams) -> Batch {
+    let mut batch = Batch::default();
+    samples.for_each(|i| push(&mut batch, i, streams));
+    batch
+}
+
+pub fn time_s(i: u64) -> f64 {
+    i as f64 * STEP_S
+}
+
+/// One bounce a second, one turn about an edge a second.
+pub fn body(i: u64) -> BodySample {
+    let part = time_s(i).fract();
+    let half_turn = std::f64::consts::PI * part;
+    BodySample {
+        position_m: [0.3, HALF_EDGE_M + 4.0 * BOUNCE_M * part * (1.0 - part), -0.2],
+        orientation_xyzw: [0.0, 0.0, libm::sin(half_turn), libm::cos(half_turn)],
+        velocity_m_s: [0.0, 4.0 * BOUNCE_M * (1.0 - 2.0 * part), 0.0],
+        angular_velocity_rad_s: [0.0, 0.0, 2.0 * std::f64::consts::PI],
+    }
+}
+
+/// Corners close to the floor, none for most of the flight.
+pub fn contacts(i: u64) -> Vec<ContactSample> {
+    let body = body(i);
+    let [_, _, sin, cos] = body.orientation_xyzw;
+    let (sin, cos) = (2.0 * sin * cos, cos * cos - sin * sin);
+    let corner = |[x, y, z]: [f64; 3]| {
+        let [px, py, pz] = body.position_m;
+        [px + cos * x - sin * y, py + sin * x + cos * y, pz + z]
+    };
+    let near = corners(HALF_EDGE_M).map(corner).into_iter().filter(|point| point[1] < 0.1);
+    near.map(|point| ContactSample {
+        body: 0,
+        other: None,
+        point_m: point,
+        normal: [0.0, 1.0, 0.0],
+        force_n: [3.0 * sin, 300.0 * (0.1 - point[1]), 0.0],
+        gap_m: point[1],
+    })
+    .collect()
+}
+
+pub fn energy(i: u64) -> EnergySample {
+    let BodySample { position_m, velocity_m_s, .. } = body(i);
+    let kinetic_j = 0.5 * MASS_KG * velocity_m_s[1] * velocity_m_s[1];
+    let potential_j = MASS_KG * 8.0 * BOUNCE_M * position_m[1];
+    let lowest_m = contacts(i).iter().map(|contact| contact.gap_m).fold(0.0, f64::min);
+    EnergySample { kinetic_j, potential_j, total_j: kinetic_j + potential_j, penetration_m: -lowest_m }
+}
+
+fn corners(half_m: f64) -> [[f64; 3]; 8] {
+    std::array::from_fn(|i| [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { half_m } else { -half_m }))
+}
+
+const TRIANGLES: [[u32; 3]; 12] = [
+    [0, 4, 6],
+    [0, 6, 2],
+    [1, 3, 7],
+    [1, 7, 5],
+    [0, 1, 5],
+    [0, 5, 4],
+    [2, 6, 7],
+    [2, 7, 3],
+    [0, 2, 3],
+    [0, 3, 1],
+    [4, 5, 7],
+    [4, 7, 6],
+];
+
+/// Floor, ceiling and four edges of the box from (-2, 0, -2) to (2, 4, 2).
+fn box_strips() -> Vec<Vec<[f64; 3]>> {
+    let square = |y: f64| vec![[-2.0, y, -2.0], [2.0, y, -2.0], [2.0, y, 2.0], [-2.0, y, 2.0], [-2.0, y, -2.0]];
+    let edge = |x: f64, z: f64| vec![[x, 0.0, z], [x, 4.0, z]];
+    vec![square(0.0), square(4.0), edge(-2.0, -2.0), edge(2.0, -2.0), edge(2.0, 2.0), edge(-2.0, 2.0)]
+}

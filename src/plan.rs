@@ -3,7 +3,7 @@
 //! A skip follows from a property that is checked, never from one mesh or scene, and changes no bit of the motion.
 
 use crate::experiment::types::Method;
-use crate::model::{Geometry, Model};
+use crate::model::Model;
 
 /// Decided once a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,15 +45,7 @@ fn contact(model: &Model, method: &Method) -> Stage {
         (None, _) => stage(name, false, "no container: nothing to hit"),
         (_, _) if touching == 0 => stage(name, false, "no body has a shape"),
         (Some(container), _) => {
-            let points: usize = model
-                .bodies
-                .iter()
-                .map(|body| match &body.geometry {
-                    Geometry::None => 0,
-                    Geometry::Mesh { nodes, .. } | Geometry::Corners(nodes) => nodes.len(),
-                    Geometry::Sphere { .. } => 1,
-                })
-                .sum();
+            let points: usize = model.bodies.iter().map(|body| body.geometry.points()).sum();
             let faces = container.faces.len();
             stage(
                 name,

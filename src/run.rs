@@ -24,7 +24,7 @@ pub struct Ended {
 pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Option<&mut Sampler>) -> Ended {
     let clock = clock(experiment);
     let plan = Plan::new(model, &experiment.method);
-    let mut stepper = Stepper::new(&experiment.method, &plan);
+    let mut stepper = Stepper::new(&experiment.method, &plan, model);
     let mut judge = Judge::new(model, &start, &experiment.diverge, plan.contact);
     let (mut before, mut state) = (start.clone(), start);
     let mut stepping = Duration::ZERO;

@@ -1,7 +1,27 @@
-//! One binary of tests, one folder a subject. A new test goes to the folder of the subject it is about:
+//! One binary of tests, one folder or file a subject. A new test goes to the subject it is about:
 //!
 //! - `experiment/`: what a file, a `--set` and an axis mean, and what is said when they mean nothing
+//! - `model/`: meshes, mass properties, containers, start states
+//! - `methods/`: each method against its own recurrence, the exact motion, its conserved quantities
+//! - `map_a`: the lecture's stability notes against the measured table
+//! - `sweep/`: resume, threads, panics, tables, recordings of a sweep
 //! - `record/`: recordings, read back from their files
+//! - `cli/`: the program as a user meets it: output, exit codes
+//! - `configs`: every file under configs/ runs
+//! - `allocation`: no step allocates
+//! - `tidy`: rules of the repository
 
+#![allow(non_snake_case)]
+
+mod allocation;
+mod cli;
+mod configs;
 mod experiment;
+mod map_a;
+mod methods;
+mod model;
 mod record;
+mod scratch;
+mod sweep;
+mod tidy;
+mod yaml;

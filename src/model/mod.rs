@@ -69,6 +69,17 @@ pub enum Geometry {
     },
 }
 
+impl Geometry {
+    /// Points that are held against a face.
+    pub fn points(&self) -> usize {
+        match self {
+            Geometry::None => 0,
+            Geometry::Mesh { nodes, .. } | Geometry::Corners(nodes) => nodes.len(),
+            Geometry::Sphere { .. } => 1,
+        }
+    }
+}
+
 impl Body {
     /// I = R ᴼI Rᵀ (L10; the slide prints Rᵀ ᴼI R).
     pub fn I_W(&self, state: &BodyState) -> Matrix3<f64> {

@@ -3,7 +3,7 @@
 //! One implementation for all who iterate: `gauss-seidel` with `correction: per-contact` is projected Gauss–Seidel, the
 //! solver `pgs` of time-stepping. As printed the slide's formula is Jacobi; Gauss–Seidel uses the values already updated.
 
-use super::problem::{Block, ContactProblem, Coupling};
+use super::problem::{Block, ContactProblem, Coupling, Memory};
 use super::{Impulse, corrected};
 use crate::experiment::types::{Correction, Iteration};
 use crate::measure::work::Work;
@@ -24,10 +24,16 @@ pub struct Sweeps {
 }
 
 /// The solver's memory between steps, to spare the allocator.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Scratch {
     before: Vec<Impulse>,
-    coupling: super::problem::Memory,
+    coupling: Memory,
+}
+
+impl Scratch {
+    pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
+        Scratch { before: Vec::with_capacity(contacts), coupling: Memory::with_capacity(bodies) }
+    }
 }
 
 /// Improves `p` by at most `sweeps.most` sweeps.

@@ -68,6 +68,14 @@ pub struct ContactProblem {
 const DENSE: usize = 32;
 
 impl ContactProblem {
+    pub fn with_capacity(contacts: usize) -> Self {
+        ContactProblem {
+            blocks: Vec::with_capacity(contacts),
+            bodies: 0,
+            A_blocks: Vec::with_capacity(contacts.min(DENSE) * contacts.min(DENSE)),
+        }
+    }
+
     /// `V = V[n] + M⁻¹ F_E Δt` is in `free`, the state before the step in `state`.
     pub fn gather(&mut self, model: &Model, state: &State, free: &[Twist], contacts: &[Contact]) {
         self.blocks.clear();
@@ -178,6 +186,12 @@ impl Coupling for ThroughBodies<'_> {
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
     u: Vec<Twist>,
+}
+
+impl Memory {
+    pub fn with_capacity(bodies: usize) -> Self {
+        Memory { u: Vec::with_capacity(bodies) }
+    }
 }
 
 impl Block {

@@ -15,8 +15,8 @@ pub struct Lecture {
 }
 
 impl Lecture {
-    pub fn new(settings: &Settings) -> Self {
-        Lecture { settings: settings.clone(), scratch: Scratch::default() }
+    pub(super) fn new(settings: &Settings, scratch: Scratch) -> Self {
+        Lecture { settings: settings.clone(), scratch }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {

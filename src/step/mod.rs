@@ -49,7 +49,7 @@ pub struct SolvedContact {
 }
 
 /// What a method needs in every step and nobody outside does.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Scratch {
     found: Vec<Contact>,
     problem: ContactProblem,
@@ -72,13 +72,14 @@ pub enum Stepper {
 }
 
 impl Stepper {
-    pub fn new(method: &Method, plan: &Plan) -> Self {
+    pub fn new(method: &Method, plan: &Plan, model: &Model) -> Self {
+        let scratch = Scratch::new(model, plan);
         match method {
             Method::Free(settings) => Stepper::Free(free::Free::new(settings)),
-            Method::Lecture(settings) => Stepper::Lecture(lecture::Lecture::new(settings)),
-            Method::Penalty(settings) => Stepper::Penalty(penalty::Penalty::new(settings)),
+            Method::Lecture(settings) => Stepper::Lecture(lecture::Lecture::new(settings, scratch)),
+            Method::Penalty(settings) => Stepper::Penalty(penalty::Penalty::new(settings, scratch)),
             Method::TimeStepping(settings) => {
-                Stepper::TimeStepping(time_stepping::TimeStepping::new(settings, plan.friction))
+                Stepper::TimeStepping(time_stepping::TimeStepping::new(settings, plan.friction, scratch))
             }
         }
     }
@@ -113,6 +114,31 @@ impl Stepper {
 }
 
 impl Scratch {
+    /// With room for every point touching the three faces of a corner at once, so that no step allocates; beyond some
+    /// thousand contacts it grows when they come.
+    fn new(model: &Model, plan: &Plan) -> Self {
+        const MOST: usize = 4096;
+        let points: usize = model.bodies.iter().map(|body| body.geometry.points()).sum();
+        let faces = model.container.as_ref().map_or(0, |container| container.faces.len());
+        let contacts = if plan.contact { (points * faces.min(3)).min(MOST) } else { 0 };
+        let bodies = model.bodies.len();
+        Scratch {
+            found: Vec::with_capacity(contacts),
+            problem: ContactProblem::with_capacity(contacts),
+            free: Vec::with_capacity(bodies),
+            impulses: Vec::with_capacity(contacts),
+            solver: gauss_seidel::Scratch::with_capacity(contacts, bodies),
+            response: Vec::with_capacity(bodies),
+            solved: Vec::with_capacity(contacts),
+            work: Work::default(),
+        }
+    }
+
+    /// Contacts that there is room for.
+    fn contacts(&self) -> usize {
+        self.found.capacity()
+    }
+
     /// V + M⁻¹ F_E Δt with gravity as the only external force (L14).
     fn free_velocities(&mut self, model: &Model, state: &State, step_s: f64) {
         self.free.clear();

@@ -14,8 +14,8 @@ pub struct Penalty {
 }
 
 impl Penalty {
-    pub fn new(settings: &Settings) -> Self {
-        Penalty { settings: settings.clone(), scratch: Scratch::default() }
+    pub(super) fn new(settings: &Settings, scratch: Scratch) -> Self {
+        Penalty { settings: settings.clone(), scratch }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {

@@ -30,7 +30,7 @@ pub struct TimeStepping {
 }
 
 impl TimeStepping {
-    pub fn new(settings: &Settings, friction: bool) -> Self {
+    pub(super) fn new(settings: &Settings, friction: bool, scratch: Scratch) -> Self {
         TimeStepping {
             sweeps: Sweeps {
                 iteration: Iteration::GaussSeidel,
@@ -40,10 +40,10 @@ impl TimeStepping {
                 friction,
             },
             position_correction: settings.position_correction,
-            last: Vec::new(),
-            pushes: Vec::new(),
-            pushed: Vec::new(),
-            scratch: Scratch::default(),
+            last: Vec::with_capacity(scratch.contacts()),
+            pushes: Vec::with_capacity(scratch.contacts()),
+            pushed: Vec::with_capacity(scratch.free.capacity()),
+            scratch,
         }
     }
 

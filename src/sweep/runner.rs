@@ -43,11 +43,11 @@ pub struct Job<'a> {
     /// What the chosen cases are recorded into; empty: nothing is.
     pub targets: &'a [Target],
     /// Runs a case and records it into the targets.
-    pub work: &'a Work,
+    pub work: &'a Work<'a>,
     pub progress: &'a dyn Progress,
 }
 
-pub type Work = dyn Fn(&Case, &[Target]) -> Result<Measured, RecordError> + Sync;
+pub type Work<'a> = dyn Fn(&Case, &[Target]) -> Result<Measured, RecordError> + Sync + 'a;
 
 impl Job<'_> {
     /// Runs what is missing, then records the chosen cases and writes the tables. How many cases were run.

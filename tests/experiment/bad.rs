@@ -177,7 +177,7 @@ fn a_list_without_bodies_is_refused() {
 
 #[test]
 fn an_unreadable_file_is_told_from_a_wrong_one() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = crate::scratch::folder();
     let bytes = folder.path().join("bytes.yaml");
     std::fs::write(&bytes, b"seed: 1\nquestion: \xff\n").unwrap();
     let load = |path: &Path| ExperimentFile::load(path, &[]).unwrap_err();

@@ -202,7 +202,7 @@ fn a_byte_order_mark_and_windows_line_ends_do_not_matter() {
 
 #[test]
 fn a_file_is_loaded_from_disk() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = crate::scratch::folder();
     let path = folder.path().join("base.yaml");
     std::fs::write(&path, BASE).unwrap();
     let file = ExperimentFile::load(&path, &["seed=8".to_string()]).unwrap();

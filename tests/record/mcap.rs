@@ -42,7 +42,7 @@ fn decode<T: Message + Default>(topics: &Topics, topic: &str) -> Vec<T> {
 
 #[test]
 fn an_mcap_holds_every_sample_to_the_last_bit() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let path = dir.path().join("a.mcap");
     record(&path, 1000, ALL);
     let topics = read(&std::fs::read(&path).unwrap());
@@ -80,7 +80,7 @@ fn an_mcap_holds_every_sample_to_the_last_bit() {
 
 #[test]
 fn pictures_come_at_display_rate_and_surfaces_once() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let path = dir.path().join("a.mcap");
     record(&path, 1000, ALL);
     let topics = read(&std::fs::read(&path).unwrap());
@@ -110,7 +110,7 @@ fn pictures_come_at_display_rate_and_surfaces_once() {
 
 #[test]
 fn configuration_and_versions_are_attached() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let path = dir.path().join("a.mcap");
     record(&path, 10, ALL);
     let bytes = std::fs::read(&path).unwrap();
@@ -128,7 +128,7 @@ fn configuration_and_versions_are_attached() {
 
 #[test]
 fn the_same_run_gives_the_same_bytes() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let files = ["a.mcap", "b.mcap"].map(|name| {
         record(&dir.path().join(name), 500, ALL);
         std::fs::read(dir.path().join(name)).unwrap()
@@ -138,7 +138,7 @@ fn the_same_run_gives_the_same_bytes() {
 
 #[test]
 fn streams_that_are_off_leave_no_topic() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let topics = |streams| {
         let path = dir.path().join("a.mcap");
         record(&path, 100, streams);
@@ -165,7 +165,7 @@ fn streams_that_are_off_leave_no_topic() {
 
 #[test]
 fn a_killed_recording_keeps_every_batch_that_was_written() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let path = dir.path().join("a.mcap");
     let mut recorder = McapRecorder::create(&path, &s::header(ALL)).unwrap();
     for start in [0, 1000, 2000] {
@@ -184,7 +184,7 @@ fn a_killed_recording_keeps_every_batch_that_was_written() {
 
 #[test]
 fn a_batch_that_does_not_fit_the_header_is_an_error() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let mut recorder = McapRecorder::create(&dir.path().join("a.mcap"), &s::header(ALL)).unwrap();
     let mut batch = s::batch(0..10, ALL);
     batch.contacts.pop();

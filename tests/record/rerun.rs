@@ -46,7 +46,7 @@ fn scalars(store: &ChunkStore, path: &str) -> Vec<f64> {
 
 #[test]
 fn an_rrd_holds_every_sample() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let path = dir.path().join("a.rrd");
     record(&path, 1000, ALL);
     let store = read(&path);
@@ -78,7 +78,7 @@ fn an_rrd_holds_every_sample() {
 
 #[test]
 fn every_sample_has_its_own_number_of_contact_points() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let path = dir.path().join("a.rrd");
     record(&path, 1000, ALL);
     let store = read(&path);
@@ -91,7 +91,7 @@ fn every_sample_has_its_own_number_of_contact_points() {
 
 #[test]
 fn streams_that_are_off_leave_no_entity() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     // All entities, also those with nothing but a style.
     let entities = |streams| {
         let path = dir.path().join("a.rrd");
@@ -119,7 +119,7 @@ fn streams_that_are_off_leave_no_entity() {
 
 #[test]
 fn the_layout_comes_first_and_the_configuration_is_shown() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let path = dir.path().join("a.rrd");
     record(&path, 10, ALL);
     let decoder = Decoder::<LogMsg>::decode_eager(BufReader::new(File::open(&path).unwrap())).unwrap();
@@ -137,7 +137,7 @@ fn the_layout_comes_first_and_the_configuration_is_shown() {
 
 #[test]
 fn a_killed_recording_keeps_every_batch_that_was_written() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let path = dir.path().join("a.rrd");
     let mut recorder = RerunRecorder::create(&path, &s::header(ALL)).unwrap();
     recorder.write(&s::batch(0..1000, ALL)).unwrap();

@@ -120,7 +120,7 @@ fn a_panic_of_a_recorder_is_an_error_of_the_writer() {
 
 #[test]
 fn a_file_has_its_final_name_when_it_is_complete() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let names = || {
         let names =
             std::fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
@@ -138,7 +138,7 @@ fn a_file_has_its_final_name_when_it_is_complete() {
 
 #[test]
 fn a_writer_that_is_dropped_leaves_its_files_partial() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let mut writer = open(&[Target::Mcap], dir.path(), &s::header(ALL)).unwrap();
     fill(&mut writer, 0..5000);
     drop(writer);
@@ -148,7 +148,7 @@ fn a_writer_that_is_dropped_leaves_its_files_partial() {
 
 #[test]
 fn a_directory_that_cannot_be_written_is_an_error() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     let file = dir.path().join("file");
     std::fs::write(&file, "").unwrap();
     for place in [dir.path().join("missing"), file] {
@@ -162,7 +162,7 @@ fn a_directory_that_cannot_be_written_is_an_error() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_an_error_and_the_run_goes_on() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = crate::scratch::folder();
     for &target in Target::AVAILABLE {
         let partial = dir.path().join(format!("bouncing.partial.{}", target.extension()));
         std::os::unix::fs::symlink("/dev/full", partial).unwrap();

@@ -1,0 +1,180 @@
+//! The program as a user meets it: output, files, exit codes.
+
+use crate::scratch;
+use serde_json::Value;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+fn gotai(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_gotai"));
+    command.args(args).current_dir(ROOT).env("NO_COLOR", "1");
+    command
+}
+
+fn run(args: &[&str]) -> (i32, String, String) {
+    let Output { status, stdout, stderr } = gotai(args).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (status.code().unwrap(), text(stdout), text(stderr))
+}
+
+fn json(args: &[&str]) -> Value {
+    let (code, out, err) = run(args);
+    assert_eq!(code, 0, "{err}");
+    serde_json::from_str(&out).unwrap_or_else(|error| panic!("{error}: {out}"))
+}
+
+#[test]
+fn a_run_prints_its_columns_bodies_and_contacts() {
+    let folder = scratch::folder();
+    let out = folder.path().to_str().unwrap();
+    let d = json(&["run", "configs/lecture/demo.yaml", "--out", out, "--json", "--set", "time.end_s=3"]);
+    assert_eq!((d["outcome"].as_str(), d["steps"].as_u64(), &d["criterion"]), (Some("finished"), Some(1500), &Value::Null));
+    let body = &d["bodies"][0];
+    assert_eq!(body["name"], "cube");
+    for key in ["position_m", "origin_m", "velocity_m_s", "angular_velocity_rad_s", "contact_force_n"] {
+        assert_eq!(body[key].as_array().unwrap().len(), 3, "{key}");
+    }
+    // At rest on its face: the contacts carry the weight.
+    let force = |c: &Value| c["force_n"][1].as_f64().unwrap();
+    let contacts = d["contacts"].as_array().unwrap();
+    assert_eq!(contacts[0]["bodies"], serde_json::json!(["cube", "container"]));
+    let carried: f64 = contacts.iter().map(force).sum();
+    assert!((carried - 9.8).abs() < 1e-6 && (body["contact_force_n"][1].as_f64().unwrap() - carried).abs() < 1e-9);
+    // One file a target, with the case's name.
+    let case = d["case"].as_str().unwrap();
+    assert!(folder.path().join(format!("{case}.mcap")).exists());
+    assert_eq!(folder.path().join(format!("{case}.rrd")).exists(), cfg!(feature = "rerun"));
+}
+
+#[test]
+fn nothing_is_recorded_when_nothing_is_asked_for() {
+    let folder = scratch::folder();
+    let out = folder.path().join("none");
+    run(&["run", "configs/lecture/demo.yaml", "--record", "none", "--out", out.to_str().unwrap()]);
+    assert!(!out.exists());
+}
+
+#[test]
+fn wrong_input_is_exit_code_2_and_one_clear_line() {
+    let folder = scratch::folder();
+    let bad = folder.path().join("bad.yaml");
+    std::fs::write(&bad, "scene:\n  fricton: 0.3\n  bodies: []\n").unwrap();
+    let bad = bad.to_str().unwrap();
+    let demo = "configs/lecture/demo.yaml";
+    let cases: [(&[&str], &str); 9] = [
+        (&["run", bad], "bad.yaml:2: scene.fricton: unknown key; did you mean `friction`?"),
+        (&["run", "no/such.yaml"], "no/such.yaml: "),
+        (&["run", demo, "--set", "scene.bodies.cube.mass_kg=-1"], "--set scene.bodies.cube.mass_kg=-1: "),
+        (&["run", demo, "--set", "time.step_s=0"], "expected"),
+        (&["run", "configs/lecture/stability.yaml"], "axes are left: scene.bodies.body, time.step_s, seed"),
+        (&["sweep", demo, "--jobs", "0"], "--jobs: expected at least 1, found 0"),
+        (&["status", folder.path().to_str().unwrap()], "found no plan.json in it"),
+        (&["check", demo], "`check` is not available in this version"),
+        (&["sweep", demo, "--shard", "0/2"], "`--shard` is not available in this version"),
+    ];
+    for (args, message) in cases {
+        let (code, out, err) = run(args);
+        assert_eq!((code, out.as_str()), (2, ""), "{args:?}: {err}");
+        assert!(err.contains(message) && err.trim_end().lines().count() == 1, "{args:?}: {err}");
+        assert!(!err.contains("panicked"), "{err}");
+    }
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_exit_code_3() {
+    let folder = scratch::folder();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").unwrap();
+    let below = file.join("below");
+    let (code, _, err) = run(&["sweep", "configs/smoke.yaml", "--out", below.to_str().unwrap()]);
+    assert_eq!(code, 3, "{err}");
+    assert!(err.contains("below"), "{err}");
+}
+
+#[test]
+fn a_sweep_writes_rows_and_recordings_and_status_counts_them() {
+    let folder = scratch::folder();
+    let out = folder.path().to_str().unwrap();
+    let args = ["sweep", "configs/smoke.yaml", "--out", out, "--json", "--set", "time.end_s=0.2"];
+    let d = json(&args);
+    assert_eq!((d["cases"].as_u64(), d["ran"].as_u64()), (Some(4), Some(4)));
+    for row in d["rows"].as_array().unwrap() {
+        assert!(folder.path().join(format!("{}.mcap", row["case"].as_str().unwrap())).exists());
+    }
+    for name in ["plan.json", "rows.csv", "rows.parquet"] {
+        assert!(folder.path().join(name).exists(), "{name}");
+    }
+    assert_eq!(json(&args)["ran"], 0);
+    assert_eq!(json(&["status", out, "--json"])["missing"], 0);
+    // A row taken away is missing: exit code 1.
+    let journal = folder.path().join("journal.jsonl");
+    let text = std::fs::read_to_string(&journal).unwrap();
+    std::fs::write(&journal, text.lines().skip(1).map(|line| format!("{line}\n")).collect::<String>()).unwrap();
+    let (code, said, _) = run(&["status", out]);
+    assert_eq!((code, said.trim()), (1, "3 of 4 done, 1 missing, 0 failed"));
+}
+
+#[test]
+fn a_folder_of_configs_is_swept_file_by_file() {
+    let folder = scratch::folder();
+    let configs = folder.path().join("configs/deep");
+    std::fs::create_dir_all(&configs).unwrap();
+    for name in ["a.yaml", "b.yaml"] {
+        std::fs::copy(Path::new(ROOT).join("configs/smoke.yaml"), configs.join(name)).unwrap();
+    }
+    let mut command = gotai(&["sweep", "configs", "--record", "none", "--set", "time.end_s=0.1"]);
+    let output = command.current_dir(folder.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    for name in ["recordings/deep/a/rows.csv", "recordings/deep/b/rows.csv"] {
+        assert!(folder.path().join(name).exists(), "{name}");
+    }
+}
+
+#[test]
+fn an_interrupted_sweep_keeps_what_is_finished_and_goes_on_later() {
+    let folder = scratch::folder();
+    let out = folder.path().to_str().unwrap();
+    const SEEDS: &str = "sweep.axes.seed=[0, 1, 2, 3]";
+    let long = ["sweep", "configs/lecture/friction.yaml", "--out", out, "--record", "none", "--set", "time.step_s=2e-4", "--set", SEEDS];
+    let mut child = gotai(&long).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let journal = folder.path().join("journal.jsonl");
+    let started = Instant::now();
+    let lines = || std::fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
+    while lines() < 3 && started.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let kept = lines();
+    assert!((3..56).contains(&kept), "{kept}");
+    let rows = std::fs::read_to_string(folder.path().join("rows.csv")).unwrap();
+    assert_eq!(rows.lines().count(), kept + 1);
+    let rest = json(&[&long[..], &["--json"]].concat());
+    assert_eq!(rest["ran"].as_u64(), Some(56 - kept as u64));
+}
+
+#[test]
+fn explain_says_what_runs_and_what_it_costs() {
+    let d = json(&["explain", "configs/lecture/stability.yaml", "--json"]);
+    assert_eq!((d["cases"].as_u64(), d["steps"].as_u64()), (Some(420), Some(70 * (4000 + 2000 + 800 + 400 + 200 + 80))));
+    assert!(d["estimated_cpu_s"].as_f64().unwrap() > 0.0);
+    let (_, text, _) = run(&["explain", "configs/projectile.yaml"]);
+    assert!(text.contains("contact test: skipped — `free` is motion without contact"), "{text}");
+}
+
+#[test]
+fn list_names_every_method_and_shape_that_can_be_written() {
+    let names = |what: &str| -> Vec<String> {
+        let lines = json(&["list", what, "--json"]);
+        lines.as_array().unwrap().iter().map(|line| line["name"].as_str().unwrap().to_string()).collect()
+    };
+    // The parser's own list, from its error message.
+    let known = |set: &str| run(&["run", "configs/lecture/demo.yaml", "--set", set]).2;
+    let (methods, shapes) = (known("method=nonsense"), known("scene.bodies.cube.shape=nonsense"));
+    assert!(names("methods").iter().all(|name| methods.contains(name.as_str())) && names("methods").len() == 4);
+    assert!(names("shapes").iter().all(|name| shapes.contains(name.as_str())) && names("shapes").len() == 3);
+}

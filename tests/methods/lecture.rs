@@ -1,0 +1,145 @@
+//! The lecture's method in all its variants (L16–L21).
+
+use crate::yaml::{CUBE_IN_BOX, FREE_BAR, experiment, measured, run};
+use gotai::collide::detect;
+use gotai::measure::work::Work;
+use gotai::row::Outcome;
+use gotai::solve::problem::{ContactProblem, Twist};
+use nalgebra::{SymmetricEigen, Vector3};
+
+/// A turned bar on a floor with `n` of its nodes just inside, as a contact problem.
+fn problem_with(contacts: usize) -> ContactProblem {
+    let sets = ["scene.random=null", "method=free", "scene.bodies.cube.position_m=[0, 0.499, 0]"];
+    let (model, state) = gotai::model::build(&experiment(CUBE_IN_BOX, &sets)).unwrap();
+    let (mut found, mut work) = (Vec::new(), Work::default());
+    detect(&model, &state, 0.0, &mut found, &mut work);
+    assert_eq!(found.len(), 9);
+    // Nodes 0, 4, 7: no three in a row.
+    let order = [0, 5, 7, 3, 1, 2, 4, 6, 8];
+    let some: Vec<_> = order[..contacts].iter().map(|&i| found[i]).collect();
+    let free = [Twist { v: Vector3::new(0.3, -1.0, 0.1), w: Vector3::new(0.5, 0.2, -0.4) }];
+    let mut problem = ContactProblem::default();
+    problem.gather(&model, &state, &free, &some);
+    problem
+}
+
+/// A = J M⁻¹ Jᵀ of one body has rank 3, 5, 6, 6, …: from two contacts on it cannot be inverted (L20).
+#[test]
+fn the_rank_of_A_is_3_5_6_6() {
+    for (contacts, rank) in [(1, 3), (2, 5), (3, 6), (4, 6), (9, 6)] {
+        let eigen = SymmetricEigen::new(problem_with(contacts).A()).eigenvalues;
+        let counted = eigen.iter().filter(|value| **value > 1e-10 * eigen.amax()).count();
+        assert_eq!(counted, rank, "{contacts} contacts: {eigen}");
+    }
+}
+
+#[test]
+fn without_the_gyroscopic_term_angular_momentum_is_lost_at_every_step() {
+    let text = "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  bodies:
+    - name: top
+      shape: { box: { size_m: [1, 1, 1] } }
+      mesh: { nodes_per_edge: 2 }
+      mass_kg: 1
+      inertia_kg_m2: [1, 2, 3]
+      angular_velocity_rad_s: [0.5, 3, 0.5]
+method: lecture
+time: { step_s: 0.01, end_s: 10 }
+";
+    let drift = |sets: &[&str]| measured(text, sets).angular_momentum_drift_rel.unwrap();
+    let (coarse, fine) = (drift(&[]), drift(&["time.step_s=0.001"]));
+    // measured: 0.2505 and 0.2495
+    assert!(coarse > 0.2 && (coarse / fine - 1.0).abs() < 0.02, "{coarse} {fine}");
+    // measured: 1.4e-14 (`rotation: momentum`)
+    let cured = drift(&["method.lecture.rotation=momentum"]);
+    assert!(cured < 1e-12, "{cured}");
+}
+
+/// The midpoint rotation against itself at a tenth of the step.
+#[test]
+fn the_momentum_conserving_rotation_has_order_two() {
+    let end = |h: f64| {
+        let step = format!("time.step_s={h}");
+        run(&experiment(FREE_BAR, &["time.end_s=1", &step])).state.bodies[0].q_WB
+    };
+    let reference = end(1e-5);
+    let steps = [8e-3, 4e-3, 2e-3, 1e-3];
+    let errors = steps.map(|h| end(h).angle_to(&reference));
+    let order = super::order(&steps, &errors);
+    // measured: 2.00
+    assert!((order - 2.0).abs() < 0.1, "{order} {errors:?}");
+    let m = measured(FREE_BAR, &[]);
+    // measured: 3e-15; energy is not conserved exactly, but does not drift: 2e-5
+    assert!(m.angular_momentum_drift_rel.unwrap() < 1e-13 && m.energy_drift_rel.unwrap().abs() < 1e-3);
+}
+
+#[test]
+fn every_variant_runs_and_a_cube_at_small_steps_comes_to_rest() {
+    for start in ["none", "direct", "inverse", "pseudo-inverse"] {
+        for update in ["explicit", "semi-implicit"] {
+            let settings = format!("method={{lecture: {{start: {start}, update: {update}, correction: per-contact}}}}");
+            let m = measured(CUBE_IN_BOX, &[&settings, "time.step_s=0.001"]);
+            assert_eq!(m.outcome, Outcome::Finished, "{start} {update}");
+            // Resting on a face: m g/2 above the floor, less what it sank in.
+            assert!(m.energy_end_j.unwrap() < 6.0, "{start} {update}: {:?}", m.energy_end_j);
+        }
+    }
+    // Jacobi is unstable almost everywhere (ρ ≥ L/2 − 1).
+    let jacobi = measured(CUBE_IN_BOX, &["method.lecture.iteration=jacobi", "scene.bodies.cube.mesh.nodes_per_edge=5"]);
+    assert_eq!(jacobi.outcome, Outcome::Diverged);
+}
+
+/// `lecture` with `correction: per-contact` and the solver of `pgs` are one iteration: the first impact, where nothing is
+/// warm yet, gives the same velocities.
+#[test]
+fn the_lecture_corrected_per_contact_is_projected_gauss_seidel() {
+    let flat = ["scene.random=null", "scene.bodies.cube.position_m=[0, 0.5, 0]", "time.end_s=0.01"];
+    let moving = ["scene.bodies.cube.velocity_m_s=[1, -2, 0.5]", "scene.bodies.cube.angular_velocity_rad_s=[0.3, 0.1, -0.2]"];
+    let end = |method: &str| {
+        let sets: Vec<&str> = flat.iter().chain(&moving).copied().chain([method]).collect();
+        let ended = run(&experiment(CUBE_IN_BOX, &sets));
+        assert_eq!(ended.contacts.len(), 9);
+        (ended.state.bodies[0].v_WB, ended.contacts.iter().map(|c| c.impulse_W).collect::<Vec<_>>())
+    };
+    // The lecture touches only inside: start a hair's breadth in it. Method free does not look.
+    let inside = "scene.container={box: {size_m: [4, 4, 4], center_m: [0, 2.0000000001, 0]}}";
+    let mut sets: Vec<&str> = flat.iter().chain(&moving).copied().collect();
+    sets.extend(["method={lecture: {correction: per-contact, rotation: momentum}}", inside]);
+    let lecture = run(&experiment(CUBE_IN_BOX, &sets));
+    let (v, impulses) = end("method={time-stepping: {tolerance: 0, position_correction: none}}");
+    assert_eq!(lecture.contacts.len(), 9);
+    // The two scenes differ by 1e-10 m in height, and in no contact arm.
+    assert!((lecture.state.bodies[0].v_WB - v).norm() < 1e-12);
+    for (a, b) in lecture.contacts.iter().zip(&impulses) {
+        assert!((a.impulse_W - b).norm() < 1e-9 * b.norm().max(1e-3));
+    }
+}
+
+#[test]
+fn a_mass_that_is_a_power_of_two_changes_no_bit() {
+    for method in ["lecture", "time-stepping"] {
+        let end = |mass: f64| {
+            let sets = [format!("method={method}"), format!("scene.bodies.cube.mass_kg={mass}"), "time.end_s=3".into()];
+            run(&experiment(CUBE_IN_BOX, &[&sets[0], &sets[1], &sets[2]])).state
+        };
+        let one = end(1.0);
+        assert_eq!(one, end(4.0), "{method}");
+        assert_eq!(one, end(0.125), "{method}");
+    }
+}
+
+/// `pgs` does not multiply rounding: other masses agree after 3 s.
+#[test]
+fn other_masses_agree_to_rounding() {
+    let end = |mass: f64| {
+        let mass = format!("scene.bodies.cube.mass_kg={mass}");
+        run(&experiment(CUBE_IN_BOX, &[&mass, "time.end_s=3"])).state.bodies[0].p_WB
+    };
+    let one = end(1.0);
+    for mass in [0.3, 7.0, 1000.0] {
+        // measured: 1e-13 at most
+        assert!((end(mass) - one).norm() < 1e-10, "{mass}: {}", (end(mass) - one).norm());
+    }
+}

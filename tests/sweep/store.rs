@@ -1,0 +1,120 @@
+use super::{SWEEP, planned, sweep, sweep_with};
+use crate::scratch;
+use gotai::experiment::types::RecordCases;
+use gotai::record::writer::Target;
+use gotai::row::{Measured, Outcome};
+use gotai::sweep::recordings::known_after;
+use gotai::sweep::runner::build_and_run;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::RowAccessor;
+use std::fs::File;
+use std::io::Write;
+
+#[test]
+fn run_again_a_sweep_does_only_what_is_missing() {
+    let folder = scratch::folder();
+    let few = planned(SWEEP, &["sweep.axes.seed=[0, 1]"]);
+    assert_eq!(sweep(&few, folder.path(), &[]).0, 8);
+    assert_eq!(sweep(&few, folder.path(), &[]).0, 0);
+    // The axes have grown: 24 cases, 8 of them done.
+    let more = planned(SWEEP, &[]);
+    let (ran, rows) = sweep(&more, folder.path(), &[]);
+    assert_eq!((ran, rows.len()), (16, 24));
+    assert!(rows.iter().zip(&more).all(|(row, case)| row.case == case.id && row.axes == case.axes));
+}
+
+#[test]
+fn a_journal_torn_by_a_kill_costs_one_row() {
+    let folder = scratch::folder();
+    let cases = planned(SWEEP, &["sweep.axes.seed=[0, 1]"]);
+    let (_, whole) = sweep(&cases, folder.path(), &[]);
+    let journal = folder.path().join("journal.jsonl");
+    let text = std::fs::read(&journal).unwrap();
+    std::fs::write(&journal, &text[..text.len() - 25]).unwrap();
+    let (ran, rows) = sweep(&cases, folder.path(), &[]);
+    assert_eq!((ran, rows.len()), (1, 8));
+    let same = |a: &Measured, b: &Measured| a.without_wall_time() == b.without_wall_time();
+    assert!(rows.iter().zip(&whole).all(|(a, b)| same(&a.measured, &b.measured)));
+    // Also the line after the torn one was kept whole.
+    assert_eq!(sweep(&cases, folder.path(), &[]).0, 0);
+}
+
+#[test]
+fn rows_of_another_build_count_as_missing() {
+    let folder = scratch::folder();
+    let cases = planned(SWEEP, &["sweep.axes.seed=[0]"]);
+    sweep(&cases, folder.path(), &[]);
+    let journal = folder.path().join("journal.jsonl");
+    let text = std::fs::read_to_string(&journal).unwrap();
+    std::fs::write(&journal, text.replace(gotai::build_info::BUILD, "another")).unwrap();
+    assert_eq!(sweep(&cases, folder.path(), &[]).0, 4);
+}
+
+#[test]
+fn a_case_that_panics_is_a_failed_row_and_the_sweep_goes_on() {
+    let folder = scratch::folder();
+    let cases = planned(SWEEP, &["sweep.axes.seed=[0, 1, 2]"]);
+    let (ran, rows) = sweep_with(&cases, folder.path(), &[], &|case, targets| {
+        assert!(case.experiment.seed != 1, "seed 1 is not liked here");
+        build_and_run(case, folder.path(), targets)
+    });
+    assert_eq!((ran, rows.len()), (12, 12));
+    for row in &rows {
+        let disliked = row.axes["seed"] == 1;
+        assert_eq!(row.measured.outcome == Outcome::Failed, disliked);
+        assert_eq!(row.measured.criterion.as_deref() == Some("seed 1 is not liked here"), disliked);
+    }
+}
+
+#[test]
+fn both_tables_hold_the_rows_in_plan_order() {
+    let folder = scratch::folder();
+    let cases = planned(SWEEP, &[]);
+    let (_, rows) = sweep(&cases, folder.path(), &[]);
+    let mut csv = csv::Reader::from_path(folder.path().join("rows.csv")).unwrap();
+    let header: Vec<String> = csv.headers().unwrap().iter().map(str::to_string).collect();
+    assert_eq!(header[..6], ["case", "method", "time.step_s", "seed", "outcome", "criterion"]);
+    let column = |name: &str| header.iter().position(|h| h == name).unwrap();
+    let (case, energy) = (column("case"), column("energy_end_j"));
+    let read: Vec<_> = csv.records().map(|record| record.unwrap()).collect();
+    let parquet = SerializedFileReader::new(File::open(folder.path().join("rows.parquet")).unwrap()).unwrap();
+    let parquet: Vec<_> = parquet.get_row_iter(None).unwrap().map(|row| row.unwrap()).collect();
+    assert_eq!((read.len(), parquet.len()), (24, 24));
+    for ((row, csv), parquet) in rows.iter().zip(&read).zip(&parquet) {
+        assert_eq!((&csv[case], parquet.get_string(case).unwrap().as_str()), (row.case.as_str(), row.case.as_str()));
+        // To the last bit, in both.
+        let energy_j = row.measured.energy_end_j.unwrap();
+        assert_eq!((csv[energy].parse(), parquet.get_double(energy).unwrap()), (Ok(energy_j), energy_j));
+        assert_eq!(parquet.get_long(column("seed")).unwrap(), row.axes["seed"].as_i64().unwrap());
+    }
+}
+
+#[test]
+fn few_recordings_show_both_outcomes() {
+    let with = |outcome| Measured { outcome, ..Measured::nothing() };
+    let (finished, diverged) = (with(Outcome::Finished), with(Outcome::Diverged));
+    let all: Vec<Option<&Measured>> =
+        (0..1000).map(|i| Some(if i % 100 == 7 { &diverged } else { &finished })).collect();
+    let chosen = known_after(RecordCases::Few, &all);
+    let exploded = chosen.iter().filter(|i| *i % 100 == 7).count();
+    assert_eq!((chosen.len(), exploded), (24, 10));
+    assert!(chosen.windows(2).all(|pair| pair[0] < pair[1]));
+    assert_eq!(known_after(RecordCases::Diverged, &all).len(), 10);
+    assert_eq!(known_after(RecordCases::Sample(20), &all).len(), 20);
+    assert_eq!(known_after(RecordCases::First, &all), [0]);
+    assert_eq!(known_after(RecordCases::Few, &all[..5]).len(), 5);
+}
+
+#[test]
+fn a_missing_recording_is_made_again_and_a_complete_one_left_alone() {
+    let folder = scratch::folder();
+    let cases = planned(SWEEP, &["sweep.axes.seed=[0]"]);
+    sweep(&cases, folder.path(), &[Target::Mcap]);
+    let file = |i: usize| folder.path().join(format!("{}.mcap", cases[i].id));
+    let before: Vec<_> = (0..4).map(|i| std::fs::read(file(i)).unwrap()).collect();
+    std::fs::remove_file(file(2)).unwrap();
+    File::create(file(1)).unwrap().write_all(b"mine").unwrap();
+    assert_eq!(sweep(&cases, folder.path(), &[Target::Mcap]).0, 0);
+    assert_eq!(std::fs::read(file(2)).unwrap(), before[2]);
+    assert_eq!(std::fs::read(file(1)).unwrap(), b"mine");
+}

@@ -1,0 +1,33 @@
+//! Same case, same bits: for any number of threads, recorders on or off.
+
+use super::{SWEEP, planned, sweep};
+use crate::scratch;
+use gotai::case::hex;
+use gotai::record::writer::Target;
+use gotai::row::Row;
+use sha2::{Digest, Sha256};
+
+fn hash(rows: &[Row]) -> String {
+    let bits: Vec<Row> = rows
+        .iter()
+        .map(|row| Row { measured: row.measured.without_wall_time(), ..row.clone() })
+        .collect();
+    hex(&Sha256::digest(serde_json::to_vec(&bits).unwrap()))
+}
+
+fn rows(threads: usize, targets: &[Target], sets: &[&str]) -> Vec<Row> {
+    let folder = scratch::folder();
+    let cases = planned(SWEEP, sets);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| sweep(&cases, folder.path(), targets)).1
+}
+
+#[test]
+fn threads_and_recorders_change_no_bit() {
+    let one = rows(1, &[], &[]);
+    assert!(one.iter().any(|row| row.measured.criterion.is_some()), "some case explodes");
+    let reference = hash(&one);
+    assert_eq!(hash(&rows(2, &[], &[])), reference);
+    assert_eq!(hash(&rows(2, Target::AVAILABLE, &[])), reference);
+    assert_eq!(hash(&rows(1, Target::AVAILABLE, &["record.every_s=0"])), reference);
+}

@@ -8,7 +8,7 @@ const FLAGS: [&str; 2] = ["--shard", "--junit"];
 
 /// Prints a parser's message (or help) and gives the exit code.
 pub fn explain_usage(error: &clap::Error) -> ExitCode {
-    let named = |kind, names: &[&str]| match error.get(kind) {
+    let named = |kind, names: &[&'static str]| match error.get(kind) {
         Some(ContextValue::String(found)) => names.iter().find(|name| found.split('=').next() == Some(name)).copied(),
         _ => None,
     };

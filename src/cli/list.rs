@@ -47,7 +47,7 @@ const METHODS: [Line; 4] = [
     ),
     (
         "time-stepping",
-        "solver: pgs (default); scheme: semi-implicit (default); impact: newton (default); sweeps: 50; tolerance: 0; \
+        "solver: pgs (default); scheme: semi-implicit (default); impact: newton (default); sweeps: 50; tolerance: 1e-12; \
          position_correction: projection (default) | none",
         "velocity–impulse with projected Gauss–Seidel, momentum-conserving rotation; order 1; the default method",
         "Moreau 1988; Stewart & Trinkle 1996; Anitescu & Potra 1997",

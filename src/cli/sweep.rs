@@ -4,9 +4,10 @@ use super::progress::Bar;
 use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, print, print_json};
 use crate::case::Case;
 use crate::experiment::ExperimentFile;
+use crate::record::writer::Target;
 use crate::row::{Outcome, Row};
 use crate::sweep::plan::cases;
-use crate::sweep::runner::{self, lock};
+use crate::sweep::runner::{Job, build_and_run, lock};
 use crate::sweep::store::{PlanFile, Store};
 use clap::Args;
 use serde_json::json;
@@ -77,7 +78,10 @@ impl Command {
         if self.output.verbose {
             eprintln!("{}: {} cases into {}", config.display(), cases.len(), dir.display());
         }
-        let ran = quietly(|| runner::sweep(&cases, &store, &dir, &targets, &Bar::new(self.output.quiet)))?;
+        let work = |case: &Case, targets: &[Target]| build_and_run(case, &dir, targets);
+        let bar = Bar::new(self.output.quiet);
+        let job = Job { dir: &dir, targets: &targets, work: &work, progress: &bar };
+        let ran = quietly(|| job.sweep(&cases, &store))?;
         let rows = lock(&store).rows();
         Ok(Swept { config: config.to_path_buf(), dir, ran, planned: cases.len(), rows })
     }

@@ -177,13 +177,13 @@ impl fmt::Display for ExperimentError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Details { file, line, set, axis, case, path, message, .. } = self.details();
         match (set, file, line) {
-            (Some(set), _, _) => write!(f, "--set {set}: ")?,
+            (Some(set), _, _) => write!(f, "--set {}: ", in_one_line(set))?,
             (None, Some(file), Some(line)) => write!(f, "{file}:{line}: ")?,
             (None, Some(file), None) => write!(f, "{file}: ")?,
             (None, None, _) => {}
         }
         if !path.is_empty() {
-            write!(f, "{path}: ")?;
+            write!(f, "{}: ", in_one_line(&path.to_string()))?;
         }
         f.write_str(message)?;
         match (axis, case) {
@@ -249,14 +249,21 @@ pub(crate) fn describe(value: &Value) -> String {
 pub(crate) fn key_text(key: &Value) -> String {
     match key {
         Value::String(text) => shortened(text),
+        Value::Mapping(_) => "a mapping".to_string(),
+        Value::Sequence(_) => "a list".to_string(),
+        Value::Tagged(_) => "a tag".to_string(),
         other => describe(other),
     }
 }
 
-/// Messages stay one line long.
-fn shortened(text: &str) -> String {
+fn in_one_line(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}
+
+/// Messages stay short.
+pub(crate) fn shortened(text: &str) -> String {
     const LONGEST: usize = 60;
-    let flat: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let flat = in_one_line(text);
     match flat.char_indices().nth(LONGEST) {
         None => flat,
         Some((end, _)) => format!("{}…", &flat[..end]),

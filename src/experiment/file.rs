@@ -1,15 +1,15 @@
 //! An experiment file with its `--set`s: from text to resolved `Experiment`s, and from errors back to lines.
 
-use super::error::{ExperimentError, Kind, describe};
+use super::error::{ExperimentError, Kind};
 use super::key_path::KeyPath;
 use super::overrides::{Override, assign, resolve, split};
-use super::positions::{Duplicate, Positions};
+use super::positions;
+use super::source::{parse, read};
 use super::types::Experiment;
 use super::validate::{normalise_quaternions, validate};
 use super::value_de::from_value;
 use crate::sweep::axes::{Axes, axis_path, value_path};
 use serde_yaml::{Mapping, Value};
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
@@ -18,7 +18,8 @@ type Result<T> = std::result::Result<T, ExperimentError>;
 #[derive(Clone, Debug)]
 pub struct ExperimentFile {
     path: PathBuf,
-    positions: Positions,
+    /// What was read, for the lines of errors.
+    text: String,
     /// Everything but `sweep`.
     tree: Value,
     axes: Axes,
@@ -52,10 +53,9 @@ impl ExperimentFile {
     pub fn from_text(path: &Path, text: &str, sets: &[String]) -> Result<ExperimentFile> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let tree = parse(text).map_err(|error| error.named(path))?;
-        let (positions, _) = Positions::of(text);
         let mut file = ExperimentFile {
             path: path.to_path_buf(),
-            positions,
+            text: text.to_string(),
             tree,
             axes: Axes::default(),
             order: Vec::new(),
@@ -88,7 +88,10 @@ impl ExperimentFile {
         if left.is_empty() {
             return self.case(&[]);
         }
-        let message = format!("axes are left: {}; fix each of them with --set PATH=VALUE", left.join(", "));
+        let message = format!(
+            "axes are left: {}; fix each of them with --set PATH=VALUE",
+            left.join(", ")
+        );
         let mut error = ExperimentError::new(Kind::AxesLeft, KeyPath::of_keys(&["sweep", "axes"]), message);
         error.details_mut().known = left.iter().map(|path| path.to_string()).collect();
         Err(self.placed(error))
@@ -128,7 +131,11 @@ impl ExperimentFile {
         let target = resolve(&self.tree, &path);
         self.remove_axis(&target);
         let at = assign(&mut self.tree, &path, value)?;
-        self.sets.push(Applied { text: text.to_string(), path, at });
+        self.sets.push(Applied {
+            text: text.to_string(),
+            path,
+            at,
+        });
         Ok(())
     }
 
@@ -197,7 +204,10 @@ impl ExperimentFile {
                 path.starts_with(&target) && !path.is_same(&target)
             };
             if let Some(set) = self.sets.iter().find(is_below) {
-                let message = format!("is an axis, whose values would overwrite this; set `{}` itself", axis.path);
+                let message = format!(
+                    "is an axis, whose values would overwrite this; set `{}` itself",
+                    axis.path
+                );
                 return Err(by_set(ExperimentError::new(Kind::Path, target, message), &set.text).named(&self.path));
             }
         }
@@ -245,7 +255,10 @@ impl ExperimentFile {
     }
 
     fn shown_case(&self, point: &[usize]) -> String {
-        let values = point.iter().enumerate().map(|(axis, value)| self.shown_value(axis, *value));
+        let values = point
+            .iter()
+            .enumerate()
+            .map(|(axis, value)| self.shown_value(axis, *value));
         values.collect::<Vec<_>>().join(", ")
     }
 
@@ -256,7 +269,7 @@ impl ExperimentFile {
             return by_set(error, &set.text).named(&self.path);
         }
         let mut error = error.named(&self.path);
-        if let Some(position) = self.positions.nearest(&path) {
+        if let Some(position) = positions::nearest(&self.text, &path) {
             error.details_mut().line = Some(position.line);
             error.details_mut().column = Some(position.column);
         }
@@ -272,8 +285,16 @@ fn resolved(tree: &Value) -> Result<Experiment> {
 }
 
 fn axis_keys(tree: &Value) -> Vec<String> {
-    let axes = tree.get("sweep").and_then(|sweep| sweep.get("axes")).and_then(Value::as_mapping);
-    axes.map(Mapping::keys).into_iter().flatten().filter_map(Value::as_str).map(str::to_string).collect()
+    let axes = tree
+        .get("sweep")
+        .and_then(|sweep| sweep.get("axes"))
+        .and_then(Value::as_mapping);
+    axes.map(Mapping::keys)
+        .into_iter()
+        .flatten()
+        .filter_map(Value::as_str)
+        .map(str::to_string)
+        .collect()
 }
 
 fn is_one_of(value: &Value, words: &[String]) -> bool {
@@ -283,57 +304,4 @@ fn is_one_of(value: &Value, words: &[String]) -> bool {
 fn by_set(mut error: ExperimentError, set: &str) -> ExperimentError {
     error.details_mut().set = Some(set.to_string());
     error
-}
-
-fn read(path: &Path) -> Result<String> {
-    let bytes = std::fs::read(path).map_err(|error| {
-        let kind = match error.kind() {
-            ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => Kind::File,
-            ErrorKind::InvalidInput | ErrorKind::InvalidFilename => Kind::File,
-            _ => Kind::Unreadable,
-        };
-        ExperimentError::new(kind, KeyPath::default(), format!("cannot read the file: {error}"))
-    })?;
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let mut fault = ExperimentError::new(Kind::File, KeyPath::default(), "this line is not UTF-8 text");
-        fault.details_mut().line = Some(valid.iter().filter(|byte| **byte == b'\n').count() + 1);
-        fault
-    })
-}
-
-fn parse(text: &str) -> Result<Value> {
-    let mut tree: Value = serde_yaml::from_str(text).map_err(|error| syntax_error(&error, text))?;
-    tree.apply_merge().map_err(|error| syntax_error(&error, text))?;
-    match tree {
-        Value::Mapping(_) => Ok(tree),
-        Value::Null => {
-            let message = "the file is empty: expected an experiment (scene, method, time, …)";
-            Err(ExperimentError::new(Kind::File, KeyPath::default(), message))
-        }
-        other => Err(ExperimentError::unexpected(
-            KeyPath::default(),
-            "an experiment (a mapping with the keys scene, method, time, …)",
-            &describe(&other),
-        )),
-    }
-}
-
-/// serde_yaml refuses a key that is there twice, but does not say where.
-fn syntax_error(error: &serde_yaml::Error, text: &str) -> ExperimentError {
-    let message = error.to_string();
-    let duplicate = if message.contains("duplicate entry") { Positions::of(text).1 } else { None };
-    if let Some(Duplicate { path, first, second }) = duplicate {
-        let message = format!("this key is already there, on line {}", first.line);
-        let mut error = ExperimentError::new(Kind::DuplicateKey, path, message);
-        error.details_mut().line = Some(second.line);
-        error.details_mut().column = Some(second.column);
-        return error;
-    }
-    let mut fault = ExperimentError::new(Kind::Syntax, KeyPath::default(), format!("not valid YAML: {message}"));
-    if let Some(location) = error.location() {
-        fault.details_mut().line = Some(location.line());
-        fault.details_mut().column = Some(location.column());
-    }
-    fault
 }

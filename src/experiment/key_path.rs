@@ -142,5 +142,5 @@ fn with(mut path: KeyPath, segment: Segment) -> KeyPath {
 
 /// Whether an item of this name can be named in a path.
 pub fn is_addressable(name: &str) -> bool {
-    !name.is_empty() && !name.contains('.')
+    !name.is_empty() && !name.contains(|c: char| c == '.' || c.is_control())
 }

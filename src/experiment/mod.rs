@@ -10,6 +10,7 @@ mod later;
 pub mod nearest;
 pub mod overrides;
 pub mod positions;
+mod source;
 pub mod types;
 mod validate;
 mod validate_body;

@@ -370,6 +370,7 @@ pub struct TimeStepping {
     pub impact: Impact,
     pub sweeps: u32,
     /// Stop when a sweep changes no impulse by more than this part of the largest; 0: only when nothing changes.
+    /// 1e-12: what is left is below the rounding of a step.
     pub tolerance: f64,
     pub position_correction: PositionCorrection,
 }
@@ -381,7 +382,7 @@ impl Default for TimeStepping {
             scheme: Scheme::SemiImplicit,
             impact: Impact::Newton,
             sweeps: 50,
-            tolerance: 0.0,
+            tolerance: 1e-12,
             position_correction: PositionCorrection::Projection,
         }
     }

@@ -128,7 +128,7 @@ impl<'de, 'p> Node<'de, 'p> {
 
     fn unknown_key(&self, name: &str, fields: &[&str], key: &Value) -> ExperimentError {
         let text = key_text(key);
-        let path = self.path.key(&text).to_key_path();
+        let path = self.path.key(key.as_str().unwrap_or(&text)).to_key_path();
         if is_later(name, &text) {
             return ExperimentError::not_available(path, None);
         }

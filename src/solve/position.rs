@@ -2,6 +2,7 @@
 //! 871 separate positions from velocities likewise): displacements d = M⁻¹ J_nᵀ λ, λ ≥ 0, that move every too deep
 //! contact out by a part of its depth, found by projected Gauss–Seidel on the normal rows alone.
 
+use super::gauss_seidel::Sweeps;
 use super::problem::{ContactProblem, Twist};
 use crate::collide::Contact;
 use crate::measure::work::Work;
@@ -19,7 +20,7 @@ pub fn push_out(
     problem: &ContactProblem,
     contacts: &[Contact],
     model: &Model,
-    sweeps: u32,
+    sweeps: &Sweeps,
     multipliers: &mut Vec<f64>,
     out: &mut Vec<Twist>,
     work: &mut Work,
@@ -32,19 +33,21 @@ pub fn push_out(
     multipliers.resize(contacts.len(), 0.0);
     out.clear();
     out.resize(model.bodies.len(), Twist::ZERO);
-    for _ in 0..sweeps {
+    for _ in 0..sweeps.most {
         work.sweeps += 1;
-        let mut changed = false;
+        let (mut change, mut largest) = (0.0_f64, 0.0_f64);
         for ((block, contact), multiplier) in problem.blocks.iter().zip(contacts).zip(multipliers.iter_mut()) {
             let missing = wanted(contact) - block.normal_motion(out);
             let new = (*multiplier + missing * block.inverse_diagonal.x).max(0.0);
-            if new != *multiplier {
-                block.apply_normal(new - *multiplier, out);
+            let moved = new - *multiplier;
+            if moved != 0.0 {
+                block.apply_normal(moved, out);
                 *multiplier = new;
-                changed = true;
+                change = change.max(moved.abs());
             }
+            largest = largest.max(new);
         }
-        if !changed {
+        if change <= sweeps.tolerance * largest {
             break;
         }
     }

@@ -19,8 +19,8 @@ use crate::state::State;
 const MARGIN: f64 = 1e-9;
 
 pub struct TimeStepping {
-    settings: Settings,
-    friction: bool,
+    sweeps: Sweeps,
+    position_correction: PositionCorrection,
     /// Which contact had which impulse in the last step, in the order of contacts.
     last: Vec<(usize, (u32, u32), Impulse)>,
     /// Multipliers and displacements of the position correction.
@@ -32,8 +32,14 @@ pub struct TimeStepping {
 impl TimeStepping {
     pub fn new(settings: &Settings, friction: bool) -> Self {
         TimeStepping {
-            settings: settings.clone(),
-            friction,
+            sweeps: Sweeps {
+                iteration: Iteration::GaussSeidel,
+                correction: Correction::PerContact,
+                most: settings.sweeps,
+                tolerance: settings.tolerance,
+                friction,
+            },
+            position_correction: settings.position_correction,
             last: Vec::new(),
             pushes: Vec::new(),
             pushed: Vec::new(),
@@ -78,14 +84,7 @@ impl TimeStepping {
             s.impulses.fill(Impulse::zeros());
         }
         if !s.found.is_empty() {
-            let sweeps = Sweeps {
-                iteration: Iteration::GaussSeidel,
-                correction: Correction::PerContact,
-                most: self.settings.sweeps,
-                tolerance: self.settings.tolerance,
-                friction: self.friction,
-            };
-            iterate(&s.problem, &sweeps, &mut s.impulses, &mut s.solver, &mut s.work);
+            iterate(&s.problem, &self.sweeps, &mut s.impulses, &mut s.solver, &mut s.work);
         }
         self.last.clear();
         self.last.extend(s.found.iter().zip(&s.impulses).map(|(c, p)| (c.body, c.feature, *p)));
@@ -94,12 +93,12 @@ impl TimeStepping {
 
     fn push_out(&mut self, model: &Model) -> bool {
         let s = &mut self.scratch;
-        self.settings.position_correction == PositionCorrection::Projection
+        self.position_correction == PositionCorrection::Projection
             && push_out(
                 &s.problem,
                 &s.found,
                 model,
-                self.settings.sweeps,
+                &self.sweeps,
                 &mut self.pushes,
                 &mut self.pushed,
                 &mut s.work,

@@ -184,15 +184,12 @@ struct Labelled {
 fn refuse_repeats(key: &str, values: &[AxisValue]) -> Result<()> {
     let (mut seen, mut shown) = (HashMap::new(), HashMap::new());
     for (i, value) in values.iter().enumerate() {
-        let repeat = |first: usize, what: String| {
-            let message = format!("{what} is on this axis twice (items {first} and {i})");
-            ExperimentError::new(Kind::Unexpected, value_path(key, i), message)
-        };
-        if let Some(first) = seen.insert(identity(&value.value), i) {
-            return Err(repeat(first, format!("the value {}", compact_json(&value.value))));
-        }
-        if let Some(first) = shown.insert(value.shown(), i) {
-            return Err(repeat(first, format!("the label `{}`", value.shown())));
+        let same = seen
+            .insert(identity(&value.value), i)
+            .or(shown.insert(value.shown(), i));
+        if let Some(first) = same {
+            let message = format!("`{}` is on this axis twice (items {first} and {i})", value.shown());
+            return Err(ExperimentError::new(Kind::Unexpected, value_path(key, i), message));
         }
     }
     Ok(())

@@ -37,36 +37,82 @@ pub trait Progress: Sync {
     fn end(&self);
 }
 
-/// Runs what is missing, then records the chosen cases and writes the tables. How many cases were run.
-pub fn sweep(
-    cases: &[Case],
-    store: &Mutex<Store>,
-    dir: &Path,
-    targets: &[Target],
-    progress: &dyn Progress,
-) -> Result<usize, SweepError> {
-    let rule = cases.first().map_or(Record::default().cases, |case| case.experiment.record.cases);
-    let missing = missing(cases, &lock(store));
-    let at_once: HashSet<usize> = match known_before(rule, cases.len()) {
-        Some(known) if !targets.is_empty() => known.into_iter().collect(),
-        _ => HashSet::new(),
-    };
-    progress.begin("cases", missing.len());
-    let results: Result<(), SweepError> = missing.par_iter().try_for_each(|&i| {
-        let targets = if at_once.contains(&i) { targets } else { &[] };
-        let measured = run_caught(&cases[i], dir, targets)?;
-        lock(store).add(&cases[i].id, measured)?;
-        progress.one_done();
-        Ok(())
-    });
-    progress.end();
-    lock(store).write_tables()?;
-    results?;
-    if !targets.is_empty() {
-        let fresh = missing.iter().copied().filter(|i| !at_once.contains(i)).collect();
-        record_chosen(cases, store, dir, targets, &fresh, progress)?;
+/// What a sweep does with every case, and where.
+pub struct Job<'a> {
+    pub dir: &'a Path,
+    /// What the chosen cases are recorded into; empty: nothing is.
+    pub targets: &'a [Target],
+    /// Runs a case and records it into the targets.
+    pub work: &'a Work,
+    pub progress: &'a dyn Progress,
+}
+
+pub type Work = dyn Fn(&Case, &[Target]) -> Result<Measured, RecordError> + Sync;
+
+impl Job<'_> {
+    /// Runs what is missing, then records the chosen cases and writes the tables. How many cases were run.
+    pub fn sweep(&self, cases: &[Case], store: &Mutex<Store>) -> Result<usize, SweepError> {
+        let rule = cases.first().map_or(Record::default().cases, |case| case.experiment.record.cases);
+        let missing = missing(cases, &lock(store));
+        let at_once: HashSet<usize> = match known_before(rule, cases.len()) {
+            Some(known) if !self.targets.is_empty() => known.into_iter().collect(),
+            _ => HashSet::new(),
+        };
+        self.progress.begin("cases", missing.len());
+        let ran = missing.par_iter().try_for_each(|&i| {
+            let targets = if at_once.contains(&i) { self.targets } else { &[] };
+            let measured = self.caught(&cases[i], targets)?;
+            lock(store).add(&cases[i].id, measured)?;
+            self.progress.one_done();
+            Ok::<_, SweepError>(())
+        });
+        self.progress.end();
+        lock(store).write_tables()?;
+        ran?;
+        if !self.targets.is_empty() {
+            let stale = missing.iter().copied().filter(|i| !at_once.contains(i)).collect();
+            self.record_chosen(cases, store, &stale)?;
+        }
+        Ok(missing.len())
     }
-    Ok(missing.len())
+
+    /// Records the chosen cases that have no complete recording yet, or only one of an earlier row (`stale`).
+    fn record_chosen(&self, cases: &[Case], store: &Mutex<Store>, stale: &HashSet<usize>) -> Result<(), SweepError> {
+        let chosen = {
+            let store = lock(store);
+            let measured: Vec<_> = cases.iter().map(|case| store.measured(&case.id)).collect();
+            known_after(cases[0].experiment.record.cases, &measured)
+        };
+        let chosen: Vec<_> =
+            chosen.into_iter().filter(|i| stale.contains(i) || !self.is_recorded(&cases[*i])).collect();
+        if chosen.is_empty() {
+            return Ok(());
+        }
+        self.progress.begin("recordings", chosen.len());
+        let result = chosen.par_iter().try_for_each(|&i| {
+            let again = self.caught(&cases[i], self.targets)?;
+            let first = lock(store).measured(&cases[i].id).map(Measured::without_wall_time);
+            self.progress.one_done();
+            let same = first.is_none_or(|first| first == again.without_wall_time());
+            if same { Ok(()) } else { Err(SweepError::NotDeterministic(cases[i].id.clone())) }
+        });
+        self.progress.end();
+        result
+    }
+
+    fn is_recorded(&self, case: &Case) -> bool {
+        let file = |target: &Target| self.dir.join(format!("{}.{}", case.id, target.extension()));
+        self.targets.iter().all(|target| file(target).exists())
+    }
+
+    /// A case that panics is a row too, and the sweep goes on.
+    fn caught(&self, case: &Case, targets: &[Target]) -> Result<Measured, RecordError> {
+        let ran = catch_unwind(AssertUnwindSafe(|| (self.work)(case, targets)));
+        ran.unwrap_or_else(|panic| {
+            let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+            Ok(Measured::failed(text.unwrap_or("panic").to_string()))
+        })
+    }
 }
 
 /// The first of equal cases stands for all of them.
@@ -76,47 +122,13 @@ fn missing(cases: &[Case], store: &Store) -> Vec<usize> {
     (0..cases.len()).filter(|&i| seen.insert(&cases[i].id) && is_missing(&cases[i])).collect()
 }
 
-/// Records the chosen cases that have no complete recording yet, or whose row was made just now (`fresh`).
-fn record_chosen(
-    cases: &[Case],
-    store: &Mutex<Store>,
-    dir: &Path,
-    targets: &[Target],
-    fresh: &HashSet<usize>,
-    progress: &dyn Progress,
-) -> Result<(), SweepError> {
-    let chosen = {
-        let store = lock(store);
-        let measured: Vec<_> = cases.iter().map(|case| store.measured(&case.id)).collect();
-        known_after(cases[0].experiment.record.cases, &measured)
-    };
-    let is_there = |case: &Case| targets.iter().all(|t| dir.join(format!("{}.{}", case.id, t.extension())).exists());
-    let chosen: Vec<_> = chosen.into_iter().filter(|i| fresh.contains(i) || !is_there(&cases[*i])).collect();
-    if chosen.is_empty() {
-        return Ok(());
-    }
-    progress.begin("recordings", chosen.len());
-    let result = chosen.par_iter().try_for_each(|&i| {
-        let again = run_caught(&cases[i], dir, targets)?;
-        let first = lock(store).measured(&cases[i].id).map(Measured::without_wall_time);
-        progress.one_done();
-        let same = first.is_none_or(|first| first == again.without_wall_time());
-        if same { Ok(()) } else { Err(SweepError::NotDeterministic(cases[i].id.clone())) }
-    });
-    progress.end();
-    result
-}
-
-/// A case that panics is a row too, and the sweep goes on.
-fn run_caught(case: &Case, dir: &Path, targets: &[Target]) -> Result<Measured, RecordError> {
-    let ran = catch_unwind(AssertUnwindSafe(|| match model::build(&case.experiment) {
+/// Builds a case's model and runs it, recording it into `dir`: the usual `Work`.
+pub fn build_and_run(case: &Case, dir: &Path, targets: &[Target]) -> Result<Measured, RecordError> {
+    match model::build(&case.experiment) {
         Ok((model, start)) => run_case(case, &model, start, dir, targets).map(|ended| ended.measured),
+        // Every case is built once before the first one runs.
         Err(error) => Ok(Measured::failed(error.to_string())),
-    }));
-    ran.unwrap_or_else(|panic| {
-        let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-        Ok(Measured::failed(text.unwrap_or("panic").to_string()))
-    })
+    }
 }
 
 /// Runs one case and writes its recordings.

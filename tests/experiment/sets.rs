@@ -130,6 +130,7 @@ fn a_malformed_set_says_what_it_must_look_like() {
         let text = message(&[set]);
         assert!(text.starts_with(&format!("--set {set}: expected a path such as ")), "{text}");
     }
+    assert!(message(&[&format!("{}=1", ["a"; 60_000].join("."))]).contains("expected a path such as "));
     let text = message(&["scene.container={ box"]);
     assert!(text.starts_with("--set scene.container={ box: scene.container: the value is not valid YAML"), "{text}");
 }

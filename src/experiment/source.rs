@@ -1,0 +1,69 @@
+//! From a file to a tree of YAML values.
+
+use super::error::{ExperimentError, Kind, describe};
+use super::key_path::KeyPath;
+use super::positions::{self, Duplicate, Position};
+use serde_yaml::Value;
+use std::io::ErrorKind;
+use std::path::Path;
+
+type Result<T> = std::result::Result<T, ExperimentError>;
+
+/// The whole file; the error tells a failing machine from a file that is not one.
+pub fn read(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(|error| {
+        let kind = match error.kind() {
+            ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => Kind::File,
+            ErrorKind::InvalidInput | ErrorKind::InvalidFilename => Kind::File,
+            _ => Kind::Unreadable,
+        };
+        ExperimentError::new(kind, KeyPath::default(), format!("cannot read the file: {error}"))
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let mut fault = ExperimentError::new(Kind::File, KeyPath::default(), "this line is not UTF-8 text");
+        fault.details_mut().line = Some(valid.iter().filter(|byte| **byte == b'\n').count() + 1);
+        fault
+    })
+}
+
+/// One mapping, with merged keys (`<<`) in place.
+pub fn parse(text: &str) -> Result<Value> {
+    let mut tree: Value = serde_yaml::from_str(text).map_err(|error| syntax_error(&error, text))?;
+    tree.apply_merge().map_err(|error| syntax_error(&error, text))?;
+    match tree {
+        Value::Mapping(_) => Ok(tree),
+        Value::Null => {
+            let message = "the file is empty: expected an experiment (scene, method, time, …)";
+            Err(ExperimentError::new(Kind::File, KeyPath::default(), message))
+        }
+        other => Err(ExperimentError::unexpected(
+            KeyPath::default(),
+            "an experiment (a mapping with the keys scene, method, time, …)",
+            &describe(&other),
+        )),
+    }
+}
+
+/// serde_yaml refuses a key that is there twice, but does not say where.
+fn syntax_error(error: &serde_yaml::Error, text: &str) -> ExperimentError {
+    let message = error.to_string();
+    let duplicate = positions::duplicate(text).filter(|_| message.contains("duplicate entry"));
+    if let Some(Duplicate { path, first, second }) = duplicate {
+        let message = format!("this key is already there, on line {}", first.line);
+        let mut error = ExperimentError::new(Kind::DuplicateKey, path, message);
+        error.details_mut().line = Some(second.line);
+        error.details_mut().column = Some(second.column);
+        return error;
+    }
+    let mut fault = ExperimentError::new(Kind::Syntax, KeyPath::default(), format!("not valid YAML: {message}"));
+    let location = error.location().map(|at| Position {
+        line: at.line(),
+        column: at.column(),
+    });
+    if let Some(position) = location.or_else(|| positions::second_document(text)) {
+        fault.details_mut().line = Some(position.line);
+        fault.details_mut().column = Some(position.column);
+    }
+    fault
+}

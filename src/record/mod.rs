@@ -22,6 +22,7 @@ use std::path::{Path, PathBuf};
 pub trait Recorder: Send {
     /// Writes a batch; what is written survives a kill of the program.
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError>;
+    /// Writes an event; it comes after every sample written before.
     fn event(&mut self, event: &Event) -> Result<(), RecordError>;
     /// Closes the file; without it a file is incomplete.
     fn finish(self: Box<Self>) -> Result<(), RecordError>;

@@ -9,7 +9,7 @@
 mod head;
 mod layout;
 
-use super::sample::{Batch, Event, Header, Streams};
+use super::sample::{Batch, Event, ForceArrows, Header, Severity, Streams, norm};
 use super::schema::{self, Series};
 use super::{RecordError, Recorder};
 use ::rerun::external::re_build_info::CrateVersion;
@@ -48,7 +48,7 @@ type Written = Result<(), Box<dyn Error>>;
 pub struct RerunRecorder {
     path: PathBuf,
     streams: Streams,
-    arrow_m_per_n: f64,
+    arrows: ForceArrows,
     bodies: Vec<EntityPath>,
     out: Out,
 }
@@ -69,7 +69,7 @@ impl RerunRecorder {
         }
         out.encoder.flush_blocking()?;
         let path = path.to_path_buf();
-        Ok(RerunRecorder { path, streams: header.streams, arrow_m_per_n: header.arrow_m_per_n, bodies, out })
+        Ok(RerunRecorder { path, streams: header.streams, arrows: header.force_arrows(), bodies, out })
     }
 
     fn batch(&mut self, batch: &Batch) -> Written {
@@ -115,7 +115,7 @@ impl RerunRecorder {
 
     fn forces(&mut self, batch: &Batch, times: &Times) -> Written {
         let arrows = Arrows3D::update_fields()
-            .with_vectors(batch.contacts.iter().map(|contact| contact.force_n.map(|f| f * self.arrow_m_per_n)))
+            .with_vectors(batch.contacts.iter().map(|contact| self.arrows.vector_m(contact.force_n)))
             .with_origins(batch.contacts.iter().map(|contact| contact.point_m));
         self.out.columns(FORCES.into(), times, arrows.columns(lengths(batch))?)?;
         let sums = batch.samples().map(|sample| sample.contacts.iter().map(|contact| norm(contact.force_n)).sum());
@@ -129,7 +129,7 @@ impl Recorder for RerunRecorder {
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        self.out.event(event).map_err(|error| RecordError::new(&self.path, error))
+        self.out.event(event).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), RecordError> {
@@ -167,8 +167,8 @@ impl Out {
 
     fn event(&mut self, event: &Event) -> Written {
         let level = match event.severity {
-            super::sample::Severity::Info => TextLogLevel::INFO,
-            super::sample::Severity::Warning => TextLogLevel::WARN,
+            Severity::Info => TextLogLevel::INFO,
+            Severity::Warning => TextLogLevel::WARN,
         };
         let text = TextLog::update_fields().with_many_text([event.text.as_str()]).with_many_level([level]);
         self.columns(LOG.into(), &times(&[event.step], &[event.time_s]), text.columns_of_unit_batches()?)?;
@@ -189,10 +189,6 @@ fn times(step: &[u64], time_s: &[f64]) -> Times {
 
 fn lengths(batch: &Batch) -> impl Iterator<Item = usize> + Clone {
     batch.contacts_len.iter().map(|&len| len as usize)
-}
-
-fn norm([x, y, z]: [f64; 3]) -> f64 {
-    (x * x + y * y + z * z).sqrt()
 }
 
 /// A body's name is one part of the path, whatever characters it has.

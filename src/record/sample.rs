@@ -65,15 +65,37 @@ impl Header {
         })
     }
 
-    /// Length for what is drawn in proportion to the scene: the box's diagonal, else the largest body's diameter.
+    /// Length for what is drawn in proportion to the scene: the container's diagonal, else the largest body's diameter.
     pub fn scene_size_m(&self) -> f64 {
-        let diagonal_m = self.container_box_m().map(|(low, high)| {
-            let d: [f64; 3] = std::array::from_fn(|i| high[i] - low[i]);
-            (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
-        });
-        let largest_m = self.bodies.iter().map(|body| 2.0 * body.bounding_radius_m).fold(0.0, f64::max);
-        diagonal_m.unwrap_or(largest_m)
+        match self.container_box_m() {
+            Some((low, high)) => norm(std::array::from_fn(|i| high[i] - low[i])),
+            None => self.bodies.iter().map(|body| 2.0 * body.bounding_radius_m).fold(0.0, f64::max),
+        }
     }
+
+    pub fn force_arrows(&self) -> ForceArrows {
+        ForceArrows { m_per_n: self.arrow_m_per_n, longest_m: self.scene_size_m() }
+    }
+}
+
+/// How forces are drawn: in proportion, up to the size of the scene. The force of an impact, its impulse over one step,
+/// can be thousands of weights; the numbers beside the picture are whole.
+#[derive(Clone, Copy, Debug)]
+pub struct ForceArrows {
+    pub m_per_n: f64,
+    pub longest_m: f64,
+}
+
+impl ForceArrows {
+    pub fn vector_m(self, force_n: [f64; 3]) -> [f64; 3] {
+        let length_m = norm(force_n) * self.m_per_n;
+        let cut = if length_m > self.longest_m { self.longest_m / length_m } else { 1.0 };
+        force_n.map(|f| f * self.m_per_n * cut)
+    }
+}
+
+pub(super) fn norm([x, y, z]: [f64; 3]) -> f64 {
+    (x * x + y * y + z * z).sqrt()
 }
 
 /// Samples in columns. "Sample-major": all bodies of sample 0, then all of sample 1, …

@@ -1,6 +1,6 @@
 //! The run as Foxglove's messages: frames, surfaces, contact points and force arrows.
 
-use super::sample::{BodyHeader, ContactSample, Event, Header, Sample, Severity, Streams};
+use super::sample::{BodyHeader, ContactSample, Event, ForceArrows, Header, Sample, Severity, Streams, norm};
 use super::schema::{self, Rgb};
 use foxglove::messages::line_primitive::Type::LineStrip;
 use foxglove::messages::log::Level;
@@ -20,7 +20,7 @@ const LINE_PIXELS: f64 = 2.0;
 pub struct Scene {
     streams: Streams,
     size_m: f64,
-    arrow_m_per_n: f64,
+    arrows: ForceArrows,
     transforms: FrameTransforms,
     contacts: SceneUpdate,
     /// Whether the last picture had no contacts; nothing needs to be cleared then.
@@ -37,7 +37,7 @@ impl Scene {
         Scene {
             streams: header.streams,
             size_m: header.scene_size_m(),
-            arrow_m_per_n: header.arrow_m_per_n,
+            arrows: header.force_arrows(),
             transforms: FrameTransforms { transforms: header.bodies.iter().map(frame).collect() },
             contacts: SceneUpdate { entities: vec![entity("contacts", schema::WORLD)], ..Default::default() },
             blank: true,
@@ -60,7 +60,7 @@ impl Scene {
             return None;
         }
         self.blank = sample.contacts.is_empty();
-        let (size_m, arrow_m_per_n) = (self.size_m, self.arrow_m_per_n);
+        let (size_m, arrows) = (self.size_m, self.arrows);
         for entity in &mut self.contacts.entities {
             entity.timestamp = Some(timestamp(time_ns));
             entity.spheres.clear();
@@ -69,17 +69,18 @@ impl Scene {
                 entity.spheres.extend(sample.contacts.iter().map(|contact| sphere(contact, size_m)));
             }
             if self.streams.forces {
-                entity.arrows.extend(sample.contacts.iter().map(|contact| arrow(contact, size_m, arrow_m_per_n)));
+                entity.arrows.extend(sample.contacts.iter().map(|contact| arrow(contact, size_m, arrows)));
             }
         }
         Some(&self.contacts)
     }
 }
 
-/// Every body's surface in the body's frame, and the container.
+/// The container, and every body's surface in the body's frame, which only moves when bodies are recorded.
 pub fn surfaces(header: &Header) -> SceneUpdate {
     let colours = schema::BODY_COLOURS.iter().cycle();
-    let bodies = header.bodies.iter().zip(colours).map(|(body, &colour)| SceneEntity {
+    let bodies = if header.streams.bodies { &header.bodies[..] } else { &[] };
+    let bodies = bodies.iter().zip(colours).map(|(body, &colour)| SceneEntity {
         triangles: vec![TriangleListPrimitive {
             points: body.vertices_m.iter().map(|&p| point(p)).collect(),
             indices: body.triangles.iter().flatten().copied().collect(),
@@ -136,11 +137,10 @@ fn sphere(contact: &ContactSample, size_m: f64) -> SpherePrimitive {
 }
 
 /// From the contact point along the force on the body.
-fn arrow(contact: &ContactSample, size_m: f64, arrow_m_per_n: f64) -> ArrowPrimitive {
-    let [x, y, z] = contact.force_n;
-    let force_n = (x * x + y * y + z * z).sqrt();
-    let direction = if force_n > 0.0 { contact.force_n.map(|f| f / force_n) } else { [1.0, 0.0, 0.0] };
-    let length_m = force_n * arrow_m_per_n;
+fn arrow(contact: &ContactSample, size_m: f64, arrows: ForceArrows) -> ArrowPrimitive {
+    let vector_m = arrows.vector_m(contact.force_n);
+    let length_m = norm(vector_m);
+    let direction = if length_m > 0.0 { vector_m.map(|x| x / length_m) } else { [1.0, 0.0, 0.0] };
     let shaft_m = SHAFT_PART * size_m;
     let head_m = (3.0 * shaft_m).min(length_m);
     ArrowPrimitive {

@@ -1,7 +1,7 @@
 //! What a recording calls things, once for every file format: topics, message types, fields with units, colours.
 //!
 //! Numbers are f64 in SI units, world frame. Own messages are protobuf (package `gotai`), written by hand together with
-//! the descriptors that a reader needs. Vectors are arrays: a nested x, y, z costs a quarter more bytes and time. A field
+//! the descriptors that a reader needs. Vectors are arrays, which are shorter on the wire than a nested x, y, z. A field
 //! that is `required` here is optional in the descriptor: it is always on the wire, so that -0.0 keeps its sign.
 
 use super::sample::EnergySample;

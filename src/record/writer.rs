@@ -10,8 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-/// Samples in a full batch: both file formats are within a few percent of their best speed at 1,000, and a kill loses
-/// less the fewer there are.
+/// Samples in a full batch: larger ones write no faster, and a kill loses what was not yet written.
 const BATCH_SAMPLES: usize = 1_000;
 
 /// Body states, or contacts, in a full batch: about 2 MB of either, for scenes with many bodies.
@@ -179,6 +178,7 @@ impl Target {
     pub const AVAILABLE: &[Target] =
         if cfg!(feature = "rerun") { &[Target::Rerun, Target::Mcap] } else { &[Target::Mcap] };
 
+    /// Ending of the file's name.
     pub fn extension(self) -> &'static str {
         match self {
             Target::Rerun => "rrd",

@@ -148,7 +148,10 @@ fn streams_that_are_off_leave_no_topic() {
         topics.sort();
         (topics, read(&bytes))
     };
-    assert_eq!(topics(NONE).0, ["/log", "/scene"]);
+    let (names, messages) = topics(NONE);
+    assert_eq!(names, ["/log", "/scene"]);
+    let scene: Vec<SceneUpdate> = decode(&messages, schema::SCENE);
+    assert_eq!(scene[0].entities.len(), 1, "the container alone");
     assert_eq!(topics(Streams { energy: true, ..NONE }).0, ["/energy", "/log", "/scene"]);
     assert_eq!(topics(Streams { bodies: true, ..NONE }).0, ["/bodies", "/log", "/scene", "/tf"]);
 
@@ -191,4 +194,12 @@ fn a_batch_that_does_not_fit_the_header_is_an_error() {
     assert!(recorder.write(&batch).unwrap_err().to_string().contains("contacts"));
     let without_energy = s::batch(0..10, Streams { energy: false, ..ALL });
     assert!(recorder.write(&without_energy).unwrap_err().to_string().contains("energy"));
+}
+
+#[test]
+fn force_arrows_are_no_longer_than_the_scene() {
+    let arrows = s::header(ALL).force_arrows();
+    assert_eq!(arrows.vector_m([0.0, 10.0, 0.0]), [0.0, 0.2, 0.0]);
+    let [x, y, z] = arrows.vector_m([0.0, -1e9, 0.0]);
+    assert!(x == 0.0 && z == 0.0 && (y + 48.0_f64.sqrt()).abs() < 1e-12, "{y}");
 }

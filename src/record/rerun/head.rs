@@ -35,8 +35,10 @@ pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<
 
     let mut messages = layout::messages(header)?;
     describe(header, &stream)?;
-    for ((body, path), colour) in header.bodies.iter().zip(bodies).zip(schema::BODY_COLOURS.iter().cycle()) {
-        stream.log_static(path.clone(), &surface(body, *colour))?;
+    if header.streams.bodies {
+        for ((body, path), colour) in header.bodies.iter().zip(bodies).zip(schema::BODY_COLOURS.iter().cycle()) {
+            stream.log_static(path.clone(), &surface(body, *colour))?;
+        }
     }
     if !header.container_strips_m.is_empty() {
         stream.log_static(CONTAINER, &container(header))?;

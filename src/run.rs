@@ -33,7 +33,7 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
         sampler.sample(model, &state, &[], clock.step_s);
     }
     while state.step < clock.steps && diverged.is_none() {
-        before.clone_from(&state);
+        before.copy_from(&state);
         let started = Instant::now();
         stepper.step(model, &mut state, &clock);
         stepping += started.elapsed();

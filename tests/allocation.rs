@@ -50,7 +50,7 @@ fn allocations(sets: &[&str]) -> (u64, u64) {
     let (mut before, mut state) = (start.clone(), start);
     let counted = ALLOCATIONS.get();
     while state.step < clock.steps {
-        before.clone_from(&state);
+        before.copy_from(&state);
         stepper.step(&model, &mut state, &clock);
         judge.observe(&model, &before, &state, stepper.contacts(), clock.step_s);
     }

@@ -9,6 +9,7 @@
 //! - `cli/`: the program as a user meets it: output, exit codes
 //! - `configs`: every file under configs/ runs
 //! - `allocation`: no step allocates
+//! - `counters`: how much work a run is
 //! - `tidy`: rules of the repository
 
 #![allow(non_snake_case)]
@@ -16,6 +17,7 @@
 mod allocation;
 mod cli;
 mod configs;
+mod counters;
 mod experiment;
 mod map_a;
 mod methods;

@@ -26,8 +26,20 @@ pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
 #[test]
 fn no_kernel_uses_the_hosts_libm() {
     const HOST: [&str; 14] = [
-        ".sin()", ".cos()", ".tan()", ".sin_cos()", ".asin()", ".acos()", ".atan()", ".atan2(", ".exp()", ".ln()",
-        ".log10()", ".powf(", ".cbrt()", ".hypot(",
+        ".sin()",
+        ".cos()",
+        ".tan()",
+        ".sin_cos()",
+        ".asin()",
+        ".acos()",
+        ".atan()",
+        ".atan2(",
+        ".exp()",
+        ".ln()",
+        ".log10()",
+        ".powf(",
+        ".cbrt()",
+        ".hypot(",
     ];
     for file in files("src", "rs") {
         let text = std::fs::read_to_string(&file).unwrap();
@@ -71,7 +83,8 @@ fn the_readme_names_every_config_method_row_and_folder() {
     for row in 1..=25 {
         assert!(readme.contains(&format!("| L{row} |")), "README.md's lecture map lacks L{row}");
     }
-    for folder in ["cli", "experiment", "sweep", "model", "step", "integrate", "collide", "solve", "measure", "record"] {
+    for folder in ["cli", "experiment", "sweep", "model", "step", "integrate", "collide", "solve", "measure", "record"]
+    {
         assert!(root().join("src").join(folder).is_dir() && readme.contains(&format!("{folder}/")), "{folder}");
     }
 }

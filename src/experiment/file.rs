@@ -88,10 +88,7 @@ impl ExperimentFile {
         if left.is_empty() {
             return self.case(&[]);
         }
-        let message = format!(
-            "axes are left: {}; fix each of them with --set PATH=VALUE",
-            left.join(", ")
-        );
+        let message = format!("axes are left: {}; fix each of them with --set PATH=VALUE", left.join(", "));
         let mut error = ExperimentError::new(Kind::AxesLeft, KeyPath::of_keys(&["sweep", "axes"]), message);
         error.details_mut().known = left.iter().map(|path| path.to_string()).collect();
         Err(self.placed(error))
@@ -131,11 +128,7 @@ impl ExperimentFile {
         let target = resolve(&self.tree, &path);
         self.remove_axis(&target);
         let at = assign(&mut self.tree, &path, value)?;
-        self.sets.push(Applied {
-            text: text.to_string(),
-            path,
-            at,
-        });
+        self.sets.push(Applied { text: text.to_string(), path, at });
         Ok(())
     }
 
@@ -204,10 +197,7 @@ impl ExperimentFile {
                 path.starts_with(&target) && !path.is_same(&target)
             };
             if let Some(set) = self.sets.iter().find(is_below) {
-                let message = format!(
-                    "is an axis, whose values would overwrite this; set `{}` itself",
-                    axis.path
-                );
+                let message = format!("is an axis, whose values would overwrite this; set `{}` itself", axis.path);
                 return Err(by_set(ExperimentError::new(Kind::Path, target, message), &set.text).named(&self.path));
             }
         }
@@ -255,10 +245,7 @@ impl ExperimentFile {
     }
 
     fn shown_case(&self, point: &[usize]) -> String {
-        let values = point
-            .iter()
-            .enumerate()
-            .map(|(axis, value)| self.shown_value(axis, *value));
+        let values = point.iter().enumerate().map(|(axis, value)| self.shown_value(axis, *value));
         values.collect::<Vec<_>>().join(", ")
     }
 
@@ -285,16 +272,8 @@ fn resolved(tree: &Value) -> Result<Experiment> {
 }
 
 fn axis_keys(tree: &Value) -> Vec<String> {
-    let axes = tree
-        .get("sweep")
-        .and_then(|sweep| sweep.get("axes"))
-        .and_then(Value::as_mapping);
-    axes.map(Mapping::keys)
-        .into_iter()
-        .flatten()
-        .filter_map(Value::as_str)
-        .map(str::to_string)
-        .collect()
+    let axes = tree.get("sweep").and_then(|sweep| sweep.get("axes")).and_then(Value::as_mapping);
+    axes.map(Mapping::keys).into_iter().flatten().filter_map(Value::as_str).map(str::to_string).collect()
 }
 
 fn is_one_of(value: &Value, words: &[String]) -> bool {

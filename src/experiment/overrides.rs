@@ -18,20 +18,13 @@ pub struct Override {
 impl Override {
     pub fn parse(text: &str) -> Result<Override> {
         let Some((path, value)) = text.split_once('=') else {
-            return Err(ExperimentError::unexpected(
-                KeyPath::default(),
-                "PATH=VALUE",
-                &format!("`{text}`"),
-            ));
+            return Err(ExperimentError::unexpected(KeyPath::default(), "PATH=VALUE", &format!("`{text}`")));
         };
         let value = serde_yaml::from_str(value).map_err(|error| {
             let message = format!("the value is not valid YAML: {error}");
             ExperimentError::new(Kind::Syntax, KeyPath::of_keys(&[path.trim()]), message)
         })?;
-        Ok(Override {
-            path: split(path.trim())?,
-            value,
-        })
+        Ok(Override { path: split(path.trim())?, value })
     }
 }
 
@@ -42,11 +35,7 @@ const DEEPEST: usize = 64;
 pub fn split(path: &str) -> Result<Vec<String>> {
     let segments: Vec<String> = path.split('.').map(str::to_string).collect();
     if segments.len() > DEEPEST || segments.iter().any(String::is_empty) {
-        let found = if path.is_empty() {
-            "an empty path".to_string()
-        } else {
-            format!("`{}`", shortened(path))
-        };
+        let found = if path.is_empty() { "an empty path".to_string() } else { format!("`{}`", shortened(path)) };
         let expected = "a path such as scene.bodies.cube.mass_kg";
         return Err(ExperimentError::unexpected(KeyPath::default(), expected, &found));
     }
@@ -147,9 +136,7 @@ pub fn resolve(tree: &Value, path: &[String]) -> KeyPath {
     let mut resolved = KeyPath::default();
     let mut node = Some(tree);
     for key in path {
-        let item = node
-            .and_then(Value::as_sequence)
-            .and_then(|items| Some((items, find_item(items, key)?)));
+        let item = node.and_then(Value::as_sequence).and_then(|items| Some((items, find_item(items, key)?)));
         if let Some((items, index)) = item {
             resolved.push(item_segment(&items[index], index));
             node = items.get(index);

@@ -30,9 +30,7 @@ pub struct Duplicate {
 /// brought, has no place of its own.
 pub fn nearest(text: &str, path: &KeyPath) -> Option<Position> {
     let segments = path.lookup();
-    (1..=segments.len())
-        .rev()
-        .find_map(|len| position(text, &segments[..len]))
+    (1..=segments.len()).rev().find_map(|len| position(text, &segments[..len]))
 }
 
 fn position(text: &str, path: &[String]) -> Option<Position> {
@@ -44,11 +42,7 @@ pub fn duplicate(text: &str) -> Option<Duplicate> {
     let mut seen = HashSet::new();
     let (path, second) = walk(text, |at| !seen.insert(at.to_vec()))?;
     let keys: Vec<&str> = path.iter().map(String::as_str).collect();
-    Some(Duplicate {
-        path: KeyPath::of_keys(&keys),
-        first: position(text, &path)?,
-        second,
-    })
+    Some(Duplicate { path: KeyPath::of_keys(&keys), first: position(text, &path)?, second })
 }
 
 /// Where a second document starts, of which serde_yaml only says that there is one.
@@ -59,11 +53,7 @@ pub fn second_document(text: &str) -> Option<Position> {
 
 /// The first key or list item, in the order of the text, at whose path `is_end` holds.
 fn walk(text: &str, mut is_end: impl FnMut(&[String]) -> bool) -> Option<(Vec<String>, Position)> {
-    let mut walk = Walk {
-        path: Vec::new(),
-        is_end: &mut is_end,
-        has_ended: false,
-    };
+    let mut walk = Walk { path: Vec::new(), is_end: &mut is_end, has_ended: false };
     let result = walk.value().deserialize(serde_yaml::Deserializer::from_str(text));
     let position = stopped_at(result).filter(|_| walk.has_ended)?;
     Some((walk.path, position))
@@ -71,10 +61,7 @@ fn walk(text: &str, mut is_end: impl FnMut(&[String]) -> bool) -> Option<(Vec<St
 
 fn stopped_at(result: Result<(), serde_yaml::Error>) -> Option<Position> {
     let location = result.err()?.location()?;
-    Some(Position {
-        line: location.line(),
-        column: location.column(),
-    })
+    Some(Position { line: location.line(), column: location.column() })
 }
 
 struct Walk<'a> {
@@ -86,17 +73,11 @@ struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     fn value(&mut self) -> Node<'_, 'a> {
-        Node {
-            walk: self,
-            is_key: false,
-        }
+        Node { walk: self, is_key: false }
     }
 
     fn key(&mut self) -> Node<'_, 'a> {
-        Node {
-            walk: self,
-            is_key: true,
-        }
+        Node { walk: self, is_key: true }
     }
 
     fn enter(&mut self, segment: String) {
@@ -116,11 +97,7 @@ impl Node<'_, '_> {
         if self.is_key {
             self.walk.enter(text.to_string());
         }
-        if self.walk.has_ended {
-            Err(E::custom("here"))
-        } else {
-            Ok(())
-        }
+        if self.walk.has_ended { Err(E::custom("here")) } else { Ok(()) }
     }
 }
 
@@ -128,11 +105,7 @@ impl<'de> DeserializeSeed<'de> for Node<'_, '_> {
     type Value = ();
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
-        if self.walk.has_ended {
-            deserializer.deserialize_any(Stop)
-        } else {
-            deserializer.deserialize_any(self)
-        }
+        if self.walk.has_ended { deserializer.deserialize_any(Stop) } else { deserializer.deserialize_any(self) }
     }
 }
 

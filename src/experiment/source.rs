@@ -57,10 +57,7 @@ fn syntax_error(error: &serde_yaml::Error, text: &str) -> ExperimentError {
         return error;
     }
     let mut fault = ExperimentError::new(Kind::Syntax, KeyPath::default(), format!("not valid YAML: {message}"));
-    let location = error.location().map(|at| Position {
-        line: at.line(),
-        column: at.column(),
-    });
+    let location = error.location().map(|at| Position { line: at.line(), column: at.column() });
     if let Some(position) = location.or_else(|| positions::second_document(text)) {
         fault.details_mut().line = Some(position.line);
         fault.details_mut().column = Some(position.column);

@@ -50,6 +50,8 @@ pub struct Block {
     pub A: Matrix3<f64>,
     /// D⁻¹ of the lecture.
     pub inverse_diagonal: Vector3<f64>,
+    /// 1/λmax of the tangents' 2×2 block of A.
+    pub tangent_step: f64,
     pub b: Vector3<f64>,
     /// Normal and two tangents, world axes.
     pub frame: [Vector3<f64>; 3],
@@ -244,6 +246,7 @@ impl Block {
             rows,
             A,
             inverse_diagonal: A.diagonal().map(|d| 1.0 / d),
+            tangent_step: 1.0 / largest_eigenvalue(A[(1, 1)], A[(2, 2)], A[(1, 2)]),
             b,
             frame,
         }
@@ -253,6 +256,12 @@ impl Block {
     pub fn in_world(&self, p: &Impulse) -> Vector3<f64> {
         self.frame[0] * p.x + self.frame[1] * p.y + self.frame[2] * p.z
     }
+}
+
+/// Of the symmetric matrix [a c; c b].
+fn largest_eigenvalue(a: f64, b: f64, c: f64) -> f64 {
+    let half = (a - b) / 2.0;
+    (a + b) / 2.0 + (half * half + c * c).sqrt()
 }
 
 /// e₁ = n and two tangents; for the faces of a box the tangents are the other coordinate axes.

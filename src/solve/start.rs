@@ -13,6 +13,7 @@ pub fn first_guess(problem: &ContactProblem, start: Start, p: &mut Vec<Impulse>)
     p.clear();
     p.resize(problem.blocks.len(), Impulse::zeros());
     let solved = match start {
+        _ if problem.blocks.is_empty() => return,
         Start::None => return,
         Start::Direct => problem.A().lu().solve(&-problem.b()),
         Start::Inverse => problem.A().try_inverse().map(|inverse| inverse * -problem.b()),

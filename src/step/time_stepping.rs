@@ -94,15 +94,7 @@ impl TimeStepping {
     fn push_out(&mut self, model: &Model) -> bool {
         let s = &mut self.scratch;
         self.position_correction == PositionCorrection::Projection
-            && push_out(
-                &s.problem,
-                &s.found,
-                model,
-                &self.sweeps,
-                &mut self.pushes,
-                &mut self.pushed,
-                &mut s.work,
-            )
+            && push_out(&s.problem, &s.found, model, &self.sweeps, &mut self.pushes, &mut self.pushed, &mut s.work)
     }
 }
 

@@ -184,9 +184,7 @@ struct Labelled {
 fn refuse_repeats(key: &str, values: &[AxisValue]) -> Result<()> {
     let (mut seen, mut shown) = (HashMap::new(), HashMap::new());
     for (i, value) in values.iter().enumerate() {
-        let same = seen
-            .insert(identity(&value.value), i)
-            .or(shown.insert(value.shown(), i));
+        let same = seen.insert(identity(&value.value), i).or(shown.insert(value.shown(), i));
         if let Some(first) = same {
             let message = format!("`{}` is on this axis twice (items {first} and {i})", value.shown());
             return Err(ExperimentError::new(Kind::Unexpected, value_path(key, i), message));

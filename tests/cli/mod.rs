@@ -31,7 +31,10 @@ fn a_run_prints_its_columns_bodies_and_contacts() {
     let folder = scratch::folder();
     let out = folder.path().to_str().unwrap();
     let d = json(&["run", "configs/lecture/demo.yaml", "--out", out, "--json", "--set", "time.end_s=3"]);
-    assert_eq!((d["outcome"].as_str(), d["steps"].as_u64(), &d["criterion"]), (Some("finished"), Some(1500), &Value::Null));
+    assert_eq!(
+        (d["outcome"].as_str(), d["steps"].as_u64(), &d["criterion"]),
+        (Some("finished"), Some(1500), &Value::Null)
+    );
     let body = &d["bodies"][0];
     assert_eq!(body["name"], "cube");
     for key in ["position_m", "origin_m", "velocity_m_s", "angular_velocity_rad_s", "contact_force_n"] {
@@ -138,7 +141,18 @@ fn an_interrupted_sweep_keeps_what_is_finished_and_goes_on_later() {
     let folder = scratch::folder();
     let out = folder.path().to_str().unwrap();
     const SEEDS: &str = "sweep.axes.seed=[0, 1, 2, 3]";
-    let long = ["sweep", "configs/lecture/friction.yaml", "--out", out, "--record", "none", "--set", "time.step_s=2e-4", "--set", SEEDS];
+    let long = [
+        "sweep",
+        "configs/lecture/friction.yaml",
+        "--out",
+        out,
+        "--record",
+        "none",
+        "--set",
+        "time.step_s=2e-4",
+        "--set",
+        SEEDS,
+    ];
     let mut child = gotai(&long).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     let journal = folder.path().join("journal.jsonl");
     let started = Instant::now();
@@ -160,7 +174,10 @@ fn an_interrupted_sweep_keeps_what_is_finished_and_goes_on_later() {
 #[test]
 fn explain_says_what_runs_and_what_it_costs() {
     let d = json(&["explain", "configs/lecture/stability.yaml", "--json"]);
-    assert_eq!((d["cases"].as_u64(), d["steps"].as_u64()), (Some(420), Some(70 * (4000 + 2000 + 800 + 400 + 200 + 80))));
+    assert_eq!(
+        (d["cases"].as_u64(), d["steps"].as_u64()),
+        (Some(420), Some(70 * (4000 + 2000 + 800 + 400 + 200 + 80)))
+    );
     assert!(d["estimated_cpu_s"].as_f64().unwrap() > 0.0);
     let (_, text, _) = run(&["explain", "configs/projectile.yaml"]);
     assert!(text.contains("contact test: skipped — `free` is motion without contact"), "{text}");

@@ -162,11 +162,7 @@ fn a_file_without_content_says_so() {
         assert!(error.to_string().starts_with("a.yaml: expected an experiment"), "{text:?}: {error}");
     }
     let two = file("a: 1\n---\nb: 2\n", &[]).unwrap_err();
-    assert_eq!(
-        (two.details().kind, two.details().line),
-        (Kind::Syntax, Some(3)),
-        "{two}"
-    );
+    assert_eq!((two.details().kind, two.details().line), (Kind::Syntax, Some(3)), "{two}");
 }
 
 #[test]
@@ -207,9 +203,7 @@ fn text_that_nests_without_end_is_refused_quickly() {
 
 #[test]
 fn any_slip_of_one_character_gives_an_experiment_or_one_line_that_says_where() {
-    let slips = [
-        "", ":", "- ", "{", "}", "[", ",", "&", "*", "|", "'", "#", "\n", "\t", "?", "~", "0", ".", "é",
-    ];
+    let slips = ["", ":", "- ", "{", "}", "[", ",", "&", "*", "|", "'", "#", "\n", "\t", "?", "~", "0", ".", "é"];
     let (mut good, mut bad) = (0, 0);
     for (i, slip) in (0..BASE.len()).flat_map(|i| slips.map(|slip| (i, slip))) {
         let text = format!("{}{slip}{}", &BASE[..i], &BASE[i + 1..]);
@@ -217,10 +211,7 @@ fn any_slip_of_one_character_gives_an_experiment_or_one_line_that_says_where() {
             Ok(_) => good += 1,
             Err(error) => {
                 bad += 1;
-                assert!(
-                    error.details().line.is_some() && !error.to_string().contains('\n'),
-                    "{text}\n{error}"
-                );
+                assert!(error.details().line.is_some() && !error.to_string().contains('\n'), "{text}\n{error}");
             }
         }
     }
@@ -260,8 +251,6 @@ fn another_module_can_complain_about_a_value_at_its_line() {
 
 #[test]
 fn a_brace_at_the_start_of_a_line_does_not_lose_the_lines_below() {
-    let text = BASE
-        .replace("method: lecture", "method: {\n  lecture: { sweeps: 3 }\n}")
-        .replace("step_s", "stp_s");
+    let text = BASE.replace("method: lecture", "method: {\n  lecture: { sweeps: 3 }\n}").replace("step_s", "stp_s");
     assert_eq!(experiment(&text, &[]).unwrap_err().details().line, Some(20));
 }

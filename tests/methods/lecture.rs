@@ -50,8 +50,8 @@ time: { step_s: 0.01, end_s: 10 }
 ";
     let drift = |sets: &[&str]| measured(text, sets).angular_momentum_drift_rel.unwrap();
     let (coarse, fine) = (drift(&[]), drift(&["time.step_s=0.001"]));
-    // measured: 0.2505 and 0.2495
-    assert!(coarse > 0.2 && (coarse / fine - 1.0).abs() < 0.02, "{coarse} {fine}");
+    // measured: 0.0667 both: ω stays, and L with it turns with the body
+    assert!(coarse > 0.05 && (coarse / fine - 1.0).abs() < 1e-9, "{coarse} {fine}");
     // measured: 1.4e-14 (`rotation: momentum`)
     let cured = drift(&["method.lecture.rotation=momentum"]);
     assert!(cured < 1e-12, "{cured}");
@@ -71,8 +71,8 @@ fn the_momentum_conserving_rotation_has_order_two() {
     // measured: 2.00
     assert!((order - 2.0).abs() < 0.1, "{order} {errors:?}");
     let m = measured(FREE_BAR, &[]);
-    // measured: 3e-15; energy is not conserved exactly, but does not drift: 2e-5
-    assert!(m.angular_momentum_drift_rel.unwrap() < 1e-13 && m.energy_drift_rel.unwrap().abs() < 1e-3);
+    // measured: 4.5e-13 after 1000 steps; energy is not conserved exactly: 6.4e-5
+    assert!(m.angular_momentum_drift_rel.unwrap() < 2e-12 && m.energy_drift_rel.unwrap().abs() < 1e-3);
 }
 
 #[test]
@@ -96,7 +96,8 @@ fn every_variant_runs_and_a_cube_at_small_steps_comes_to_rest() {
 #[test]
 fn the_lecture_corrected_per_contact_is_projected_gauss_seidel() {
     let flat = ["scene.random=null", "scene.bodies.cube.position_m=[0, 0.5, 0]", "time.end_s=0.01"];
-    let moving = ["scene.bodies.cube.velocity_m_s=[1, -2, 0.5]", "scene.bodies.cube.angular_velocity_rad_s=[0.3, 0.1, -0.2]"];
+    let moving =
+        ["scene.bodies.cube.velocity_m_s=[1, -2, 0.5]", "scene.bodies.cube.angular_velocity_rad_s=[0.3, 0.1, -0.2]"];
     let end = |method: &str| {
         let sets: Vec<&str> = flat.iter().chain(&moving).copied().chain([method]).collect();
         let ended = run(&experiment(CUBE_IN_BOX, &sets));

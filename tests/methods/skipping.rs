@@ -61,6 +61,8 @@ fn a_scene_without_container_does_no_contact_work() {
         let experiment = experiment(text, sets);
         Plan::new(&build(&experiment).unwrap().0, &experiment.method).stages
     };
-    assert!(stages(FREE_BAR, &[]).iter().any(|s| s.name == "contact test" && !s.runs && s.why.contains("no container")));
+    assert!(
+        stages(FREE_BAR, &[]).iter().any(|s| s.name == "contact test" && !s.runs && s.why.contains("no container"))
+    );
     assert!(stages(CUBE_IN_BOX, &[]).iter().all(|s| s.runs || s.name == "gyroscopic term"));
 }

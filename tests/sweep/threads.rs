@@ -8,10 +8,8 @@ use gotai::row::Row;
 use sha2::{Digest, Sha256};
 
 fn hash(rows: &[Row]) -> String {
-    let bits: Vec<Row> = rows
-        .iter()
-        .map(|row| Row { measured: row.measured.without_wall_time(), ..row.clone() })
-        .collect();
+    let bits: Vec<Row> =
+        rows.iter().map(|row| Row { measured: row.measured.without_wall_time(), ..row.clone() }).collect();
     hex(&Sha256::digest(serde_json::to_vec(&bits).unwrap()))
 }
 

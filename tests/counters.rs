@@ -1,0 +1,14 @@
+//! Work is counted in integers and held exactly: a change that makes more of it shows here.
+
+use crate::yaml::{CUBE_IN_BOX, measured};
+
+#[test]
+fn the_work_of_a_run_is_known() {
+    let counters = |sets: &[&str]| {
+        let m = measured(CUBE_IN_BOX, &[sets, &["diverge.escape=false"]].concat());
+        [m.work_contact_tests, m.work_contacts, m.work_contact_solves, m.work_sweeps, m.work_gyroscopic]
+    };
+    assert_eq!(counters(&["method=free"]), [0, 0, 0, 0, 200]);
+    assert_eq!(counters(&["method=lecture"]), [7371, 179, 80, 2448, 0]);
+    assert_eq!(counters(&["method=time-stepping"]), [11151, 1201, 157, 2474, 200]);
+}

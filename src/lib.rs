@@ -50,3 +50,5 @@ pub mod record;
 pub mod cli;
 
 pub mod build_info;
+
+mod panics;

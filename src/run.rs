@@ -1,5 +1,6 @@
 //! THE MAIN LOOP: advance the state, show every step to the judges and the recorders, end in an outcome.
 
+use crate::collide::SolvedContact;
 use crate::experiment::types::Experiment;
 use crate::measure::Judge;
 use crate::measure::divergence::Criterion;
@@ -8,7 +9,7 @@ use crate::plan::Plan;
 use crate::record::sampler::Sampler;
 use crate::row::{Measured, Outcome, finite};
 use crate::state::State;
-use crate::step::{Clock, SolvedContact, Stepper};
+use crate::step::{Clock, Stepper};
 use std::time::{Duration, Instant};
 
 /// What a run leaves behind.

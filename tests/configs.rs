@@ -25,7 +25,8 @@ fn every_config_runs() {
         let cut = cases(&cut).unwrap();
         cut.par_iter().enumerate().for_each(|(i, case)| {
             let targets = if i == 0 { gotai::record::writer::Target::AVAILABLE } else { &[] };
-            let measured = build_and_run(case, folder.path(), targets).unwrap();
+            let (measured, written) = build_and_run(case, folder.path(), targets);
+            written.unwrap();
             assert_eq!(measured.outcome, Outcome::Finished, "{name}: {:?}", case.axes);
             assert!(measured.energy_end_j.is_some(), "{name}");
         });

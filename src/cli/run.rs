@@ -3,12 +3,13 @@
 use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, print, print_json};
 use crate::build_info::BUILD;
 use crate::case::Case;
+use crate::collide::SolvedContact;
 use crate::experiment::ExperimentError;
 use crate::model::{self, Model};
+use crate::plan::Plan;
 use crate::record::writer::Target;
 use crate::row::{Measured, Outcome, Row};
 use crate::run::Ended;
-use crate::step::SolvedContact;
 use crate::sweep::plan::single_case;
 use crate::sweep::runner::run_case;
 use clap::Args;
@@ -40,12 +41,16 @@ impl Command {
         }
         let overlap = |e: model::BuildError| -> ExperimentError { file.error_at(&[], &e.path, &e.expected, &e.found) };
         let (model, start) = model::build(&case.experiment).map_err(overlap)?;
-        let ended = run_case(&case, &model, start, &dir, &targets)?;
+        if self.output.verbose {
+            describe_plan(&Plan::new(&model, &case.experiment.method));
+        }
+        let (ended, written) = run_case(&case, &model, start, &dir, &targets);
         if self.output.json {
             print_json(&document(&case, &model, &ended));
         } else {
             print(summary(&case, &ended.measured));
         }
+        written?;
         if !self.output.quiet {
             say_where(&case, &dir, &targets);
         }
@@ -124,6 +129,14 @@ fn summary(case: &Case, m: &Measured) -> String {
         ("stepping", format!("{} s", number(m.wall_s))),
     ];
     lines.map(|(name, value)| format!("{name:>24}  {value}")).join("\n")
+}
+
+/// What the scene needs, and what is skipped.
+fn describe_plan(plan: &Plan) {
+    for stage in &plan.stages {
+        let how = if stage.runs { "runs" } else { "skipped" };
+        eprintln!("{}: {how} — {}", stage.name, stage.why);
+    }
 }
 
 fn say_where(case: &Case, dir: &Path, targets: &[Target]) {

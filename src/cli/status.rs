@@ -27,24 +27,24 @@ impl Command {
             let dir = self.dir.display();
             return Err(CliError::Input(format!("{dir}: expected a folder of results, found no plan.json in it")));
         }
-        let (plan, mut measured) = Store::read(&self.dir)?;
-        let all = measured.len();
+        let (plan, mut done) = Store::read(&self.dir)?;
+        let all = done.len();
         if !self.keep {
-            measured.retain(|_, (build, _)| build == BUILD);
+            done.retain(|_, entry| entry.build == BUILD);
         }
-        let other_build = all - measured.len();
-        let rows = rows(&plan, &measured);
+        let other_build = all - done.len();
+        let rows = rows(&plan, &done);
         let count = |outcome| rows.iter().filter(|row| row.measured.outcome == outcome).count();
-        let (total, done, failed) = (plan.cases.len(), rows.len(), count(Outcome::Failed));
-        let missing = total - done;
+        let (total, failed) = (plan.cases.len(), count(Outcome::Failed));
+        let missing = total - rows.len();
         if self.output.json {
             print_json(&json!({
-                "dir": self.dir, "cases": total, "done": done, "missing": missing, "failed": failed,
+                "dir": self.dir, "cases": total, "done": rows.len(), "missing": missing, "failed": failed,
                 "finished": count(Outcome::Finished), "diverged": count(Outcome::Diverged),
                 "stalled": count(Outcome::Stalled), "of_another_build": other_build,
             }));
         } else {
-            print(format!("{done} of {total} done, {missing} missing, {failed} failed"));
+            print(format!("{} of {total} done, {missing} missing, {failed} failed", rows.len()));
             if other_build > 0 && missing > 0 {
                 print(format!("{other_build} rows are of another build (--keep takes them)"));
             }

@@ -25,6 +25,13 @@ pub struct Contact {
     pub restitution: f64,
 }
 
+/// A contact of the last step and the impulse that it put on its body, world axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolvedContact {
+    pub contact: Contact,
+    pub impulse_W: Vector3<f64>,
+}
+
 /// Fills `contacts` with all points whose gap is below `margin` × the body's bounding radius.
 pub fn detect(model: &Model, state: &State, margin: f64, contacts: &mut Vec<Contact>, work: &mut Work) {
     contacts.clear();

@@ -1,5 +1,6 @@
 //! An experiment file with its `--set`s: from text to resolved `Experiment`s, and from errors back to lines.
 
+use super::axes::{Axes, axis_path, value_path};
 use super::error::{ExperimentError, Kind};
 use super::key_path::KeyPath;
 use super::overrides::{Override, assign, resolve, split};
@@ -8,7 +9,6 @@ use super::source::{parse, read};
 use super::types::Experiment;
 use super::validate::{normalise_quaternions, validate};
 use super::value_de::from_value;
-use crate::sweep::axes::{Axes, axis_path, value_path};
 use serde_yaml::{Mapping, Value};
 use std::path::{Path, PathBuf};
 

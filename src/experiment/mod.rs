@@ -2,6 +2,7 @@
 //!
 //! `ExperimentFile::load` reads a file with its `--set`s; `experiment` and `case` give resolved `Experiment`s.
 
+pub mod axes;
 mod either;
 pub mod error;
 pub mod file;

@@ -8,11 +8,10 @@ pub mod energy;
 pub mod momentum;
 pub mod work;
 
-use crate::collide;
+use crate::collide::{self, SolvedContact};
 use crate::experiment::types::Diverge;
 use crate::model::Model;
 use crate::state::State;
-use crate::step::SolvedContact;
 use divergence::{Criterion, Divergence};
 use energy::{Energy, EnergyLedger};
 use momentum::MomentumLedger;

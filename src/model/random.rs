@@ -31,9 +31,9 @@ fn generator(seed: u64, name: &str) -> ChaCha8Rng {
     ChaCha8Rng::from_seed(digest.into())
 }
 
-/// Uniform on [−1, 1), 53 bits.
+/// Uniform on [−1, 1) in steps of 2⁻⁵², which is f64's epsilon.
 fn symmetric(rng: &mut ChaCha8Rng) -> f64 {
-    (rng.next_u64() >> 11) as f64 * 2.0_f64.powi(-52) - 1.0
+    (rng.next_u64() >> 11) as f64 * f64::EPSILON - 1.0
 }
 
 /// A point of the open unit disc and its squared radius, by rejection: no trigonometry, hence the same bits everywhere.

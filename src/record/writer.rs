@@ -6,6 +6,7 @@
 
 use super::sample::{Batch, Event, Header};
 use super::{RecordError, Recorder};
+use crate::panics;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
@@ -103,9 +104,8 @@ impl Writer {
         match self.thread.take().map(JoinHandle::join) {
             Some(Ok(result)) => result,
             Some(Err(panic)) => {
-                let text = panic.downcast_ref::<String>().map(String::as_str);
-                let text = text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("for no stated reason");
-                Err(RecordError::new(Path::new("recordings"), format!("the recording thread panicked: {text}")))
+                let text = format!("the recording thread panicked: {}", panics::message(panic.as_ref()));
+                Err(RecordError::new(Path::new("recordings"), text))
             }
             None => Ok(()),
         }

@@ -8,7 +8,7 @@ mod lecture;
 mod penalty;
 mod time_stepping;
 
-use crate::collide::Contact;
+use crate::collide::{Contact, SolvedContact};
 use crate::experiment::types::{Method, Rotation, Update};
 use crate::integrate::rotation::{turn_at_momentum, turn_literally, w_from_momentum};
 use crate::measure::work::Work;
@@ -17,7 +17,6 @@ use crate::plan::Plan;
 use crate::solve::problem::{ContactProblem, Twist};
 use crate::solve::{Impulse, gauss_seidel};
 use crate::state::{BodyState, State};
-use nalgebra::Vector3;
 
 /// Equal steps up to an end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,13 +38,6 @@ impl Clock {
         state.step += 1;
         state.time_s = if state.step == self.steps { self.end_s } else { state.step as f64 * self.step_s };
     }
-}
-
-/// A contact of the last step and the impulse that it put on its body, world axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SolvedContact {
-    pub contact: Contact,
-    pub impulse_W: Vector3<f64>,
 }
 
 /// What a method needs in every step and nobody outside does.

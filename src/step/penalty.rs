@@ -1,7 +1,7 @@
 //! The penalty method (L15): a spring and a damper in every penetrating node, regularised Coulomb friction.
 
-use super::{Clock, Scratch, SolvedContact, move_body};
-use crate::collide::{Contact, detect};
+use super::{Clock, Scratch, move_body};
+use crate::collide::{Contact, SolvedContact, detect};
 use crate::experiment::types::Penalty as Settings;
 use crate::model::Model;
 use crate::solve::problem::Twist;

@@ -1,9 +1,8 @@
 //! Axes → ordered cases → rows: expanded and checked before the first run, run on all cores, kept as they end.
 //!
-//! `axes` reads what is written, `plan` resolves it into cases, `store` keeps plan, journal and tables in a folder,
-//! `recordings` picks the cases that are recorded, `runner` does it.
+//! `plan` resolves the axes into cases, `store` keeps plan, journal and tables in a folder, `recordings` picks the cases
+//! that are recorded, `runner` does it.
 
-pub mod axes;
 pub mod plan;
 pub mod recordings;
 pub mod runner;

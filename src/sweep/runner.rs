@@ -5,6 +5,7 @@ use super::store::{Store, StoreError};
 use crate::case::Case;
 use crate::experiment::types::{Record, RecordTo};
 use crate::model::{self, Model};
+use crate::panics;
 use crate::record::RecordError;
 use crate::record::head::header;
 use crate::record::sampler::Sampler;
@@ -47,7 +48,10 @@ pub struct Job<'a> {
     pub progress: &'a dyn Progress,
 }
 
-pub type Work<'a> = dyn Fn(&Case, &[Target]) -> Result<Measured, RecordError> + Sync + 'a;
+pub type Work<'a> = dyn Fn(&Case, &[Target]) -> (Measured, Written) + Sync + 'a;
+
+/// Whether the recordings of a run were written. A run that cannot be recorded still has its result.
+pub type Written = Result<(), RecordError>;
 
 impl Job<'_> {
     /// Runs what is missing, then records the chosen cases and writes the tables. How many cases were run.
@@ -61,10 +65,10 @@ impl Job<'_> {
         self.progress.begin("cases", missing.len());
         let ran = missing.par_iter().try_for_each(|&i| {
             let targets = if at_once.contains(&i) { self.targets } else { &[] };
-            let measured = self.caught(&cases[i], targets)?;
+            let (measured, written) = self.caught(&cases[i], targets);
             lock(store).add(&cases[i].id, measured)?;
             self.progress.one_done();
-            Ok::<_, SweepError>(())
+            Ok::<_, SweepError>(written?)
         });
         self.progress.end();
         lock(store).write_tables()?;
@@ -90,8 +94,9 @@ impl Job<'_> {
         }
         self.progress.begin("recordings", chosen.len());
         let result = chosen.par_iter().try_for_each(|&i| {
-            let again = self.caught(&cases[i], self.targets)?;
-            let first = lock(store).measured(&cases[i].id).map(Measured::without_wall_time);
+            let (again, written) = self.caught(&cases[i], self.targets);
+            written?;
+            let first = lock(store).measured_by_this_build(&cases[i].id).map(Measured::without_wall_time);
             self.progress.one_done();
             let same = first.is_none_or(|first| first == again.without_wall_time());
             if same { Ok(()) } else { Err(SweepError::NotDeterministic(cases[i].id.clone())) }
@@ -106,12 +111,9 @@ impl Job<'_> {
     }
 
     /// A case that panics is a row too, and the sweep goes on.
-    fn caught(&self, case: &Case, targets: &[Target]) -> Result<Measured, RecordError> {
+    fn caught(&self, case: &Case, targets: &[Target]) -> (Measured, Written) {
         let ran = catch_unwind(AssertUnwindSafe(|| (self.work)(case, targets)));
-        ran.unwrap_or_else(|panic| {
-            let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-            Ok(Measured::failed(text.unwrap_or("panic").to_string()))
-        })
+        ran.unwrap_or_else(|panic| (Measured::failed(panics::message(panic.as_ref()).to_string()), Ok(())))
     }
 }
 
@@ -123,31 +125,32 @@ fn missing(cases: &[Case], store: &Store) -> Vec<usize> {
 }
 
 /// Builds a case's model and runs it, recording it into `dir`: the usual `Work`.
-pub fn build_and_run(case: &Case, dir: &Path, targets: &[Target]) -> Result<Measured, RecordError> {
+pub fn build_and_run(case: &Case, dir: &Path, targets: &[Target]) -> (Measured, Written) {
     match model::build(&case.experiment) {
-        Ok((model, start)) => run_case(case, &model, start, dir, targets).map(|ended| ended.measured),
+        Ok((model, start)) => {
+            let (ended, written) = run_case(case, &model, start, dir, targets);
+            (ended.measured, written)
+        }
         // Every case is built once before the first one runs.
-        Err(error) => Ok(Measured::failed(error.to_string())),
+        Err(error) => (Measured::failed(error.to_string()), Ok(())),
     }
 }
 
 /// Runs one case and writes its recordings.
-pub fn run_case(
-    case: &Case,
-    model: &Model,
-    start: State,
-    dir: &Path,
-    targets: &[Target],
-) -> Result<Ended, RecordError> {
+pub fn run_case(case: &Case, model: &Model, start: State, dir: &Path, targets: &[Target]) -> (Ended, Written) {
+    let experiment = &case.experiment;
     if targets.is_empty() {
-        return Ok(run::run(&case.experiment, model, start, None));
+        return (run::run(experiment, model, start, None), Ok(()));
     }
-    let clock = run::clock(&case.experiment);
-    let writer = open(targets, dir, &header(case, model, &clock))?;
-    let mut sampler = Sampler::new(writer, &case.experiment.record, &clock);
-    let ended = run::run(&case.experiment, model, start, Some(&mut sampler));
-    sampler.finish()?;
-    Ok(ended)
+    let clock = run::clock(experiment);
+    match open(targets, dir, &header(case, model, &clock)) {
+        Ok(writer) => {
+            let mut sampler = Sampler::new(writer, &experiment.record, &clock);
+            let ended = run::run(experiment, model, start, Some(&mut sampler));
+            (ended, sampler.finish())
+        }
+        Err(error) => (run::run(experiment, model, start, None), Err(error)),
+    }
 }
 
 /// What `record.to` means in this build; nothing said: everything it can write.

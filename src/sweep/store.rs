@@ -72,19 +72,22 @@ impl PlanFile {
 
 /// One line of the journal.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-struct Entry {
-    case: String,
-    build: String,
+pub struct Entry {
+    pub case: String,
+    pub build: String,
     #[serde(flatten)]
-    measured: Measured,
+    pub measured: Measured,
 }
+
+/// The last entry of every case, by its id.
+pub type Done = HashMap<String, Entry>;
 
 /// A folder of results, open for adding rows.
 pub struct Store {
     dir: PathBuf,
     plan: PlanFile,
     journal: File,
-    done: HashMap<String, (String, Measured)>,
+    done: Done,
 }
 
 impl Store {
@@ -93,9 +96,9 @@ impl Store {
         std::fs::create_dir_all(dir).map_err(|error| StoreError::new(dir, error))?;
         let mut done = read_journal(dir)?;
         if !keep {
-            done.retain(|_, (build, _)| build == BUILD);
+            done.retain(|_, entry| entry.build == BUILD);
         }
-        write_whole(&dir.join("plan.json"), serde_json::to_string_pretty(&plan).unwrap_or_default().as_bytes())?;
+        write_whole(&dir.join("plan.json"), serde_json::to_string(&plan).unwrap_or_default().as_bytes())?;
         let path = journal_path(dir);
         let journal = OpenOptions::new().create(true).append(true).open(&path);
         let mut store = Store {
@@ -109,7 +112,7 @@ impl Store {
     }
 
     /// Opens a folder for reading its rows, of whatever build.
-    pub fn read(dir: &Path) -> Result<(PlanFile, HashMap<String, (String, Measured)>), StoreError> {
+    pub fn read(dir: &Path) -> Result<(PlanFile, Done), StoreError> {
         let path = dir.join("plan.json");
         let text = std::fs::read(&path).map_err(|error| StoreError::new(&path, error))?;
         let plan = serde_json::from_slice(&text).map_err(|error| StoreError::new(&path, error))?;
@@ -117,7 +120,12 @@ impl Store {
     }
 
     pub fn measured(&self, case: &str) -> Option<&Measured> {
-        self.done.get(case).map(|(_, measured)| measured)
+        self.done.get(case).map(|entry| &entry.measured)
+    }
+
+    /// The same, if this very program measured it: another one may give other bits.
+    pub fn measured_by_this_build(&self, case: &str) -> Option<&Measured> {
+        self.done.get(case).filter(|entry| entry.build == BUILD).map(|entry| &entry.measured)
     }
 
     /// Appends to the journal at once.
@@ -126,7 +134,7 @@ impl Store {
         let mut line = serde_json::to_string(&entry).unwrap_or_default();
         line.push('\n');
         self.journal.write_all(line.as_bytes()).map_err(|error| StoreError::new(&journal_path(&self.dir), error))?;
-        self.done.insert(entry.case, (entry.build, entry.measured));
+        self.done.insert(entry.case.clone(), entry);
         Ok(())
     }
 
@@ -155,15 +163,10 @@ impl Store {
 }
 
 /// Rows of a plan that there are, in its order.
-pub fn rows(plan: &PlanFile, done: &HashMap<String, (String, Measured)>) -> Vec<Row> {
+pub fn rows(plan: &PlanFile, done: &Done) -> Vec<Row> {
     let row = |planned: &PlanCase| {
-        let (build, measured) = done.get(&planned.case)?;
-        Some(Row {
-            case: planned.case.clone(),
-            axes: planned.at.clone(),
-            measured: measured.clone(),
-            build: build.clone(),
-        })
+        let Entry { case, build, measured } = done.get(&planned.case)?.clone();
+        Some(Row { case, axes: planned.at.clone(), measured, build })
     };
     plan.cases.iter().filter_map(row).collect()
 }
@@ -173,18 +176,18 @@ fn journal_path(dir: &Path) -> PathBuf {
 }
 
 /// Later lines win; half a line, left by a kill, counts for nothing.
-fn read_journal(dir: &Path) -> Result<HashMap<String, (String, Measured)>, StoreError> {
+fn read_journal(dir: &Path) -> Result<Done, StoreError> {
     let path = journal_path(dir);
     let file = match File::open(&path) {
         Ok(file) => file,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(HashMap::new()),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Done::new()),
         Err(error) => return Err(StoreError::new(&path, error)),
     };
-    let mut done = HashMap::new();
+    let mut done = Done::new();
     for line in BufReader::new(file).split(b'\n') {
         let line = line.map_err(|error| StoreError::new(&path, error))?;
         if let Ok(entry) = serde_json::from_slice::<Entry>(&line) {
-            done.insert(entry.case, (entry.build, entry.measured));
+            done.insert(entry.case.clone(), entry);
         }
     }
     Ok(done)

@@ -1,9 +1,9 @@
 //! Axes: their forms, the grid, and what is said about bad ones.
 
 use super::{BASE, experiment, file, swept};
+use gotai::experiment::axes::Axes;
 use gotai::experiment::error::Kind;
 use gotai::experiment::types::*;
-use gotai::sweep::axes::Axes;
 use serde_json::json;
 
 fn axes(lines: &str) -> Axes {

@@ -1,6 +1,7 @@
 //! Each method against its own recurrence, the exact motion, and what it should conserve.
 
 mod contact;
+mod divergence;
 mod free;
 mod lecture;
 mod penalty;

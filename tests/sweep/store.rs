@@ -5,6 +5,7 @@ use gotai::record::writer::Target;
 use gotai::row::{Measured, Outcome};
 use gotai::sweep::recordings::known_after;
 use gotai::sweep::runner::build_and_run;
+use gotai::sweep::store::{PlanFile, Store};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
 use std::fs::File;
@@ -47,6 +48,9 @@ fn rows_of_another_build_count_as_missing() {
     let journal = folder.path().join("journal.jsonl");
     let text = std::fs::read_to_string(&journal).unwrap();
     std::fs::write(&journal, text.replace(gotai::build_info::BUILD, "another")).unwrap();
+    let kept = Store::open(folder.path(), PlanFile::new(&cases), true).unwrap();
+    assert!(cases.iter().all(|case| kept.measured(&case.id).is_some()));
+    assert!(cases.iter().all(|case| kept.measured_by_this_build(&case.id).is_none()));
     assert_eq!(sweep(&cases, folder.path(), &[]).0, 4);
 }
 

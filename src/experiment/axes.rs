@@ -1,10 +1,10 @@
 //! The axes of a sweep: from what is written to a grid of points, in the order written, the first axis slowest.
 
-use crate::experiment::error::{self, ExperimentError, Kind, describe};
-use crate::experiment::key_path::{KeyPath, Path, Segment};
-use crate::experiment::overrides::split;
-use crate::experiment::types::Sweep;
-use crate::experiment::value_de::from_value;
+use super::error::{self, ExperimentError, Kind, describe};
+use super::key_path::{KeyPath, Path, Segment};
+use super::overrides::split;
+use super::types::Sweep;
+use super::value_de::from_value;
 use serde::Deserialize;
 use serde_yaml::{Mapping, Number, Value};
 use std::collections::HashMap;

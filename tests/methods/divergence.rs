@@ -1,0 +1,66 @@
+//! When a run counts as diverged: each criterion by its name, at its time.
+
+use crate::yaml::{CUBE_IN_BOX, measured};
+use gotai::row::{Measured, Outcome};
+
+const FALLING: &str = "
+scene:
+  container: { box: { size_m: [4, 4, 4] } }
+  bodies:
+    - { name: ball, shape: { sphere: { radius_m: 0.5 } }, mass_kg: 1, position_m: [0, 2, 0] }
+method: free
+time: { step_s: 0.001, end_s: 2 }
+";
+
+fn stopped(sets: &[&str]) -> (Outcome, Option<String>, f64) {
+    let Measured { outcome, criterion, end_time_s, .. } = measured(FALLING, sets);
+    (outcome, criterion, end_time_s.unwrap())
+}
+
+fn diverged(sets: &[&str], criterion: &str, time_s: f64) {
+    let (outcome, found, at) = stopped(sets);
+    assert_eq!((outcome, found.as_deref()), (Outcome::Diverged, Some(criterion)), "{sets:?}");
+    assert!((at - time_s).abs() < 2.5e-3, "{sets:?}: {at} instead of {time_s}");
+}
+
+/// `free` does not see the floor: the centre falls through it and leaves by more than the radius at −0.5 m.
+#[test]
+fn a_body_outside_its_container_has_escaped() {
+    diverged(&[], "escape", (2.0_f64 * 2.5 / 9.8).sqrt());
+    assert_eq!(stopped(&["diverge.escape=false"]).0, Outcome::Finished);
+    // Without a container there is nowhere to escape from; a point is held by nothing.
+    assert_eq!(stopped(&["scene.container=null"]).0, Outcome::Finished);
+    assert_eq!(stopped(&["scene.bodies.ball.shape=none"]).0, Outcome::Finished);
+}
+
+#[test]
+fn speed_and_penetration_are_limits_only_when_given() {
+    diverged(&["diverge.speed_m_s=4.9"], "speed", 0.5);
+    let deep = ["method={time-stepping: {position_correction: none}}", "scene.bodies.ball.velocity_m_s=[0, -10, 0]"];
+    assert_eq!(stopped(&deep).0, Outcome::Finished);
+    let limited = [&deep[..], &["time.step_s=0.01", "diverge.penetration_m=1e-3"]].concat();
+    let (outcome, criterion, _) = stopped(&limited);
+    assert_eq!((outcome, criterion.as_deref()), (Outcome::Diverged, Some("penetration")));
+}
+
+#[test]
+fn energy_is_held_against_its_start_value_unless_that_is_zero() {
+    let exploding =
+        ["method={lecture: {iteration: jacobi}}", "scene.bodies.cube.mesh.nodes_per_edge=5", "diverge.escape=false"];
+    let m = measured(CUBE_IN_BOX, &exploding);
+    assert_eq!((m.outcome, m.criterion.as_deref()), (Outcome::Diverged, Some("energy")));
+    let (start, end) = (m.energy_start_j.unwrap(), m.energy_end_j.unwrap());
+    assert!(end > 1000.0 * start && m.steps < 200, "{start} {end}");
+    // Without a container the potential is zero at the start: nothing to hold it against.
+    let m = measured(FALLING, &["scene.container=null", "diverge.energy_factor=1.5"]);
+    assert_eq!((m.energy_start_j, m.outcome), (Some(0.0), Outcome::Finished));
+}
+
+#[test]
+fn numbers_that_are_not_finite_stop_a_run_always() {
+    let off =
+        ["diverge={energy_factor: null, escape: false}", "scene.bodies.cube.mesh.nodes_per_edge=5", "time.end_s=20"];
+    let m = measured(CUBE_IN_BOX, &[&off[..], &["method={lecture: {iteration: jacobi}}"]].concat());
+    assert_eq!((m.outcome, m.criterion.as_deref()), (Outcome::Diverged, Some("not-finite")));
+    assert_eq!(m.energy_end_j, None);
+}

@@ -127,7 +127,7 @@ fn keep_rows_when_interrupted(store: &Arc<Mutex<Store>>, dir: &Path) -> Result<(
     let (store, dir) = (Arc::downgrade(store), dir.to_path_buf());
     std::thread::spawn(move || {
         // A sweep that has ended has dropped its store; the next one of the folder listens for itself.
-        while let (Some(signal), Some(store)) = (signals.forever().next(), store.upgrade()) {
+        if let (Some(signal), Some(store)) = (signals.forever().next(), store.upgrade()) {
             let store = lock(&store);
             if let Err(error) = store.write_tables() {
                 eprintln!("gotai: {error}");

@@ -68,7 +68,7 @@ fn sweep_until_done(
         match (sweeps.iteration, sweeps.correction) {
             (Iteration::Jacobi, _) => jacobi(problem, coupling, before, p),
             (Iteration::GaussSeidel, Correction::AfterSweep) => {
-                in_place(problem, coupling, p, |block, c, p| three_rows(block, c, p));
+                in_place(problem, coupling, p, three_rows);
                 in_place(problem, coupling, p, |block, _, p| corrected(p, block.friction));
             }
             (Iteration::GaussSeidel, Correction::PerContact) if sweeps.friction => {

@@ -45,12 +45,15 @@ fn speed_and_penetration_are_limits_only_when_given() {
 
 #[test]
 fn energy_is_held_against_its_start_value_unless_that_is_zero() {
-    let exploding =
-        ["method={lecture: {iteration: jacobi}}", "scene.bodies.cube.mesh.nodes_per_edge=5", "diverge.escape=false"];
-    let m = measured(CUBE_IN_BOX, &exploding);
-    assert_eq!((m.outcome, m.criterion.as_deref()), (Outcome::Diverged, Some("energy")));
+    let exploded = (0..20).find_map(|seed| {
+        let seed = format!("seed={seed}");
+        let sets = ["method=lecture", "scene.bodies.cube.mesh.nodes_per_edge=5", "time.step_s=0.02", seed.as_str()];
+        Some(measured(CUBE_IN_BOX, &sets)).filter(|m| m.criterion.as_deref() == Some("energy"))
+    });
+    let m = exploded.expect("half of these explode");
+    assert_eq!(m.outcome, Outcome::Diverged);
     let (start, end) = (m.energy_start_j.unwrap(), m.energy_end_j.unwrap());
-    assert!(end > 1000.0 * start && m.steps < 200, "{start} {end}");
+    assert!(end > 1000.0 * start && m.steps < 100, "{start} {end}");
     // Without a container the potential is zero at the start: nothing to hold it against.
     let m = measured(FALLING, &["scene.container=null", "diverge.energy_factor=1.5"]);
     assert_eq!((m.energy_start_j, m.outcome), (Some(0.0), Outcome::Finished));

@@ -1,7 +1,8 @@
 //! A bar on stderr with rate and time left; only on a terminal.
 
 use crate::sweep::runner::Progress;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt::Write;
 use std::sync::Mutex;
 use std::time::Duration;
 
@@ -25,9 +26,13 @@ impl Progress for Bar {
         // indicatif hides the bar by itself where stderr is no terminal.
         let target = if self.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(total as u64), target);
-        let style = "{msg:>10} [{bar:32}] {pos}/{len}  {per_sec}  {eta} left";
+        let style = "{msg:>10} [{bar:32}] {pos}/{len}  {rate}  {eta} left";
         if let Ok(style) = ProgressStyle::with_template(style) {
-            bar.set_style(style.progress_chars("=> "));
+            let rate = |state: &ProgressState, out: &mut dyn Write| {
+                // A bar has no one to report a failed write to.
+                let _ = write!(out, "{:.1}/s", state.per_sec());
+            };
+            bar.set_style(style.with_key("rate", rate).progress_chars("=> "));
         }
         bar.set_message(what.to_string());
         bar.enable_steady_tick(Duration::from_millis(200));

@@ -6,13 +6,14 @@ use crate::case::Case;
 use crate::experiment::ExperimentFile;
 use crate::record::writer::Target;
 use crate::row::{Outcome, Row};
-use crate::sweep::plan::cases;
+use crate::sweep::plan::{PlanFile, cases};
 use crate::sweep::runner::{Job, build_and_run, lock};
-use crate::sweep::store::{PlanFile, Store};
+use crate::sweep::store::Store;
 use clap::Args;
 use serde_json::json;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Arc, Mutex};
@@ -131,6 +132,10 @@ fn keep_rows_when_interrupted(store: &Arc<Mutex<Store>>, dir: &Path) -> Result<(
             let store = lock(&store);
             if let Err(error) = store.write_tables() {
                 eprintln!("gotai: {error}");
+            }
+            // Below the bar, which is left as it stands.
+            if std::io::stderr().is_terminal() {
+                eprintln!();
             }
             eprintln!(
                 "interrupted: {} rows are kept in {}; run again to do the rest",

@@ -1,6 +1,8 @@
 //! Tetrahedral volume meshes (L8) of a box, a bar and a sphere, at any resolution.
 //!
-//! Nodes are in lexicographic order (x, y, z): the order of nodes is the order of contacts, and Gauss–Seidel depends on it.
+//! The order of nodes is the order of contacts, and Gauss–Seidel depends on it: a box's are in lexicographic order
+//! (x, y, z), a sphere's as subdivision makes them. (Sorted likewise, an icosphere of 162 nodes explodes in 34 % instead
+//! of 45 % of the lecture's runs at 10 ms, where 44 % were measured.)
 
 use nalgebra::Vector3;
 use std::collections::HashMap;
@@ -92,6 +94,7 @@ pub fn box_mesh(size_m: [f64; 3], counts: [u32; 3]) -> TetMesh {
 const AXIS_ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
 /// An icosphere of 10·4ᵏ + 2 surface nodes and a centre node; a fan of tets from the centre to every surface triangle.
+/// Nodes in the order of their making: the icosahedron's, then each subdivision's midpoints, the centre last.
 pub fn sphere_mesh(radius_m: f64, subdivisions: u32) -> TetMesh {
     let (mut nodes, mut faces) = icosahedron();
     for _ in 0..subdivisions {
@@ -99,21 +102,11 @@ pub fn sphere_mesh(radius_m: f64, subdivisions: u32) -> TetMesh {
     }
     let centre = nodes.len() as u32;
     nodes.push(Vector3::zeros());
-    let mut order: Vec<u32> = (0..=centre).collect();
-    order.sort_by(|&a, &b| lexicographic(&nodes[a as usize], &nodes[b as usize]));
-    let mut rank = vec![0; order.len()];
-    for (new, &old) in order.iter().enumerate() {
-        rank[old as usize] = new as u32;
-    }
     TetMesh {
-        nodes: order.iter().map(|&i| nodes[i as usize] * radius_m).collect(),
-        tets: faces.iter().map(|f| [centre, f[0], f[1], f[2]].map(|i| rank[i as usize])).collect(),
+        nodes: nodes.iter().map(|u| u * radius_m).collect(),
+        tets: faces.iter().map(|&[a, b, c]| [centre, a, b, c]).collect(),
     }
     .oriented()
-}
-
-fn lexicographic(a: &Vector3<f64>, b: &Vector3<f64>) -> std::cmp::Ordering {
-    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
 }
 
 /// Unit icosahedron: nodes (0, ±1, ±φ) and cyclic permutations, φ the golden ratio.

@@ -1,10 +1,13 @@
 //! All cases of an experiment file, in plan order, each resolved and checked before the first run.
 
-use crate::case::Case;
+use crate::build_info::{BUILD, PROGRAM};
+use crate::case::{Case, hex};
 use crate::experiment::{ExperimentError, ExperimentFile};
 use crate::model;
 use rayon::prelude::*;
-use serde_json::Map;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+use sha2::{Digest, Sha256};
 
 /// Resolves every point of the grid, and builds its model once to find what only geometry shows (overlap).
 ///
@@ -33,5 +36,45 @@ fn checked(file: &ExperimentFile, point: &[usize], case: Case) -> Result<Case, E
     match model::build(&case.experiment) {
         Ok(_) => Ok(case),
         Err(error) => Err(file.error_at(point, &error.path, &error.expected, &error.found)),
+    }
+}
+
+/// What `plan.json` says.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct PlanFile {
+    pub program: String,
+    pub build: String,
+    /// Of the axes and the case ids.
+    pub hash: String,
+    pub axes: Vec<PlanAxis>,
+    /// Case ids with their values on the axes, in plan order.
+    pub cases: Vec<PlanCase>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct PlanAxis {
+    pub path: String,
+    pub values: Vec<Value>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct PlanCase {
+    pub case: String,
+    pub at: Map<String, Value>,
+}
+
+impl PlanFile {
+    pub fn new(cases: &[Case]) -> Self {
+        let mut axes: Vec<PlanAxis> = Vec::new();
+        for (path, value) in cases.iter().flat_map(|case| &case.axes) {
+            match axes.iter_mut().find(|axis| axis.path == *path) {
+                Some(axis) if axis.values.contains(value) => {}
+                Some(axis) => axis.values.push(value.clone()),
+                None => axes.push(PlanAxis { path: path.clone(), values: vec![value.clone()] }),
+            }
+        }
+        let cases: Vec<_> = cases.iter().map(|c| PlanCase { case: c.id.clone(), at: c.axes.clone() }).collect();
+        let digest = Sha256::digest(json!([&axes, &cases]).to_string());
+        PlanFile { program: PROGRAM.to_string(), build: BUILD.to_string(), hash: hex(&digest[..8]), axes, cases }
     }
 }

@@ -4,13 +4,11 @@
 //! in plan order. The journal holds what was measured by case id, the plan holds the axes: a sweep whose axes have
 //! grown finds its old rows again.
 
+use super::plan::{PlanCase, PlanFile};
 use super::table;
-use crate::build_info::{BUILD, PROGRAM};
-use crate::case::{Case, hex};
+use crate::build_info::BUILD;
 use crate::row::{Measured, Row};
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
-use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Write};
@@ -27,46 +25,6 @@ pub struct StoreError {
 impl StoreError {
     pub fn new(path: &Path, reason: impl std::fmt::Display) -> Self {
         StoreError { path: path.to_path_buf(), reason: reason.to_string() }
-    }
-}
-
-/// What `plan.json` says.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct PlanFile {
-    pub program: String,
-    pub build: String,
-    /// Of the axes and the case ids.
-    pub hash: String,
-    pub axes: Vec<PlanAxis>,
-    /// Case ids with their values on the axes, in plan order.
-    pub cases: Vec<PlanCase>,
-}
-
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct PlanAxis {
-    pub path: String,
-    pub values: Vec<Value>,
-}
-
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct PlanCase {
-    pub case: String,
-    pub at: Map<String, Value>,
-}
-
-impl PlanFile {
-    pub fn new(cases: &[Case]) -> Self {
-        let mut axes: Vec<PlanAxis> = Vec::new();
-        for (path, value) in cases.iter().flat_map(|case| &case.axes) {
-            match axes.iter_mut().find(|axis| axis.path == *path) {
-                Some(axis) if axis.values.contains(value) => {}
-                Some(axis) => axis.values.push(value.clone()),
-                None => axes.push(PlanAxis { path: path.clone(), values: vec![value.clone()] }),
-            }
-        }
-        let cases: Vec<_> = cases.iter().map(|c| PlanCase { case: c.id.clone(), at: c.axes.clone() }).collect();
-        let digest = Sha256::digest(json!([&axes, &cases]).to_string());
-        PlanFile { program: PROGRAM.to_string(), build: BUILD.to_string(), hash: hex(&digest[..8]), axes, cases }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Rows as a table: CSV for spreadsheets, Parquet for everything columnar. Null is an empty cell.
 
-use super::store::PlanAxis;
+use super::plan::PlanAxis;
 use crate::row::{Measured, Row};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use parquet::arrow::ArrowWriter;

@@ -36,12 +36,15 @@ fn every_tet_is_positive_and_a_box_is_filled() {
     assert!((volume - 0.4 * 0.5 * 1.6).abs() < 1e-15);
 }
 
+/// The order of contacts, and so part of the method: lexicographic in a box, by subdivision in a sphere.
 #[test]
-fn nodes_are_in_lexicographic_order() {
-    for mesh in meshes() {
-        let key = |u: &Vector3<f64>| (u.x, u.y, u.z);
-        assert!(mesh.nodes.windows(2).all(|pair| key(&pair[0]) < key(&pair[1])));
-    }
+fn nodes_are_in_a_known_order() {
+    let size = [0.4, 0.5, 1.6];
+    let key = |u: &Vector3<f64>| (u.x, u.y, u.z);
+    let boxed = box_mesh(size, box_counts(size, 4)).nodes;
+    assert!(boxed.windows(2).all(|pair| key(&pair[0]) < key(&pair[1])));
+    let (coarse, fine) = (sphere_mesh(0.5, 1).nodes, sphere_mesh(0.5, 2).nodes);
+    assert_eq!((&coarse[..42], coarse[42], fine[162]), (&fine[..42], Vector3::zeros(), Vector3::zeros()));
 }
 
 #[test]

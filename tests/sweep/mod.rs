@@ -5,9 +5,9 @@ mod threads;
 
 use gotai::case::Case;
 use gotai::record::writer::Target;
-use gotai::sweep::plan::cases;
+use gotai::sweep::plan::{PlanFile, cases};
 use gotai::sweep::runner::{Job, Progress, Work, build_and_run, lock};
-use gotai::sweep::store::{PlanFile, Store};
+use gotai::sweep::store::Store;
 use std::path::Path;
 use std::sync::Mutex;
 

@@ -36,7 +36,8 @@ impl Clock {
     /// From the count, so that no rounding adds up.
     fn advance(&self, state: &mut State) {
         state.step += 1;
-        state.time_s = if state.step == self.steps { self.end_s } else { state.step as f64 * self.step_s };
+        let passed_s = self.end_s * state.step as f64 / self.steps as f64;
+        state.time_s = if state.step == self.steps { self.end_s } else { passed_s };
     }
 }
 

@@ -22,8 +22,8 @@ const TABLE: [(&str, [u64; 6]); 7] = [
     ("ico 162", [0, 2, 48, 174, 277, 357]),
 ];
 
-/// Explosions by mesh and step; largest energy as a part of the start's; largest contact gain.
-fn map(sets: &[&str]) -> (BTreeMap<(String, String), u64>, f64, f64) {
+/// Explosions by mesh and step; largest contact gain.
+fn map(sets: &[&str]) -> (BTreeMap<(String, String), u64>, f64) {
     let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/lecture/stability.yaml"));
     let seeds = format!("sweep.axes.seed={{range: {{from: 0, to: {}}}}}", SEEDS - 1);
     let sets: Vec<&str> = sets.iter().copied().chain([seeds.as_str()]).collect();
@@ -37,7 +37,7 @@ fn map(sets: &[&str]) -> (BTreeMap<(String, String), u64>, f64, f64) {
         })
         .collect();
     let mut exploded = BTreeMap::new();
-    let (mut highest, mut gain) = (0.0_f64, 0.0_f64);
+    let mut gain = 0.0_f64;
     for (case, m) in cases.iter().zip(&measured) {
         let column = |path: &str| match &case.axes[path] {
             serde_json::Value::String(text) => text.clone(),
@@ -45,11 +45,9 @@ fn map(sets: &[&str]) -> (BTreeMap<(String, String), u64>, f64, f64) {
         };
         let cell = (column("scene.bodies.body"), column("time.step_s"));
         *exploded.entry(cell).or_default() += u64::from(m.outcome == Outcome::Diverged);
-        let (start, end) = (m.energy_start_j.unwrap(), m.energy_end_j.unwrap_or(f64::INFINITY));
-        highest = highest.max(end / start);
         gain = gain.max(m.contact_gain_max.unwrap_or(0.0));
     }
-    (exploded, highest, gain)
+    (exploded, gain)
 }
 
 /// ln n!
@@ -76,7 +74,7 @@ fn fishers_test_is_fishers_test() {
 /// 1 % over all 42 cells together (Bonferroni). measured: least p 0.099 with 200 seeds, 0.073 with 400.
 #[test]
 fn the_lectures_method_explodes_as_often_as_measured() {
-    let (exploded, ..) = map(&[]);
+    let (exploded, _) = map(&[]);
     for (mesh, row) in TABLE {
         for (step, expected) in STEPS_S.iter().zip(row) {
             let seen = exploded[&(mesh.to_string(), step.to_string())];
@@ -90,10 +88,11 @@ fn the_lectures_method_explodes_as_often_as_measured() {
     assert!(at("ico 162", "0.01") >= at("ico 12", "0.01") + SEEDS / 5, "more nodes diverge more easily");
 }
 
+/// With the energy criterion at 1.05: no step of any run is above 1.05 times the start.
 #[test]
 fn the_sound_method_explodes_nowhere() {
-    let (exploded, highest, gain) = map(&["method=time-stepping"]);
+    let (exploded, gain) = map(&["method=time-stepping", "diverge.energy_factor=1.05"]);
     assert!(exploded.values().all(|count| *count == 0), "{exploded:?}");
-    // measured: 0.25 at the end, gain 1.0000000000000
-    assert!(highest < 1.05 && gain <= 1.0 + 1e-12, "{highest} {gain}");
+    // measured: gain 1.0000000000000
+    assert!(gain <= 1.0 + 1e-12, "{gain}");
 }

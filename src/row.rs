@@ -115,6 +115,11 @@ impl Measured {
     }
 }
 
+/// Rows that ended so.
+pub fn count(rows: &[Row], outcome: Outcome) -> usize {
+    rows.iter().filter(|row| row.measured.outcome == outcome).count()
+}
+
 /// A number that JSON can hold.
 pub fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)

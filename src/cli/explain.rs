@@ -2,13 +2,14 @@
 
 use super::{CliError, ExperimentArgs, OutputArgs, print, print_json};
 use crate::case::Case;
-use crate::model::{self, Model};
+use crate::experiment::types::Shape;
+use crate::model;
 use crate::plan::{Plan, Stage};
 use crate::record::sampler::steps_between;
 use crate::run::clock;
 use crate::step::Stepper;
 use crate::sweep::plan::cases;
-use crate::sweep::recordings::known_before;
+use crate::sweep::recordings::{FEW, known_before};
 use crate::sweep::runner::targets;
 use clap::Args;
 use serde_json::json;
@@ -132,13 +133,13 @@ fn bytes(cases: &[Case]) -> u64 {
     let Some(first) = cases.first() else { return 0 };
     let files = targets(first.experiment.record.to).len() as u64;
     let rule = first.experiment.record.cases;
-    let recorded = known_before(rule, cases.len()).map_or(24.min(cases.len()), |known| known.len());
+    let recorded = known_before(rule, cases.len()).map_or(FEW.min(cases.len()), |known| known.len());
     let per_case = |case: &Case| {
         let clock = clock(&case.experiment);
         let samples = clock.steps / steps_between(&case.experiment.record, &clock) + 1;
-        let touching = |model: &Model| model.bodies.iter().filter(|b| b.touches()).count() as u64;
-        let contacts = model::build(&case.experiment).map_or(0, |(model, _)| touching(&model)) * LIKELY_CONTACTS;
-        samples * (case.experiment.scene.bodies.len() as u64 * OF_A_BODY + contacts * OF_A_CONTACT)
+        let bodies = &case.experiment.scene.bodies;
+        let contacts = bodies.iter().filter(|body| body.shape != Shape::None).count() as u64 * LIKELY_CONTACTS;
+        samples * (bodies.len() as u64 * OF_A_BODY + contacts * OF_A_CONTACT)
     };
     let mean = cases.iter().map(per_case).sum::<u64>() / cases.len() as u64;
     mean * recorded as u64 * files

@@ -4,13 +4,12 @@ use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, print, print_json};
 use crate::build_info::BUILD;
 use crate::case::Case;
 use crate::collide::SolvedContact;
-use crate::experiment::ExperimentError;
 use crate::model::{self, Model};
 use crate::plan::Plan;
 use crate::record::writer::Target;
 use crate::row::{Measured, Outcome, Row};
 use crate::run::Ended;
-use crate::sweep::plan::single_case;
+use crate::sweep::plan::{build, single_case};
 use crate::sweep::runner::run_case;
 use clap::Args;
 use nalgebra::Vector3;
@@ -39,8 +38,7 @@ impl Command {
         if !targets.is_empty() {
             std::fs::create_dir_all(&dir).map_err(|error| CliError::Machine(format!("{}: {error}", dir.display())))?;
         }
-        let overlap = |e: model::BuildError| -> ExperimentError { file.error_at(&[], &e.path, &e.expected, &e.found) };
-        let (model, start) = model::build(&case.experiment).map_err(overlap)?;
+        let (model, start) = build(&file, &[], &case)?;
         if self.output.verbose {
             describe_plan(&Plan::new(&model, &case.experiment.method));
         }

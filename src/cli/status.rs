@@ -2,7 +2,7 @@
 
 use super::{CliError, OutputArgs, print, print_json};
 use crate::build_info::BUILD;
-use crate::row::Outcome;
+use crate::row::{Outcome, count};
 use crate::sweep::store::{Store, rows};
 use clap::Args;
 use serde_json::json;
@@ -34,14 +34,13 @@ impl Command {
         }
         let other_build = all - done.len();
         let rows = rows(&plan, &done);
-        let count = |outcome| rows.iter().filter(|row| row.measured.outcome == outcome).count();
-        let (total, failed) = (plan.cases.len(), count(Outcome::Failed));
+        let (total, failed) = (plan.cases.len(), count(&rows, Outcome::Failed));
         let missing = total - rows.len();
         if self.output.json {
             print_json(&json!({
                 "dir": self.dir, "cases": total, "done": rows.len(), "missing": missing, "failed": failed,
-                "finished": count(Outcome::Finished), "diverged": count(Outcome::Diverged),
-                "stalled": count(Outcome::Stalled), "of_another_build": other_build,
+                "finished": count(&rows, Outcome::Finished), "diverged": count(&rows, Outcome::Diverged),
+                "stalled": count(&rows, Outcome::Stalled), "of_another_build": other_build,
             }));
         } else {
             print(format!("{} of {total} done, {missing} missing, {failed} failed", rows.len()));

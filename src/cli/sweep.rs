@@ -3,9 +3,8 @@
 use super::progress::Bar;
 use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, print, print_json};
 use crate::case::Case;
-use crate::experiment::ExperimentFile;
 use crate::record::writer::Target;
-use crate::row::{Outcome, Row};
+use crate::row::{Outcome, Row, count};
 use crate::sweep::plan::{PlanFile, cases};
 use crate::sweep::runner::{Job, build_and_run, lock};
 use crate::sweep::store::Store;
@@ -46,11 +45,12 @@ impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
         let configs = configs(&self.config)?;
         // Every case of every file is checked before the first run.
-        let planned: Vec<_> = configs.iter().map(|config| self.planned(config)).collect::<Result<_, _>>()?;
         let pool = self.run.pool()?;
+        let planned = configs.iter().map(|config| pool.install(|| self.planned(config)));
+        let planned = planned.collect::<Result<Vec<_>, _>>()?;
         let mut swept = Vec::with_capacity(configs.len());
-        for (config, cases) in configs.iter().zip(planned) {
-            swept.push(pool.install(|| self.sweep_one(config, cases))?);
+        for (config, (cases, targets)) in configs.iter().zip(&planned) {
+            swept.push(pool.install(|| self.sweep_one(config, cases, targets))?);
             if !self.output.json {
                 print(swept.last().map(summary).unwrap_or_default());
             }
@@ -58,31 +58,28 @@ impl Command {
         if self.output.json {
             print_document(&swept);
         }
-        let failed = swept.iter().flat_map(|s| &s.rows).any(|row| row.measured.outcome == Outcome::Failed);
+        let failed = swept.iter().any(|s| count(&s.rows, Outcome::Failed) > 0);
         Ok(ExitCode::from(u8::from(failed)))
     }
 
-    fn planned(&self, config: &Path) -> Result<Vec<Case>, CliError> {
-        let file: ExperimentFile = self.experiment.load(config)?;
-        let cases = self.run.pool()?.install(|| cases(&file))?;
-        if let Some(first) = cases.first() {
-            self.run.targets(first.experiment.record.to)?;
-        }
-        Ok(cases)
+    /// All cases of a file, and what they are recorded into.
+    fn planned(&self, config: &Path) -> Result<(Vec<Case>, Vec<Target>), CliError> {
+        let cases = cases(&self.experiment.load(config)?)?;
+        let targets = self.run.targets(cases.first().and_then(|case| case.experiment.record.to))?;
+        Ok((cases, targets))
     }
 
-    fn sweep_one(&self, config: &Path, cases: Vec<Case>) -> Result<Swept, CliError> {
+    fn sweep_one(&self, config: &Path, cases: &[Case], targets: &[Target]) -> Result<Swept, CliError> {
         let dir = self.out(config);
-        let targets = self.run.targets(cases.first().and_then(|case| case.experiment.record.to))?;
-        let store = Arc::new(Mutex::new(Store::open(&dir, PlanFile::new(&cases), self.keep)?));
+        let store = Arc::new(Mutex::new(Store::open(&dir, PlanFile::new(cases), self.keep)?));
         keep_rows_when_interrupted(&store, &dir)?;
         if self.output.verbose {
             eprintln!("{}: {} cases into {}", config.display(), cases.len(), dir.display());
         }
         let work = |case: &Case, targets: &[Target]| build_and_run(case, &dir, targets);
         let bar = Bar::new(self.output.quiet);
-        let job = Job { dir: &dir, targets: &targets, work: &work, progress: &bar };
-        let ran = quietly(|| job.sweep(&cases, &store))?;
+        let job = Job { dir: &dir, targets, work: &work, progress: &bar };
+        let ran = quietly(|| job.sweep(cases, &store))?;
         let rows = lock(&store).rows();
         Ok(Swept { config: config.to_path_buf(), dir, ran, planned: cases.len(), rows })
     }
@@ -158,10 +155,9 @@ fn quietly<T>(work: impl FnOnce() -> T) -> T {
 }
 
 fn summary(swept: &Swept) -> String {
-    let count = |outcome| swept.rows.iter().filter(|row| row.measured.outcome == outcome).count();
     let mut text = format!("{}: {} cases, {} run now", swept.config.display(), swept.planned, swept.ran);
     for (name, outcome) in OUTCOMES {
-        match count(outcome) {
+        match count(&swept.rows, outcome) {
             0 => {}
             n => text += &format!(" · {n} {name}"),
         }
@@ -179,8 +175,8 @@ const OUTCOMES: [(&str, Outcome); 4] = [
 /// One object for a file, a list for a folder.
 fn print_document(swept: &[Swept]) {
     let document = |s: &Swept| {
-        let count = |outcome| s.rows.iter().filter(|row| row.measured.outcome == outcome).count();
-        let outcomes: serde_json::Map<_, _> = OUTCOMES.iter().map(|(n, o)| (n.to_string(), count(*o).into())).collect();
+        let counted = OUTCOMES.iter().map(|(name, outcome)| (name.to_string(), count(&s.rows, *outcome).into()));
+        let outcomes: serde_json::Map<_, _> = counted.collect();
         json!({
             "config": s.config, "dir": s.dir, "cases": s.planned, "ran": s.ran, "outcomes": outcomes, "rows": s.rows,
         })

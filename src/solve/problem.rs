@@ -222,10 +222,7 @@ impl Block {
 
     /// The 3×3 block of A between two contacts.
     fn coupling(&self, other: &Block) -> Matrix3<f64> {
-        if self.body != other.body {
-            return Matrix3::zeros();
-        }
-        Matrix3::from_fn(|i, j| self.rows[i].along(&other.rows[j].response))
+        if self.body == other.body { rows_times_responses(&self.rows, &other.rows) } else { Matrix3::zeros() }
     }
 
     fn new(contact: &Contact, before: &BodyState, free: &Twist, mass_kg: f64, I_W_inverse: &Matrix3<f64>) -> Self {
@@ -239,7 +236,7 @@ impl Block {
         if approach < 0.0 {
             b.x += contact.restitution * approach;
         }
-        let A = Matrix3::from_fn(|i, j| rows[i].along(&rows[j].response));
+        let A = rows_times_responses(&rows, &rows);
         Block {
             body: contact.body,
             friction: contact.friction,
@@ -256,6 +253,11 @@ impl Block {
     pub fn in_world(&self, p: &Impulse) -> Vector3<f64> {
         self.frame[0] * p.x + self.frame[1] * p.y + self.frame[2] * p.z
     }
+}
+
+/// J M⁻¹ Jᵀ of two contacts of one body.
+fn rows_times_responses(rows: &[Row; 3], others: &[Row; 3]) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| rows[i].along(&others[j].response))
 }
 
 /// Of the symmetric matrix [a c; c b].

@@ -3,7 +3,8 @@
 use crate::build_info::{BUILD, PROGRAM};
 use crate::case::{Case, hex};
 use crate::experiment::{ExperimentError, ExperimentFile};
-use crate::model;
+use crate::model::{self, BuildError, Model};
+use crate::state::State;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
@@ -33,10 +34,17 @@ fn case(file: &ExperimentFile, index: usize) -> Result<Case, ExperimentError> {
 }
 
 fn checked(file: &ExperimentFile, point: &[usize], case: Case) -> Result<Case, ExperimentError> {
-    match model::build(&case.experiment) {
-        Ok(_) => Ok(case),
-        Err(error) => Err(file.error_at(point, &error.path, &error.expected, &error.found)),
-    }
+    build(file, point, &case)?;
+    Ok(case)
+}
+
+/// The model and first state of the case at `point` (empty without axes).
+///
+/// # Errors
+/// What only geometry shows, with the place in the file.
+pub fn build(file: &ExperimentFile, point: &[usize], case: &Case) -> Result<(Model, State), ExperimentError> {
+    let placed = |e: BuildError| file.error_at(point, &e.path, &e.expected, &e.found);
+    model::build(&case.experiment).map_err(placed)
 }
 
 /// What `plan.json` says.

@@ -7,7 +7,7 @@ use crate::experiment::types::RecordCases;
 use crate::row::{Measured, Outcome};
 
 /// `few`: what a person can look at, and 24 files of some MB each.
-const FEW: usize = 24;
+pub const FEW: usize = 24;
 
 /// Indices of the cases to record, known before anything has run.
 pub fn known_before(rule: RecordCases, cases: usize) -> Option<Vec<usize>> {

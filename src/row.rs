@@ -19,7 +19,7 @@ pub enum Outcome {
 }
 
 /// Fields are columns, in this order; a number that means nothing here is null.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     pub case: String,
     /// Every axis by its path.
@@ -61,6 +61,9 @@ pub struct Measured {
     pub work_sweeps: u64,
     pub work_gyroscopic: u64,
     pub wall_s: Option<f64>,
+    /// Columns that only some experiments have: `measure:`, the bracket of a search.
+    #[serde(flatten)]
+    pub more: Map<String, Value>,
 }
 
 impl Measured {
@@ -98,6 +101,7 @@ impl Measured {
             work_sweeps: 0,
             work_gyroscopic: 0,
             wall_s: None,
+            more: Map::new(),
         }
     }
 

@@ -2,8 +2,8 @@
 
 use crate::collide::SolvedContact;
 use crate::experiment::types::Experiment;
-use crate::measure::Judge;
 use crate::measure::divergence::Criterion;
+use crate::measure::{Judge, more};
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::record::sampler::Sampler;
@@ -46,7 +46,8 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
             }
         }
     }
-    let measured = summarize(model, &state, &mut judge, &stepper, &clock, diverged, stepping);
+    let mut measured = summarize(model, &state, &mut judge, &stepper, &clock, diverged, stepping);
+    measured.more = more::columns(experiment, model, &state);
     if let Some(sampler) = &mut sampler {
         sampler.end(&state, &measured);
     }

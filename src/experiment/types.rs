@@ -24,6 +24,9 @@ pub struct Experiment {
     pub diverge: Diverge,
     #[serde(default)]
     pub record: Record,
+    /// Columns beyond those of every row.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub measure: Vec<Measure>,
     /// Axes and their values, expanded by `sweep/`; absent in a resolved case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sweep: Option<Sweep>,
@@ -501,6 +504,14 @@ pub enum Stream {
 
 impl Stream {
     pub const ALL: [Stream; 4] = [Stream::Bodies, Stream::Contacts, Stream::Forces, Stream::Energy];
+}
+
+/// What is measured only when asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Measure {
+    /// Each body's end state: `<body>.position_m.x`, ….
+    State,
 }
 
 /// The axes of a sweep, still as written; `sweep/axes.rs` reads them.

@@ -6,6 +6,7 @@
 pub mod divergence;
 pub mod energy;
 pub mod momentum;
+pub mod more;
 pub mod work;
 
 use crate::collide::{self, SolvedContact};

@@ -36,8 +36,15 @@ impl Table {
             };
             (name, kind)
         }));
+        let rows: Vec<_> = rows.iter().map(|row| (as_map(row), &row.measured.more)).collect();
+        for name in rows.iter().flat_map(|(_, more)| more.keys()) {
+            if !columns.iter().any(|(known, _)| known == name) {
+                let values: Vec<_> = rows.iter().filter_map(|(_, more)| more.get(name)).cloned().collect();
+                columns.push((name.clone(), kind_of(&values)));
+            }
+        }
         columns.push(("build".to_string(), Kind::Text));
-        Table { columns, rows: rows.iter().map(as_map).collect() }
+        Table { columns, rows: rows.into_iter().map(|(cells, _)| cells).collect() }
     }
 
     pub fn to_csv(&self) -> Result<Vec<u8>, csv::Error> {
@@ -71,11 +78,12 @@ impl Table {
     }
 }
 
-/// An axis is a column of integers or numbers if all its values are.
+/// A column of integers or numbers if all its values are; null is either.
 fn kind_of(values: &[Value]) -> Kind {
-    if values.iter().all(Value::is_i64) {
+    let all = |is: fn(&Value) -> bool| values.iter().all(|value| value.is_null() || is(value));
+    if all(Value::is_i64) {
         Kind::Integer
-    } else if values.iter().all(Value::is_number) {
+    } else if all(Value::is_number) {
         Kind::Number
     } else {
         Kind::Text

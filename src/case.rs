@@ -1,6 +1,7 @@
 //! One point of a sweep: a resolved experiment and its id.
 
 use crate::experiment::types::{Experiment, Record};
+use crate::sweep::search::Cell;
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 
@@ -10,20 +11,36 @@ pub struct Case {
     pub id: String,
     /// Value on every axis, as the result columns show it.
     pub axes: Map<String, Value>,
+    /// Of a search: its first run.
     pub experiment: Experiment,
+    /// Many runs that make one row: a bisection.
+    pub search: Option<Cell>,
 }
 
 impl Case {
     pub fn new(experiment: Experiment, axes: Map<String, Value>) -> Self {
-        Case { id: id(&experiment), axes, experiment }
+        Case { id: id(&[canonical(&experiment)]), axes, experiment, search: None }
+    }
+
+    /// `ends` are the experiments at both ends of the bracket, of everything that is tried together.
+    pub fn of_search(cell: Cell, ends: Vec<Experiment>, axes: Map<String, Value>) -> Self {
+        let mut parts: Vec<_> = ends.iter().map(canonical).collect();
+        parts.push(cell.rule().into_bytes());
+        let experiment = ends.into_iter().next();
+        let experiment = experiment.expect("a cell has at least one member");
+        Case { id: id(&parts), axes, experiment, search: Some(cell) }
     }
 }
 
-/// 64 bits of a hash over everything that decides the motion: not the question, nor what is recorded of it.
-fn id(experiment: &Experiment) -> String {
+/// Everything that decides the motion: not the question, nor what is recorded of it.
+fn canonical(experiment: &Experiment) -> Vec<u8> {
     let decisive = Experiment { question: None, record: Record::default(), sweep: None, ..experiment.clone() };
-    let canonical = serde_json::to_vec(&decisive).unwrap_or_default();
-    hex(&Sha256::digest(canonical)[..8])
+    serde_json::to_vec(&decisive).unwrap_or_default()
+}
+
+/// 64 bits of a hash.
+fn id(parts: &[Vec<u8>]) -> String {
+    hex(&Sha256::digest(parts.concat())[..8])
 }
 
 /// Lower-case hexadecimal.

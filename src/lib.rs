@@ -47,6 +47,8 @@ pub mod row;
 
 pub mod record;
 
+pub mod check;
+
 pub mod cli;
 
 pub mod build_info;

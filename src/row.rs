@@ -18,6 +18,20 @@ pub enum Outcome {
     Failed,
 }
 
+impl Outcome {
+    pub const ALL: [Outcome; 4] = [Outcome::Finished, Outcome::Diverged, Outcome::Stalled, Outcome::Failed];
+
+    /// As files write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Outcome::Finished => "finished",
+            Outcome::Diverged => "diverged",
+            Outcome::Stalled => "stalled",
+            Outcome::Failed => "failed",
+        }
+    }
+}
+
 /// Fields are columns, in this order; a number that means nothing here is null.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {

@@ -3,8 +3,8 @@
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
-const COMMANDS: [&str; 8] = ["merge", "submit", "check", "bench", "report", "view", "schema", "completions"];
-const FLAGS: [&str; 2] = ["--shard", "--junit"];
+const COMMANDS: [&str; 7] = ["merge", "submit", "bench", "report", "view", "schema", "completions"];
+const FLAGS: [&str; 1] = ["--shard"];
 
 /// Prints a parser's message (or help) and gives the exit code.
 pub fn explain_usage(error: &clap::Error) -> ExitCode {

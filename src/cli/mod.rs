@@ -1,12 +1,15 @@
 //! The command line: one file per command. No default of the physics lives here.
 
+mod check;
 mod explain;
+mod junit;
 pub mod later;
 mod list;
 mod progress;
 mod run;
 mod status;
 mod sweep;
+mod sweeping;
 
 use crate::experiment::types::RecordTo;
 use crate::experiment::{ExperimentError, ExperimentFile};
@@ -28,7 +31,7 @@ pub struct Cli {
     command: Command,
 }
 
-const EXIT_CODES: &str = "Exit codes: 0 fine · 1 a case failed or results are incomplete · 2 the input is wrong · \
+const EXIT_CODES: &str = "Exit codes: 0 fine · 1 an expectation not met, a case failed or results are incomplete · 2 the input is wrong · \
                           3 the machine failed · 130/143 interrupted (what was finished is kept)";
 
 #[derive(Subcommand)]
@@ -37,6 +40,8 @@ enum Command {
     Run(run::Command),
     /// Expand the axes into cases and run them on all cores; run again, it does only what is missing
     Sweep(sweep::Command),
+    /// Run experiments and judge what they expect (`expect:`); exit code 1 if one expectation is not met
+    Check(check::Command),
     /// How much of a sweep is done, missing, failed
     Status(status::Command),
     /// What this scene needs, what is skipped and why; number of cases, steps, estimated time and bytes
@@ -50,6 +55,7 @@ impl Cli {
         match self.command {
             Command::Run(command) => command.run(),
             Command::Sweep(command) => command.run(),
+            Command::Check(command) => command.run(),
             Command::Status(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::List(command) => command.run(),

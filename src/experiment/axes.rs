@@ -73,10 +73,8 @@ fn compact_json(value: &Value) -> String {
 }
 
 impl Axes {
-    /// From the value of `sweep:`.
-    pub fn from_sweep(sweep: &Value) -> Result<Axes> {
-        let base = KeyPath::of_keys(&["sweep"]);
-        let sweep: Sweep = from_value(sweep, &base)?;
+    /// From what stands in `sweep:`.
+    pub fn from_sweep(sweep: &Sweep) -> Result<Axes> {
         let axes = read_axes(&sweep.axes)?;
         let groups = read_groups(&sweep.together, &axes)?;
         let axes = Axes { axes, groups };
@@ -387,7 +385,7 @@ fn logarithmic(from: f64, to: f64, t: f64, at: Path) -> Result<f64> {
 
 /// To 15 significant digits: what a decimal step means (0.3), instead of the rounding of its multiples
 /// (0.30000000000000004).
-fn decimal(x: f64) -> f64 {
+pub(crate) fn decimal(x: f64) -> f64 {
     format!("{x:.14e}").parse().unwrap_or(x)
 }
 

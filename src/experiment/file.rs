@@ -2,14 +2,16 @@
 
 use super::axes::{Axes, axis_path, value_path};
 use super::error::{ExperimentError, Kind};
+use super::expect::{self, Expectation};
 use super::key_path::KeyPath;
 use super::overrides::{Override, assign, resolve, split};
 use super::positions;
+use super::search::{Search, search_path};
 use super::source::{parse, read};
-use super::types::Experiment;
+use super::types::{Experiment, Sweep};
 use super::validate::{normalise_quaternions, validate};
 use super::value_de::from_value;
-use serde_yaml::{Mapping, Value};
+use serde_yaml::{Mapping, Number, Value};
 use std::path::{Path, PathBuf};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
@@ -20,12 +22,31 @@ pub struct ExperimentFile {
     path: PathBuf,
     /// What was read, for the lines of errors.
     text: String,
-    /// Everything but `sweep`.
+    /// Everything but `sweep` and `expect`.
     tree: Value,
     axes: Axes,
-    /// The axes' indices, shorter paths first, so that `method.lecture.sweeps` changes what `method` has put there.
-    order: Vec<usize>,
+    /// What changes from case to case, shorter paths first, so that `method.lecture.sweeps` changes what `method` has
+    /// put there.
+    order: Vec<Varied>,
+    search: Option<Search>,
+    expect: Vec<Expectation>,
     sets: Vec<Applied>,
+}
+
+/// What changes from case to case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Varied {
+    /// By its index.
+    Axis(usize),
+    Searched,
+}
+
+/// A point of the axes, with a value of the searched key if there is one.
+#[derive(Clone, Copy)]
+struct Point<'a> {
+    /// For every axis the index of its value.
+    indices: &'a [usize],
+    searched: Option<&'a Number>,
 }
 
 /// A `--set` and the topmost place it changed.
@@ -59,13 +80,15 @@ impl ExperimentFile {
             tree,
             axes: Axes::default(),
             order: Vec::new(),
+            search: None,
+            expect: Vec::new(),
             sets: Vec::new(),
         };
         for set in sets {
             file.apply(set).map_err(|error| by_set(error, set).named(path))?;
         }
-        let axes = file.expand_axes();
-        axes.map_err(|error| file.placed(error))?;
+        let read = file.expand_axes().and_then(|()| file.read_expectations());
+        read.map_err(|error| file.placed(error))?;
         file.refuse_overwritten_sets()?;
         Ok(file)
     }
@@ -79,12 +102,21 @@ impl ExperimentFile {
         &self.axes
     }
 
+    pub fn search(&self) -> Option<&Search> {
+        self.search.as_ref()
+    }
+
+    pub fn expect(&self) -> &[Expectation] {
+        &self.expect
+    }
+
     /// The one experiment of a file without axes.
     ///
     /// # Errors
     /// Axes are left, or the experiment is wrong.
     pub fn experiment(&self) -> Result<Experiment> {
-        let left: Vec<&str> = self.axes.axes.iter().map(|axis| axis.path.as_str()).collect();
+        let searched = self.search.iter().map(|search| search.critical.as_str());
+        let left: Vec<&str> = self.axes.axes.iter().map(|axis| axis.path.as_str()).chain(searched).collect();
         if left.is_empty() {
             return self.case(&[]);
         }
@@ -102,6 +134,18 @@ impl ExperimentFile {
     /// # Panics
     /// `point` is not a point of this file's axes.
     pub fn case(&self, point: &[usize]) -> Result<Experiment> {
+        self.resolved_at(Point { indices: point, searched: None })
+    }
+
+    /// The same, with a value of the searched key.
+    ///
+    /// # Errors
+    /// As `case`.
+    pub fn searched_case(&self, point: &[usize], value: &Number) -> Result<Experiment> {
+        self.resolved_at(Point { indices: point, searched: Some(value) })
+    }
+
+    fn resolved_at(&self, point: Point) -> Result<Experiment> {
         let (tree, changes) = self.tree_at(point)?;
         resolved(&tree).map_err(|error| self.placed_in_case(error, point, &changes))
     }
@@ -109,6 +153,7 @@ impl ExperimentFile {
     /// An error of someone who knows more than this module does (overlapping bodies, say), about the value at `path`
     /// (`scene.bodies.cube.position_m`) in the case at `point` (empty without axes).
     pub fn error_at(&self, point: &[usize], path: &str, expected: &str, found: &str) -> ExperimentError {
+        let point = Point { indices: point, searched: self.search.as_ref().map(|search| &search.between[0]) };
         let (tree, changes) = match self.tree_at(point) {
             Ok(case) => case,
             Err(error) => return error,
@@ -145,13 +190,17 @@ impl ExperimentFile {
         path
     }
 
-    /// Setting what an axis varies fixes it.
+    /// Setting what an axis varies, or what is searched, fixes it.
     fn remove_axis(&mut self, target: &KeyPath) {
         let is_target = |key: &String| split(key).is_ok_and(|path| resolve(&self.tree, &path).is_same(target));
         let removed: Vec<String> = axis_keys(&self.tree).into_iter().filter(is_target).collect();
+        let is_searched = searched_key(&self.tree).filter(is_target).is_some();
         let Some(sweep) = self.tree.get_mut("sweep") else {
             return;
         };
+        if let (true, Some(sweep)) = (is_searched, sweep.as_mapping_mut()) {
+            sweep.shift_remove("search");
+        }
         if let Some(Value::Mapping(axes)) = sweep.get_mut("axes") {
             axes.retain(|key, _| !is_one_of(key, &removed));
         }
@@ -169,10 +218,23 @@ impl ExperimentFile {
         let Some(sweep) = mapping.shift_remove("sweep") else {
             return Ok(());
         };
+        let sweep: Sweep = from_value(&sweep, &KeyPath::of_keys(&["sweep"]))?;
         self.axes = Axes::from_sweep(&sweep)?;
-        self.order = (0..self.axes.axes.len()).collect();
-        self.order.sort_by_key(|axis| self.axes.axes[*axis].segments.len());
+        self.search = sweep.search.map(|search| search.read(&self.axes)).transpose()?;
+        self.order = (0..self.axes.axes.len()).map(Varied::Axis).collect();
+        self.order.extend(self.search.iter().map(|_| Varied::Searched));
+        let (axes, search) = (&self.axes.axes, &self.search);
+        self.order.sort_by_key(|varied| match varied {
+            Varied::Axis(i) => axes[*i].segments.len(),
+            Varied::Searched => search.as_ref().map_or(0, |search| search.segments.len()),
+        });
         self.refuse_two_axes_of_one_path()
+    }
+
+    fn read_expectations(&mut self) -> Result<()> {
+        let written = self.tree.as_mapping_mut().and_then(|mapping| mapping.shift_remove("expect"));
+        self.expect = written.map_or(Ok(Vec::new()), |value| expect::read(&value))?;
+        Ok(())
     }
 
     /// `scene.bodies.0` and `scene.bodies.cube` may be the same thing, written twice.
@@ -185,7 +247,17 @@ impl ExperimentFile {
                 return Err(ExperimentError::new(Kind::Path, axis_path(&axes[i].path), message));
             }
         }
-        Ok(())
+        let Some(search) = &self.search else {
+            return Ok(());
+        };
+        let target = resolve(&self.tree, &search.segments);
+        match targets.iter().position(|other| other.is_same(&target)) {
+            None => Ok(()),
+            Some(axis) => {
+                let message = format!("`{}` is searched and an axis: expected one of them", axes[axis].path);
+                Err(ExperimentError::new(Kind::Path, search_path().join(KeyPath::of_keys(&["critical"])), message))
+            }
+        }
     }
 
     /// A `--set` below an axis would be lost without a word when the axis puts its own value there.
@@ -205,23 +277,34 @@ impl ExperimentFile {
     }
 
     /// The tree of a case, and what each axis (by its index) changed in it.
-    fn tree_at(&self, point: &[usize]) -> Result<(Value, Vec<(usize, KeyPath)>)> {
+    fn tree_at(&self, point: Point) -> Result<(Value, Vec<(Varied, KeyPath)>)> {
         let mut tree = self.tree.clone();
-        let mut changes = Vec::with_capacity(point.len());
-        for &i in &self.order {
-            let axis = &self.axes.axes[i];
-            let value = axis.values[point[i]].value.clone();
-            let at = assign(&mut tree, &axis.segments, value).map_err(|error| self.by_axis(error, i, point[i]))?;
-            changes.push((i, at));
+        let mut changes = Vec::with_capacity(self.order.len());
+        for &varied in &self.order {
+            let Some((segments, value)) = self.change(varied, point) else { continue };
+            let at = assign(&mut tree, segments, value).map_err(|error| self.by_varied(error, varied, point))?;
+            changes.push((varied, at));
         }
         Ok((tree, changes))
     }
 
+    /// Where a point changes the tree, and to what.
+    fn change(&self, varied: Varied, point: Point) -> Option<(&[String], Value)> {
+        match varied {
+            // A file without axes has no point: the axes stay as the file has them.
+            Varied::Axis(i) => {
+                let axis = &self.axes.axes[i];
+                Some((&axis.segments, axis.values[*point.indices.get(i)?].value.clone()))
+            }
+            Varied::Searched => Some((&self.search.as_ref()?.segments, Value::Number(point.searched?.clone()))),
+        }
+    }
+
     /// The last axis that changed this place, else the case when the file alone has not this error, else the file.
-    fn placed_in_case(&self, error: ExperimentError, point: &[usize], changes: &[(usize, KeyPath)]) -> ExperimentError {
+    fn placed_in_case(&self, error: ExperimentError, point: Point, changes: &[(Varied, KeyPath)]) -> ExperimentError {
         let path = &error.details().path;
-        if let Some((axis, _)) = changes.iter().rev().find(|(_, at)| path.starts_with(at)) {
-            return self.by_axis(error, *axis, point[*axis]);
+        if let Some((varied, _)) = changes.iter().rev().find(|(_, at)| path.starts_with(at)) {
+            return self.by_varied(error, *varied, point);
         }
         let is_everywhere = changes.is_empty() || resolved(&self.tree).is_err_and(|other| other == error);
         let mut error = self.placed(error);
@@ -231,26 +314,35 @@ impl ExperimentFile {
         error
     }
 
-    fn by_axis(&self, mut error: ExperimentError, axis: usize, value: usize) -> ExperimentError {
+    fn by_varied(&self, mut error: ExperimentError, varied: Varied, point: Point) -> ExperimentError {
         let path = error.details().path.clone();
-        let key = &self.axes.axes[axis].path;
-        error = self.placed(error.at(value_path(key, value))).at(path);
-        error.details_mut().axis = Some(self.shown_value(axis, value));
+        let written_at = match varied {
+            Varied::Axis(i) => value_path(&self.axes.axes[i].path, point.indices[i]),
+            Varied::Searched => search_path().join(KeyPath::of_keys(&["between"])),
+        };
+        error = self.placed(error.at(written_at)).at(path);
+        error.details_mut().axis = self.shown_value(varied, point);
         error
     }
 
-    fn shown_value(&self, axis: usize, value: usize) -> String {
-        let axis = &self.axes.axes[axis];
-        format!("{} = {}", axis.path, axis.values[value].shown())
+    fn shown_value(&self, varied: Varied, point: Point) -> Option<String> {
+        match varied {
+            Varied::Axis(i) => {
+                let axis = &self.axes.axes[i];
+                Some(format!("{} = {}", axis.path, axis.values[*point.indices.get(i)?].shown()))
+            }
+            Varied::Searched => Some(format!("{} = {}", self.search.as_ref()?.critical, point.searched?)),
+        }
     }
 
-    fn shown_case(&self, point: &[usize]) -> String {
-        let values = point.iter().enumerate().map(|(axis, value)| self.shown_value(axis, *value));
+    fn shown_case(&self, point: Point) -> String {
+        let axes = (0..self.axes.axes.len()).map(Varied::Axis);
+        let values = axes.chain([Varied::Searched]).filter_map(|varied| self.shown_value(varied, point));
         values.collect::<Vec<_>>().join(", ")
     }
 
     /// Where the value at the error's path came from: the last `--set` that touched it, else its line in the file.
-    fn placed(&self, error: ExperimentError) -> ExperimentError {
+    pub(crate) fn placed(&self, error: ExperimentError) -> ExperimentError {
         let path = error.details().path.clone();
         if let Some(set) = self.sets.iter().rev().find(|set| path.starts_with(&set.at)) {
             return by_set(error, &set.text).named(&self.path);
@@ -274,6 +366,10 @@ fn resolved(tree: &Value) -> Result<Experiment> {
 fn axis_keys(tree: &Value) -> Vec<String> {
     let axes = tree.get("sweep").and_then(|sweep| sweep.get("axes")).and_then(Value::as_mapping);
     axes.map(Mapping::keys).into_iter().flatten().filter_map(Value::as_str).map(str::to_string).collect()
+}
+
+fn searched_key(tree: &Value) -> Option<String> {
+    Some(tree.get("sweep")?.get("search")?.get("critical")?.as_str()?.to_string())
 }
 
 fn is_one_of(value: &Value, words: &[String]) -> bool {

@@ -5,12 +5,16 @@
 pub mod axes;
 mod either;
 pub mod error;
+pub mod expect;
 pub mod file;
+pub mod filter;
 pub mod key_path;
 mod later;
 pub mod nearest;
 pub mod overrides;
 pub mod positions;
+pub mod predicate;
+pub mod search;
 mod source;
 pub mod types;
 mod validate;

@@ -4,6 +4,7 @@
 //! is `validate.rs`; how a file, `--set` and a sweep axis become a value of them is `mod.rs`.
 //! SI units stand last in the key. Unknown keys are errors.
 
+use super::search::SearchText;
 use serde::{Deserialize, Serialize};
 
 /// One resolved experiment: no axes left in it, every default filled in.
@@ -30,6 +31,9 @@ pub struct Experiment {
     /// Axes and their values, expanded by `sweep/`; absent in a resolved case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sweep: Option<Sweep>,
+    /// What the rows should say, read by `expect.rs`; absent in a resolved case.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub expect: Vec<serde_yaml::Value>,
 }
 
 /// Everything that exists, at rest or in motion, at t = 0.
@@ -514,7 +518,7 @@ pub enum Measure {
     State,
 }
 
-/// The axes of a sweep, still as written; `sweep/axes.rs` reads them.
+/// The axes of a sweep, still as written; `axes.rs` and `search.rs` read them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sweep {
@@ -523,4 +527,7 @@ pub struct Sweep {
     /// Groups of axes that advance side by side.
     #[serde(default)]
     pub together: Vec<Vec<String>>,
+    /// One row a cell of the axes: the critical value of one more key.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub search: Option<SearchText>,
 }

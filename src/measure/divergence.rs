@@ -16,6 +16,9 @@ pub enum Criterion {
 }
 
 impl Criterion {
+    pub const ALL: [Criterion; 5] =
+        [Criterion::NotFinite, Criterion::Energy, Criterion::Escape, Criterion::Speed, Criterion::Penetration];
+
     pub fn name(self) -> &'static str {
         match self {
             Criterion::NotFinite => "not-finite",

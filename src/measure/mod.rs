@@ -7,6 +7,7 @@ pub mod divergence;
 pub mod energy;
 pub mod momentum;
 pub mod more;
+pub mod order;
 pub mod work;
 
 use crate::collide::{self, SolvedContact};

@@ -1,7 +1,9 @@
 //! All cases of an experiment file, in plan order, each resolved and checked before the first run.
 
+use super::search;
 use crate::build_info::{BUILD, PROGRAM};
 use crate::case::{Case, hex};
+use crate::experiment::axes::Axes;
 use crate::experiment::{ExperimentError, ExperimentFile};
 use crate::model::{self, BuildError, Model};
 use crate::state::State;
@@ -15,6 +17,9 @@ use sha2::{Digest, Sha256};
 /// # Errors
 /// The first wrong case in plan order.
 pub fn cases(file: &ExperimentFile) -> Result<Vec<Case>, ExperimentError> {
+    if let Some(search) = file.search() {
+        return search::cases(file, search);
+    }
     (0..file.axes().len()).into_par_iter().map(|index| case(file, index)).collect::<Vec<_>>().into_iter().collect()
 }
 
@@ -29,8 +34,12 @@ pub fn single_case(file: &ExperimentFile) -> Result<Case, ExperimentError> {
 fn case(file: &ExperimentFile, index: usize) -> Result<Case, ExperimentError> {
     let axes = file.axes();
     let point = axes.point(index);
-    let columns = axes.axes.iter().zip(&point).map(|(axis, &value)| (axis.path.clone(), axis.values[value].cell()));
-    checked(file, &point, Case::new(file.case(&point)?, columns.collect()))
+    checked(file, &point, Case::new(file.case(&point)?, columns(axes, &point).collect()))
+}
+
+/// A point of the axes as the result columns show it.
+pub(super) fn columns(axes: &Axes, point: &[usize]) -> impl Iterator<Item = (String, Value)> {
+    axes.axes.iter().zip(point).map(|(axis, &value)| (axis.path.clone(), axis.values[value].cell()))
 }
 
 fn checked(file: &ExperimentFile, point: &[usize], case: Case) -> Result<Case, ExperimentError> {

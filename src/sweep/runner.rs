@@ -3,7 +3,7 @@
 use super::recordings::{known_after, known_before};
 use super::store::{Store, StoreError};
 use crate::case::Case;
-use crate::experiment::types::{Record, RecordTo};
+use crate::experiment::types::{Record, RecordCases, RecordTo};
 use crate::model::{self, Model};
 use crate::panics;
 use crate::record::RecordError;
@@ -56,7 +56,11 @@ pub type Written = Result<(), RecordError>;
 impl Job<'_> {
     /// Runs what is missing, then records the chosen cases and writes the tables. How many cases were run.
     pub fn sweep(&self, cases: &[Case], store: &Mutex<Store>) -> Result<usize, SweepError> {
-        let rule = cases.first().map_or(Record::default().cases, |case| case.experiment.record.cases);
+        let rule = match cases.first() {
+            // The row of a search is of many runs: none of them is the one to look at.
+            Some(Case { search: Some(_), .. }) => RecordCases::None,
+            first => first.map_or(Record::default().cases, |case| case.experiment.record.cases),
+        };
         let missing = missing(cases, &lock(store));
         let at_once: HashSet<usize> = match known_before(rule, cases.len()) {
             Some(known) if !self.targets.is_empty() => known.into_iter().collect(),
@@ -75,17 +79,23 @@ impl Job<'_> {
         ran?;
         if !self.targets.is_empty() {
             let stale = missing.iter().copied().filter(|i| !at_once.contains(i)).collect();
-            self.record_chosen(cases, store, &stale)?;
+            self.record_chosen(rule, cases, store, &stale)?;
         }
         Ok(missing.len())
     }
 
     /// Records the chosen cases that have no complete recording yet, or only one of an earlier row (`stale`).
-    fn record_chosen(&self, cases: &[Case], store: &Mutex<Store>, stale: &HashSet<usize>) -> Result<(), SweepError> {
+    fn record_chosen(
+        &self,
+        rule: RecordCases,
+        cases: &[Case],
+        store: &Mutex<Store>,
+        stale: &HashSet<usize>,
+    ) -> Result<(), SweepError> {
         let chosen = {
             let store = lock(store);
             let measured: Vec<_> = cases.iter().map(|case| store.measured(&case.id)).collect();
-            known_after(cases[0].experiment.record.cases, &measured)
+            known_after(rule, &measured)
         };
         let chosen: Vec<_> =
             chosen.into_iter().filter(|i| stale.contains(i) || !self.is_recorded(&cases[*i])).collect();
@@ -126,6 +136,9 @@ fn missing(cases: &[Case], store: &Store) -> Vec<usize> {
 
 /// Builds a case's model and runs it, recording it into `dir`: the usual `Work`.
 pub fn build_and_run(case: &Case, dir: &Path, targets: &[Target]) -> (Measured, Written) {
+    if let Some(cell) = &case.search {
+        return (cell.bisect(), Ok(()));
+    }
     match model::build(&case.experiment) {
         Ok((model, start)) => {
             let (ended, written) = run_case(case, &model, start, dir, targets);

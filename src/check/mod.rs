@@ -1,0 +1,139 @@
+//! Rows against `expect:`. Knows columns and expectations, never the simulator: whatever wrote the rows is judged alike.
+//!
+//! `known` refuses what cannot be judged before anything runs, `judge` gives the verdicts, `trend` holds the two tests.
+
+mod judge;
+mod known;
+pub mod trend;
+
+pub use judge::{Judged, judge};
+pub use known::refuse_unknown;
+
+use crate::experiment::axes::Axes;
+use crate::experiment::filter::{Filter, is_same};
+use crate::experiment::predicate::{Column, Predicate};
+use crate::row::{Measured, Row};
+use serde_json::{Map, Value};
+
+/// A row by the names of its columns.
+pub type Cells = Map<String, Value>;
+
+/// The columns that rows will have, and the values on their axes.
+#[derive(Clone, Debug)]
+pub struct Schema {
+    /// Axes that rows show, with their values in the order of the plan.
+    pub axes: Vec<(String, Vec<Value>)>,
+    /// Axes that advance together.
+    groups: Vec<Vec<String>>,
+    /// All columns, axes among them.
+    pub columns: Vec<String>,
+}
+
+impl Schema {
+    /// `over` is the axis that a search has used up; `more` are the columns that only some experiments have.
+    pub fn new(axes: &Axes, over: Option<usize>, more: &[String]) -> Self {
+        let path = |i: &usize| axes.axes[*i].path.clone();
+        let shown = (0..axes.axes.len()).filter(|i| over != Some(*i));
+        let values = |i: usize| axes.axes[i].values.iter().map(|value| value.cell()).collect();
+        let shown: Vec<_> = shown.map(|i| (path(&i), values(i))).collect();
+        let mut columns = vec!["case".to_string()];
+        columns.extend(shown.iter().map(|(path, _)| path.clone()));
+        columns.extend(cells(&Measured::nothing()).keys().cloned());
+        columns.extend(more.iter().cloned());
+        Schema {
+            axes: shown,
+            groups: axes.groups.iter().map(|group| group.iter().map(path).collect()).collect(),
+            columns,
+        }
+    }
+
+    fn axis(&self, name: &str) -> Option<&[Value]> {
+        self.axes.iter().find(|(path, _)| path == name).map(|(_, values)| values.as_slice())
+    }
+
+    /// The axes that vary independently of this one: what tells cells apart.
+    fn others(&self, axis: &str) -> Vec<&str> {
+        let tied = self.groups.iter().find(|group| group.iter().any(|name| name == axis));
+        let is_tied = |path: &str| path == axis || tied.is_some_and(|group| group.iter().any(|name| name == path));
+        self.axes.iter().map(|(path, _)| path.as_str()).filter(|path| !is_tied(path)).collect()
+    }
+
+    /// The place of a row's value on the axis.
+    fn level(&self, axis: &str, row: &Cells) -> Option<usize> {
+        let cell = row.get(axis)?;
+        self.axis(axis)?.iter().position(|value| is_same(value, cell))
+    }
+
+    /// A column, or all components of a vector (`cube.position_m`), or all vectors of all end states (`state`).
+    fn vectors(&self, name: &str) -> Vec<Vec<&str>> {
+        const STATE: [&str; 4] = ["position_m", "orientation_xyzw", "velocity_m_s", "angular_velocity_rad_s"];
+        if self.columns.iter().any(|column| column == name) {
+            return vec![self.columns.iter().map(String::as_str).filter(|column| *column == name).collect()];
+        }
+        let mut vectors: Vec<(&str, Vec<&str>)> = Vec::new();
+        for column in &self.columns {
+            let Some((vector, "x" | "y" | "z" | "w")) = column.rsplit_once('.') else { continue };
+            let is_state = vector.rsplit_once('.').is_some_and(|(_, last)| STATE.contains(&last));
+            if vector != name && !(name == "state" && is_state) {
+                continue;
+            }
+            match vectors.iter_mut().find(|(known, _)| *known == vector) {
+                Some((_, components)) => components.push(column),
+                None => vectors.push((vector, vec![column])),
+            }
+        }
+        vectors.into_iter().map(|(_, components)| components).collect()
+    }
+}
+
+/// Rows as `check` reads them.
+pub fn cells_of(rows: &[Row]) -> Vec<Cells> {
+    rows.iter().map(cells).collect()
+}
+
+fn cells(row: &impl serde::Serialize) -> Cells {
+    match serde_json::to_value(row) {
+        Ok(Value::Object(cells)) => cells,
+        // Rows are structs of plain data.
+        _ => Cells::new(),
+    }
+}
+
+fn selected<'a>(rows: &[&'a Cells], filter: &Filter) -> Vec<&'a Cells> {
+    rows.iter().copied().filter(|row| filter.takes(|name| row.get(name))).collect()
+}
+
+/// Null and what is not a number: none.
+fn number(column: &Column, row: &Cells) -> Option<f64> {
+    let cell = |name: &str| row.get(name).and_then(Value::as_f64);
+    match &column.divided_by {
+        None => cell(&column.name),
+        Some(by) => Some(cell(&column.name)? / cell(by)?).filter(|x| x.is_finite()),
+    }
+}
+
+/// None: the number that would decide it is not there.
+fn holds(predicate: &Predicate, row: &Cells) -> Option<bool> {
+    let text = |name: &str, word: &str| row.get(name).and_then(Value::as_str) == Some(word);
+    match predicate {
+        Predicate::Outcome(outcome) => Some(text("outcome", outcome.name())),
+        Predicate::Criterion(name) => Some(text("criterion", name)),
+        Predicate::Column { column, bounds } => number(column, row).map(|x| bounds.contain(x)),
+    }
+}
+
+/// Rows that agree in all of these axes, in the order of their first rows.
+fn strata<'a>(rows: &[&'a Cells], axes: &[&str]) -> Vec<Vec<&'a Cells>> {
+    let mut strata: Vec<(String, Vec<&Cells>)> = Vec::new();
+    let mut places = std::collections::HashMap::new();
+    for row in rows {
+        let key = axes.iter().map(|axis| row.get(*axis).map_or_else(String::new, Value::to_string));
+        let key = key.collect::<Vec<_>>().join("\u{0}");
+        let place = *places.entry(key.clone()).or_insert_with(|| {
+            strata.push((key, Vec::new()));
+            strata.len() - 1
+        });
+        strata[place].1.push(row);
+    }
+    strata.into_iter().map(|(_, rows)| rows).collect()
+}

@@ -1,0 +1,169 @@
+//! What `sweep` and `check` share: files of a folder, their cases, running what is missing.
+
+use super::progress::Bar;
+use super::{CliError, ExperimentArgs, OutputArgs, RunArgs};
+use crate::case::Case;
+use crate::experiment::ExperimentFile;
+use crate::experiment::types::RecordTo;
+use crate::record::writer::Target;
+use crate::row::{Outcome, Row, count};
+use crate::sweep::plan::{PlanFile, cases};
+use crate::sweep::runner::{Job, build_and_run, lock};
+use crate::sweep::store::Store;
+use clap::Args;
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+#[derive(Args)]
+pub struct SweepArgs {
+    /// Take rows of another build as they are
+    #[arg(long)]
+    keep: bool,
+    #[command(flatten)]
+    experiment: ExperimentArgs,
+    #[command(flatten)]
+    pub run: RunArgs,
+    #[command(flatten)]
+    pub output: OutputArgs,
+}
+
+/// An experiment file on the command line, or found in a folder there.
+pub struct Config {
+    pub path: PathBuf,
+    /// What was written on the command line.
+    given: PathBuf,
+}
+
+impl Config {
+    pub fn is_of_folder(&self) -> bool {
+        self.path != self.given
+    }
+}
+
+/// A file whose cases have all been checked.
+pub struct Planned {
+    pub config: Config,
+    pub file: ExperimentFile,
+    pub cases: Vec<Case>,
+    targets: Vec<Target>,
+}
+
+/// What became of one file's sweep.
+pub struct Swept {
+    pub config: PathBuf,
+    pub dir: PathBuf,
+    pub ran: usize,
+    pub planned: usize,
+    pub rows: Vec<Row>,
+}
+
+impl Swept {
+    pub fn failed(&self) -> usize {
+        count(&self.rows, Outcome::Failed)
+    }
+}
+
+impl SweepArgs {
+    pub fn load(&self, config: &Config) -> Result<ExperimentFile, CliError> {
+        self.experiment.load(&config.path)
+    }
+
+    /// All cases of a file, and what they are recorded into: `--record`, else what the file says or, if that is nothing,
+    /// `unsaid`.
+    pub fn planned(&self, config: Config, unsaid: Option<RecordTo>) -> Result<Planned, CliError> {
+        let file = self.load(&config)?;
+        let cases = cases(&file)?;
+        let said = cases.first().and_then(|case| case.experiment.record.to);
+        let targets = self.run.targets(unsaid.or(said))?;
+        Ok(Planned { config, file, cases, targets })
+    }
+
+    pub fn sweep(&self, planned: &Planned) -> Result<Swept, CliError> {
+        let Planned { config, cases, targets, .. } = planned;
+        let dir = self.out(config);
+        let store = Arc::new(Mutex::new(Store::open(&dir, PlanFile::new(cases), self.keep)?));
+        keep_rows_when_interrupted(&store, &dir)?;
+        if self.output.verbose {
+            eprintln!("{}: {} cases into {}", config.path.display(), cases.len(), dir.display());
+        }
+        let work = |case: &Case, targets: &[Target]| build_and_run(case, &dir, targets);
+        let bar = Bar::new(self.output.quiet);
+        let job = Job { dir: &dir, targets, work: &work, progress: &bar };
+        let ran = quietly(|| job.sweep(cases, &store))?;
+        let rows = lock(&store).rows();
+        Ok(Swept { config: config.path.clone(), dir, ran, planned: cases.len(), rows })
+    }
+
+    /// In a folder's sweep every file has a folder of its own, also below `--out`.
+    fn out(&self, config: &Config) -> PathBuf {
+        match (&self.run.out, config.path.strip_prefix(&config.given)) {
+            (Some(out), Ok(below)) if !below.as_os_str().is_empty() => out.join(below.with_extension("")),
+            _ => self.run.out(&config.path),
+        }
+    }
+}
+
+/// The file itself, or all .yaml below a folder, in the order of their paths.
+pub fn configs(given: &Path) -> Result<Vec<Config>, CliError> {
+    let config = |path: PathBuf| Config { path, given: given.to_path_buf() };
+    if !given.is_dir() {
+        return Ok(vec![config(given.to_path_buf())]);
+    }
+    let mut found = Vec::new();
+    let mut folders = vec![given.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        let entries = std::fs::read_dir(&folder);
+        let entries = entries.map_err(|error| CliError::Machine(format!("{}: {error}", folder.display())))?;
+        for path in entries.flatten().map(|entry| entry.path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "yaml" || ending == "yml") {
+                found.push(path);
+            }
+        }
+    }
+    if found.is_empty() {
+        return Err(CliError::Input(format!("{}: expected experiment files (*.yaml), found none", given.display())));
+    }
+    found.sort();
+    Ok(found.into_iter().map(config).collect())
+}
+
+/// On Ctrl-C or SIGTERM: no row is torn, the tables are written, and the exit code says which signal it was.
+fn keep_rows_when_interrupted(store: &Arc<Mutex<Store>>, dir: &Path) -> Result<(), CliError> {
+    let signals = Signals::new([SIGINT, SIGTERM]);
+    let mut signals = signals.map_err(|error| CliError::Machine(format!("cannot listen for signals: {error}")))?;
+    let (store, dir) = (Arc::downgrade(store), dir.to_path_buf());
+    std::thread::spawn(move || {
+        // A sweep that has ended has dropped its store; the next one of the folder listens for itself.
+        if let (Some(signal), Some(store)) = (signals.forever().next(), store.upgrade()) {
+            let store = lock(&store);
+            if let Err(error) = store.write_tables() {
+                eprintln!("gotai: {error}");
+            }
+            // Below the bar, which is left as it stands.
+            if std::io::stderr().is_terminal() {
+                eprintln!();
+            }
+            eprintln!(
+                "interrupted: {} rows are kept in {}; run again to do the rest",
+                store.rows().len(),
+                dir.display()
+            );
+            std::process::exit(128 + signal);
+        }
+    });
+    Ok(())
+}
+
+/// A case that panics says so in its row; its backtrace does not belong between the lines of a progress bar.
+fn quietly<T>(work: impl FnOnce() -> T) -> T {
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| {}));
+    let result = work();
+    std::panic::set_hook(usual);
+    result
+}

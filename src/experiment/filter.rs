@@ -1,0 +1,145 @@
+//! `where`: which rows, by their axes and columns.
+
+use super::error::{ExperimentError, describe};
+use super::key_path::Path;
+use super::predicate::Bounds;
+use super::validate::Result;
+use super::value_de::from_value;
+use serde_json::Value as Cell;
+use serde_yaml::{Mapping, Value};
+use std::fmt;
+
+/// All of them must hold; none: every row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Filter(pub Vec<(String, Condition)>);
+
+/// On the value of one axis or column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Condition {
+    /// One of these; numbers match within 1e-9 relative.
+    Is(Vec<Cell>),
+    IsNot(Cell),
+    Bounds(Bounds),
+}
+
+/// Numbers of a file and of a row are the same if they differ by no more than this, relative: 5e-3 and 0.005 written as
+/// a quotient.
+const SAME: f64 = 1e-9;
+
+impl Filter {
+    pub fn read(text: Option<&Mapping>, at: Path) -> Result<Filter> {
+        let entries = text.into_iter().flatten();
+        let read = |(key, value): (&Value, &Value)| {
+            let Some(key) = key.as_str() else {
+                let found = describe(key);
+                return Err(ExperimentError::unexpected(at.to_key_path(), "an axis or a column", &found));
+            };
+            Ok((key.to_string(), Condition::read(value, at.key(key))?))
+        };
+        entries.map(read).collect::<Result<_>>().map(Filter)
+    }
+
+    /// `cell` gives a row's value by the name of its column.
+    pub fn takes<'a>(&self, cell: impl Fn(&str) -> Option<&'a Cell>) -> bool {
+        self.0.iter().all(|(key, condition)| cell(key).is_some_and(|cell| condition.holds(cell)))
+    }
+}
+
+impl Condition {
+    fn read(value: &Value, at: Path) -> Result<Condition> {
+        match value {
+            Value::String(text) => Self::read_text(text, at),
+            Value::Sequence(items) if items.is_empty() => {
+                Err(ExperimentError::unexpected(at.to_key_path(), "a value, or a list of them", "an empty list"))
+            }
+            Value::Sequence(items) => Ok(Condition::Is(items.iter().map(cell).collect())),
+            Value::Mapping(mapping) if is_bounds(mapping) => {
+                let text: BoundsText = from_value(value, &at.to_key_path())?;
+                let bounds = Bounds { min: text.min, max: text.max, above: text.above, below: text.below };
+                bounds.check(at)?;
+                Ok(Condition::Bounds(bounds))
+            }
+            other => Ok(Condition::Is(vec![cell(other)])),
+        }
+    }
+
+    /// `"<= 0.01"`, `"> 3"`, `"!= cube"`, or the text itself.
+    fn read_text(text: &str, at: Path) -> Result<Condition> {
+        const SIGNS: [&str; 8] = ["<=", ">=", "!=", "≤", "≥", "≠", "<", ">"];
+        let Some((sign, rest)) = SIGNS.iter().find_map(|sign| Some((*sign, text.trim().strip_prefix(sign)?.trim())))
+        else {
+            return Ok(Condition::Is(vec![Cell::from(text)]));
+        };
+        let x = rest.parse::<f64>().ok().filter(|x| x.is_finite());
+        if matches!(sign, "!=" | "≠") {
+            return Ok(Condition::IsNot(x.map_or_else(|| Cell::from(rest), Cell::from)));
+        }
+        let Some(x) = x else {
+            let found = format!("`{text}`");
+            return Err(ExperimentError::unexpected(at.to_key_path(), "a number after the sign", &found));
+        };
+        let none = Bounds::default();
+        Ok(Condition::Bounds(match sign {
+            "<=" | "≤" => Bounds { max: Some(x), ..none },
+            ">=" | "≥" => Bounds { min: Some(x), ..none },
+            "<" => Bounds { below: Some(x), ..none },
+            _ => Bounds { above: Some(x), ..none },
+        }))
+    }
+
+    pub fn holds(&self, cell: &Cell) -> bool {
+        match self {
+            Condition::Is(values) => values.iter().any(|value| is_same(value, cell)),
+            Condition::IsNot(value) => !is_same(value, cell),
+            Condition::Bounds(bounds) => cell.as_f64().is_some_and(|x| bounds.contain(x)),
+        }
+    }
+}
+
+impl fmt::Display for Filter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let shown = |(key, condition): &(String, Condition)| match condition {
+            Condition::Is(values) => {
+                let values: Vec<_> = values.iter().map(shown_cell).collect();
+                format!("{key} = {}", values.join(" or "))
+            }
+            Condition::IsNot(value) => format!("{key} ≠ {}", shown_cell(value)),
+            Condition::Bounds(bounds) => format!("{key} {bounds}"),
+        };
+        f.write_str(&self.0.iter().map(shown).collect::<Vec<_>>().join(", "))
+    }
+}
+
+/// The value of an axis as rows show it: subtrees as compact JSON.
+fn cell(value: &Value) -> Cell {
+    match value {
+        Value::Mapping(_) | Value::Sequence(_) => {
+            Cell::String(serde_json::to_string(value).unwrap_or_else(|_| "null".to_string()))
+        }
+        scalar => serde_json::to_value(scalar).unwrap_or_default(),
+    }
+}
+
+pub fn is_same(a: &Cell, b: &Cell) -> bool {
+    match (a.as_f64(), b.as_f64()) {
+        (Some(a), Some(b)) => a == b || (a - b).abs() <= SAME * a.abs().max(b.abs()),
+        _ => a == b,
+    }
+}
+
+pub fn shown_cell(cell: &Cell) -> String {
+    cell.as_str().map_or_else(|| cell.to_string(), str::to_string)
+}
+
+fn is_bounds(mapping: &Mapping) -> bool {
+    mapping.keys().any(|key| key.as_str().is_some_and(|key| ["min", "max", "above", "below"].contains(&key)))
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BoundsText {
+    min: Option<f64>,
+    max: Option<f64>,
+    above: Option<f64>,
+    below: Option<f64>,
+}

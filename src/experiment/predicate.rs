@@ -1,0 +1,216 @@
+//! Bounds, and what can be true of a row: the words that `expect:` and `search:` share.
+
+use super::error::{ExperimentError, number};
+use super::key_path::Path;
+use super::validate::Result;
+use crate::row::Outcome;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
+use std::fmt;
+
+/// An interval; `min` and `max` belong to it, `above` and `below` do not.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bounds {
+    pub min: Option<f64>,
+    pub max: Option<f64>,
+    pub above: Option<f64>,
+    pub below: Option<f64>,
+}
+
+impl Bounds {
+    /// False for what is not a number.
+    pub fn contain(&self, x: f64) -> bool {
+        self.min.is_none_or(|min| x >= min)
+            && self.max.is_none_or(|max| x <= max)
+            && self.above.is_none_or(|above| x > above)
+            && self.below.is_none_or(|below| x < below)
+            && !x.is_nan()
+    }
+
+    pub fn is_none(&self) -> bool {
+        *self == Bounds::default()
+    }
+
+    /// At least one bound, and a number that meets all of them.
+    pub fn check(&self, at: Path) -> Result<()> {
+        if self.is_none() {
+            return Err(ExperimentError::missing(at.to_key_path(), "a bound (min, max, above or below)"));
+        }
+        let lower = [self.min, self.above].into_iter().flatten().fold(f64::NEG_INFINITY, f64::max);
+        let upper = [self.max, self.below].into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let is_open = self.above == Some(lower) || self.below == Some(upper);
+        if lower > upper || (lower == upper && is_open) {
+            let key = if self.max.is_some() { "max" } else { "below" };
+            let expected = format!("an upper bound that some number above {} meets", number(lower));
+            return Err(ExperimentError::unexpected(at.key(key).to_key_path(), &expected, &number(upper)));
+        }
+        Ok(())
+    }
+
+    /// The same, of a share: some number from 0 to 1.
+    pub fn check_share(&self, at: Path) -> Result<()> {
+        self.check(at)?;
+        let out = |x: &Option<f64>| x.is_some_and(|x| !(0.0..=1.0).contains(&x));
+        for (key, bound) in [("min", self.min), ("max", self.max), ("above", self.above), ("below", self.below)] {
+            if let Some(x) = bound.filter(|_| out(&bound)) {
+                return Err(ExperimentError::unexpected(at.key(key).to_key_path(), "a share from 0 to 1", &number(x)));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Bounds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bounds = [("≥", self.min), (">", self.above), ("≤", self.max), ("<", self.below)];
+        let parts = bounds.into_iter().filter_map(|(sign, bound)| Some(format!("{sign} {}", number(bound?))));
+        f.write_str(&parts.collect::<Vec<_>>().join(", "))
+    }
+}
+
+/// A column, or the quotient of two (`search_high / critical_step_s`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    pub name: String,
+    pub divided_by: Option<String>,
+}
+
+impl Column {
+    pub fn new(text: &str) -> Self {
+        match text.split_once(" / ") {
+            Some((name, by)) => Column { name: name.trim().to_string(), divided_by: Some(by.trim().to_string()) },
+            None => Column { name: text.to_string(), divided_by: None },
+        }
+    }
+
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(self.name.as_str()).chain(self.divided_by.as_deref())
+    }
+}
+
+impl fmt::Display for Column {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.names().collect::<Vec<_>>().join(" / "))
+    }
+}
+
+/// What is true of some rows and not of others.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Predicate {
+    Outcome(Outcome),
+    Criterion(String),
+    Column { column: Column, bounds: Bounds },
+}
+
+impl fmt::Display for Predicate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Predicate::Outcome(outcome) => f.write_str(outcome.name()),
+            Predicate::Criterion(name) => f.write_str(name),
+            Predicate::Column { column, bounds } => write!(f, "{column} {bounds}"),
+        }
+    }
+}
+
+/// A number of a row, or whether something is true of it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Quantity {
+    Column(Column),
+    Fraction(Predicate),
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Quantity::Column(column) => column.fmt(f),
+            Quantity::Fraction(predicate) => predicate.fmt(f),
+        }
+    }
+}
+
+/// A predicate as it is written.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PredicateText {
+    outcome: Option<Outcome>,
+    criterion: Option<String>,
+    column: Option<String>,
+    min: Option<f64>,
+    max: Option<f64>,
+    above: Option<f64>,
+    below: Option<f64>,
+    fraction: Option<Box<PredicateText>>,
+}
+
+impl PredicateText {
+    fn bounds(&self) -> Bounds {
+        Bounds { min: self.min, max: self.max, above: self.above, below: self.below }
+    }
+
+    pub fn read(&self, at: Path) -> Result<Predicate> {
+        let bounds = self.bounds();
+        match (self.outcome, &self.criterion, &self.column, &self.fraction) {
+            (Some(outcome), None, None, None) if bounds.is_none() => Ok(Predicate::Outcome(outcome)),
+            (None, Some(name), None, None) if bounds.is_none() => Ok(Predicate::Criterion(name.clone())),
+            (None, None, Some(column), None) => {
+                bounds.check(at)?;
+                Ok(Predicate::Column { column: Column::new(column), bounds })
+            }
+            (None, None, None, Some(inner)) if bounds.is_none() => inner.read(at.key("fraction")),
+            _ => {
+                let what = "one of outcome, criterion, or column with min, max, above or below";
+                Err(ExperimentError::missing(at.to_key_path(), what))
+            }
+        }
+    }
+
+    /// A column without bounds is the number itself.
+    fn quantity(&self, at: Path) -> Result<Quantity> {
+        match (&self.column, self.bounds().is_none()) {
+            (Some(column), true) if self.outcome.is_none() && self.criterion.is_none() && self.fraction.is_none() => {
+                Ok(Quantity::Column(Column::new(column)))
+            }
+            _ => self.read(at).map(Quantity::Fraction),
+        }
+    }
+}
+
+/// A column's name, or a predicate.
+#[derive(Clone, Debug, PartialEq)]
+pub enum QuantityText {
+    Column(String),
+    Predicate(PredicateText),
+}
+
+impl QuantityText {
+    pub fn read(&self, at: Path) -> Result<Quantity> {
+        match self {
+            QuantityText::Column(name) => Ok(Quantity::Column(Column::new(name))),
+            QuantityText::Predicate(predicate) => predicate.quantity(at),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for QuantityText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        deserializer.deserialize_any(QuantityVisitor)
+    }
+}
+
+struct QuantityVisitor;
+
+impl<'de> Visitor<'de> for QuantityVisitor {
+    type Value = QuantityText;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a column's name, or a share such as { outcome: diverged }")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> std::result::Result<QuantityText, E> {
+        Ok(QuantityText::Column(name.to_string()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> std::result::Result<QuantityText, A::Error> {
+        PredicateText::deserialize(MapAccessDeserializer::new(map)).map(QuantityText::Predicate)
+    }
+}

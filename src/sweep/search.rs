@@ -1,0 +1,201 @@
+//! The critical value of a key, by bisection (L3), in every cell of the axes.
+//!
+//! A value counts as reached when the condition holds in the stated share of the runs that are tried together (all
+//! seeds, say; the same ones at every value). Between an end where it is reached and one where it is not, the bracket is
+//! halved: in the logarithm where both ends are positive, in whole numbers where the key wants them. What remains has one
+//! end of each kind. Over chaotic runs the share is noisy and need not be monotone: the result is one crossing.
+
+use super::plan::columns;
+use crate::case::Case;
+use crate::experiment::axes::decimal;
+use crate::experiment::predicate::{Column, Predicate};
+use crate::experiment::search::Search;
+use crate::experiment::types::Experiment;
+use crate::experiment::{ExperimentError, ExperimentFile};
+use crate::model;
+use crate::row::{Measured, Outcome};
+use crate::run;
+use rayon::prelude::*;
+use serde_json::{Map, Value, json};
+use serde_yaml::Number;
+use std::sync::Arc;
+
+/// Columns of a search's row, beside those of its run at `search_low`.
+pub const COLUMNS: [&str; 4] = ["search_low", "search_high", "search_runs", "search_verdict"];
+
+/// One cell of the other axes.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    file: Arc<ExperimentFile>,
+    search: Search,
+    /// Points of the axes that are tried together.
+    members: Vec<Vec<usize>>,
+    /// The key takes whole numbers only.
+    whole: bool,
+}
+
+/// All cells in plan order, both ends of every bracket resolved and built.
+///
+/// # Errors
+/// The first wrong case; a column that the condition names and no row has.
+pub fn cases(file: &ExperimentFile, search: &Search) -> Result<Vec<Case>, ExperimentError> {
+    let axes = file.axes();
+    let shared = Arc::new(file.clone());
+    let points = (0..axes.len()).map(|i| axes.point(i));
+    let firsts: Vec<_> = points.filter(|point| search.over.is_none_or(|over| point[over] == 0)).collect();
+    let whole = wants_whole(file, search, firsts.first().map_or(&[], Vec::as_slice));
+    let cell = |first: &Vec<usize>| {
+        let member = |value: usize| {
+            let mut point = first.clone();
+            if let Some(over) = search.over {
+                point[over] = value;
+            }
+            point
+        };
+        let members = search.over.map_or(1, |over| axes.axes[over].values.len());
+        let members = (0..members).map(member).collect();
+        Cell { file: shared.clone(), search: search.clone(), members, whole }
+    };
+    firsts.par_iter().map(|first| case(cell(first), first)).collect::<Vec<_>>().into_iter().collect()
+}
+
+fn case(cell: Cell, first: &[usize]) -> Result<Case, ExperimentError> {
+    let (file, search) = (&cell.file, &cell.search);
+    let mut ends = Vec::with_capacity(2 * cell.members.len());
+    for end in &search.between {
+        for point in &cell.members {
+            let experiment = file.searched_case(point, end)?;
+            model::build(&experiment).map_err(|e| file.error_at(point, &e.path, &e.expected, &e.found))?;
+            ends.push(experiment);
+        }
+    }
+    let over = search.over.map(|over| file.axes().axes[over].path.clone());
+    let axes: Map<_, _> = columns(file.axes(), first).filter(|(path, _)| Some(path) != over.as_ref()).collect();
+    Ok(Case::of_search(cell, ends, axes))
+}
+
+/// Both ends are whole, and between them nothing else is accepted.
+fn wants_whole(file: &ExperimentFile, search: &Search, first: &[usize]) -> bool {
+    let [low, high] = &search.between;
+    let half = Number::from(low.as_f64().unwrap_or_default() + 0.5);
+    !low.is_f64() && !high.is_f64() && file.searched_case(first, &half).is_err()
+}
+
+/// What was found at one value.
+struct Trial {
+    value: Number,
+    reached: bool,
+    /// Of the first member.
+    measured: Measured,
+}
+
+impl Cell {
+    /// What a row of this cell depends on beside its experiments.
+    pub fn rule(&self) -> String {
+        let Search { critical, until, fraction, relative_width, .. } = &self.search;
+        format!("{critical} until {until} in {fraction} to {relative_width}")
+    }
+
+    /// Runs that a bracket of this width takes, about.
+    pub fn expected_runs(&self) -> usize {
+        let [low, high] = self.search.between.each_ref().map(float);
+        let width = if low > 0.0 { libm::log(high / low) } else { 1.0 };
+        let halvings = libm::log2(width / self.search.relative_width).max(0.0).ceil();
+        self.members.len() * (2 + halvings as usize)
+    }
+
+    /// Bisects. The row's other columns are those of the run at `search_low`, or at the bracket's lower end where there is
+    /// none; `wall_s` is that of all runs.
+    pub fn bisect(&self) -> Measured {
+        self.try_bisect().unwrap_or_else(|error| Measured::failed(error.to_string()))
+    }
+
+    fn try_bisect(&self) -> Result<Measured, ExperimentError> {
+        let [low, high] = &self.search.between;
+        let (mut low, mut high) = (self.try_at(low)?, self.try_at(high)?);
+        let (mut tried, mut wall_s) = (2, low.wall_s() + high.wall_s());
+        if low.reached == high.reached {
+            let (verdict, ends) = match low.reached {
+                true => ("below", [Value::Null, json!(low.value)]),
+                false => ("above", [json!(high.value), Value::Null]),
+            };
+            return Ok(self.row(low.measured, ends, tried, wall_s, verdict));
+        }
+        while let Some(middle) = self.between(float(&low.value), float(&high.value)) {
+            let trial = self.try_at(&middle)?;
+            tried += 1;
+            wall_s += trial.wall_s();
+            let end = if trial.reached == low.reached { &mut low } else { &mut high };
+            *end = trial;
+        }
+        Ok(self.row(low.measured, [json!(low.value), json!(high.value)], tried, wall_s, "found"))
+    }
+
+    fn try_at(&self, value: &Number) -> Result<Trial, ExperimentError> {
+        let run = |point: &Vec<usize>| self.file.searched_case(point, value).and_then(|e| self.run(&e, point));
+        let runs = self.members.par_iter().map(run).collect::<Vec<_>>();
+        let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let holds = runs.iter().filter(|measured| is_true(&self.search.until, measured)).count();
+        let wall_s = runs.iter().filter_map(|measured| measured.wall_s).sum();
+        let reached = holds as f64 >= self.search.fraction * runs.len() as f64;
+        let mut measured = runs.into_iter().next().unwrap_or_else(Measured::nothing);
+        measured.wall_s = Some(wall_s);
+        Ok(Trial { value: value.clone(), reached, measured })
+    }
+
+    fn run(&self, experiment: &Experiment, point: &[usize]) -> Result<Measured, ExperimentError> {
+        let built = model::build(experiment);
+        let (model, start) = built.map_err(|e| self.file.error_at(point, &e.path, &e.expected, &e.found))?;
+        Ok(run::run(experiment, &model, start, None).measured)
+    }
+
+    /// The value to try next; none: the bracket is narrow enough.
+    fn between(&self, low: f64, high: f64) -> Option<Number> {
+        if self.whole {
+            let middle = ((low + high) / 2.0).floor();
+            return (middle > low && middle < high).then(|| Number::from(middle as i64));
+        }
+        let is_wide = high - low > self.search.relative_width * low.abs().max(high.abs());
+        let middle = decimal(if low > 0.0 { (low * high).sqrt() } else { (low + high) / 2.0 });
+        (is_wide && middle > low && middle < high).then(|| Number::from(middle))
+    }
+
+    fn row(&self, mut row: Measured, ends: [Value; 2], tried: usize, wall_s: f64, verdict: &str) -> Measured {
+        let [low, high] = ends;
+        let found = [low, high, json!(tried * self.members.len()), json!(verdict)];
+        row.more.extend(COLUMNS.map(str::to_string).into_iter().zip(found));
+        row.wall_s = Some(wall_s);
+        row
+    }
+}
+
+impl Trial {
+    fn wall_s(&self) -> f64 {
+        self.measured.wall_s.unwrap_or_default()
+    }
+}
+
+fn float(number: &Number) -> f64 {
+    number.as_f64().unwrap_or(f64::NAN)
+}
+
+/// A number that is no longer there (a diverged run's energy) is beyond every bound.
+fn is_true(until: &Predicate, measured: &Measured) -> bool {
+    match until {
+        Predicate::Outcome(outcome) => measured.outcome == *outcome,
+        Predicate::Criterion(name) => measured.criterion.as_ref() == Some(name),
+        Predicate::Column { column, bounds } => match number(column, measured) {
+            Some(x) => bounds.contain(x),
+            None => measured.outcome != Outcome::Finished,
+        },
+    }
+}
+
+fn number(column: &Column, measured: &Measured) -> Option<f64> {
+    let row = serde_json::to_value(measured).unwrap_or_default();
+    let cell = |name: &str| row.get(name).and_then(Value::as_f64);
+    match &column.divided_by {
+        None => cell(&column.name),
+        Some(by) => Some(cell(&column.name)? / cell(by)?).filter(|x| x.is_finite()),
+    }
+}

@@ -49,6 +49,13 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub random: Option<Random>,
+    /// A body may start inside a face.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub allow_overlap: bool,
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 /// y is up, and g is the lecture's (L5).
@@ -217,6 +224,8 @@ pub struct Random {
     pub attitude: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<Direction>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub place: Option<Place>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -224,6 +233,14 @@ pub struct Random {
 pub enum Direction {
     /// The velocity is reflected into the lower half.
     Downward,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Place {
+    /// Shifted along the floor's normal to the first step of a contact: the lowest point is inside by a random part of
+    /// what it moves in a step.
+    AtContact,
 }
 
 /// The exchangeable unit is the whole step. One word, or one key with settings.

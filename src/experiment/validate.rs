@@ -79,6 +79,9 @@ fn validate_random(random: &Random, scene: &Scene, at: Path) -> Result<()> {
     if random.direction.is_some() && random.speed_m_s.is_none() {
         return Err(ExperimentError::missing(at.key("speed_m_s").to_key_path(), "`direction` needs a speed"));
     }
+    if random.place.is_some() {
+        validate_place(scene, at.key("place"))?;
+    }
     let is_point = |shape: &Shape| *shape == Shape::None;
     let point = scene.bodies.iter().find(|body| is_point(&body.shape) && body.inertia_kg_m2.is_none());
     match (point, random.spin_rad_s) {
@@ -88,6 +91,16 @@ fn validate_random(random: &Random, scene: &Scene, at: Path) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+fn validate_place(scene: &Scene, at: Path) -> Result<()> {
+    if scene.container.is_none() {
+        return Err(unexpected(at, "no place, as the scene has no `container` to touch", "`at-contact`"));
+    }
+    if scene.bodies.iter().all(|body| body.shape == Shape::None) {
+        return Err(unexpected(at, "no place, as no body has a shape", "`at-contact`"));
+    }
+    Ok(())
 }
 
 fn validate_method(method: &Method, at: Path) -> Result<()> {

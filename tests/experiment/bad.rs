@@ -93,6 +93,8 @@ const ROWS: &[Row] = &[
     ("a container from a mesh", "    box:\n", "    mesh:\n", 4, "scene.container.mesh", "`mesh` is not available in this version"),
     ("a direction without speed", "  friction: 0.3\n", "  random: { direction: downward }\n", 2, "scene.random.speed_m_s", "`direction` needs a speed"),
     ("a random spin of a point", "  friction: 0.3\n", "  random: { spin_rad_s: 1 }\n", 2, "scene.random.spin_rad_s", "`point` is a point without `inertia_kg_m2`"),
+    ("a contact with nothing", "  friction: 0.3\n  container:\n    box:\n      size_m: [4, 4, 4]\n", "  random: { place: at-contact }\n", 2, "scene.random.place", "no `container` to touch"),
+    ("a contact of nothing", "  bodies:\n    - name: cube\n      shape: { box: { size_m: [1, 1, 1] } }\n      mesh: { nodes_per_edge: 3 }\n      mass_kg: 1.0\n      position_m: [0, 2, 0]\n", "  random: { place: at-contact }\n  bodies:\n", 6, "scene.random.place", "no body has a shape"),
     // Method and scene.
     ("the lecture without mesh", "      mesh: { nodes_per_edge: 3 }\n", "", 7, "scene.bodies.cube.mesh", "the method `lecture` touches with nodes and needs a mesh"),
     ("no sweeps", LECTURE, "method: { lecture: { sweeps: 0 } }\n", 16, "method.lecture.sweeps", "at least 1, found 0"),

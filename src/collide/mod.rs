@@ -25,6 +25,17 @@ pub struct Contact {
     pub restitution: f64,
 }
 
+impl Contact {
+    /// e₁ = n and two tangents; for the faces of a box the tangents are the other coordinate axes.
+    pub fn frame(&self) -> [Vector3<f64>; 3] {
+        let normal = self.normal;
+        let least = normal.iamin();
+        let along = Vector3::ith(least, 1.0);
+        let t1 = (along - normal * normal[least]).normalize();
+        [normal, t1, normal.cross(&t1)]
+    }
+}
+
 /// A contact of the last step and the impulse that it put on its body, world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolvedContact {

@@ -50,12 +50,13 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub random: Option<Random>,
     /// A body may start inside a face.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub allow_overlap: bool,
 }
 
-fn is_false(flag: &bool) -> bool {
-    !flag
+/// Left out of the resolved experiment, so that a case that does not use a newer key keeps its id.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// y is up, and g is the lecture's (L5).
@@ -529,6 +530,12 @@ impl Stream {
 pub enum Measure {
     /// Each body's end state: `<body>.position_m.x`, ….
     State,
+    /// Each body's mass, centre of mass and inertia: `<body>.inertia_kg_m2.xx`, ….
+    Inertia,
+    /// Rank of A = J M⁻¹ Jᵀ, and how fast Jacobi's iteration grows, in the step with the most contacts.
+    ContactMatrix,
+    /// The penalty method's, of the first step with a contact.
+    CriticalStep,
 }
 
 /// The axes of a sweep, still as written; `sweep/axes.rs` reads them.

@@ -108,6 +108,8 @@ const ROWS: &[Row] = &[
     ("an energy factor of 1", END, "  end_s: 1\ndiverge:\n  energy_factor: 1\n", 21, "diverge.energy_factor", "greater than 1"),
     ("a negative interval", END, "  end_s: 1\nrecord: { every_s: -1 }\n", 20, "record.every_s", "at least 0"),
     ("an unknown stream", END, "  end_s: 1\nrecord:\n  streams: [bodies, contact]\n", 21, "record.streams.1", "did you mean `contacts`?"),
+    ("a critical step of no spring", END, "  end_s: 1\nmeasure: [state, critical-step]\n", 20, "measure.1", "only the step of the method `penalty` is critical, found `critical-step`"),
+    ("an unknown measure", END, "  end_s: 1\nmeasure: [contact-matrx]\n", 20, "measure.0", "did you mean `contact-matrix`?"),
     // The text.
     ("a bracket left open", "[0, 2, 0]", "[0, 2, 0", 12, "", "not valid YAML"),
     ("a tab", "seed: 7", "\tseed: 7", 15, "", "not valid YAML"),

@@ -286,6 +286,8 @@ pub struct Lecture {
     pub start: Start,
     pub iteration: Iteration,
     pub correction: Correction,
+    #[serde(skip_serializing_if = "is_default")]
+    pub cone: Cone,
     pub sweeps: u32,
     pub update: Update,
     pub rotation: Rotation,
@@ -298,6 +300,7 @@ impl Default for Lecture {
             start: Start::None,
             iteration: Iteration::GaussSeidel,
             correction: Correction::AfterSweep,
+            cone: Cone::Disc,
             sweeps: 50,
             update: Update::SemiImplicit,
             rotation: Rotation::Literal,
@@ -336,6 +339,17 @@ pub enum Correction {
     AfterSweep,
     /// Right after the contact's three rows: this is projected Gauss–Seidel.
     PerContact,
+}
+
+/// What |f_c2, f_c3| < μ |f_c1| bounds (L19).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cone {
+    /// The length of (f₂, f₃): Coulomb's law.
+    #[default]
+    Disc,
+    /// f₂ and f₃ each, as the line can be read: up to √2 times the friction, by the direction.
+    Box,
 }
 
 /// Which velocity moves the position (L5).

@@ -110,6 +110,7 @@ const ROWS: &[Row] = &[
     ("an unknown stream", END, "  end_s: 1\nrecord:\n  streams: [bodies, contact]\n", 21, "record.streams.1", "did you mean `contacts`?"),
     ("a critical step of no spring", END, "  end_s: 1\nmeasure: [state, critical-step]\n", 20, "measure.1", "only the step of the method `penalty` is critical, found `critical-step`"),
     ("an unknown measure", END, "  end_s: 1\nmeasure: [contact-matrx]\n", 20, "measure.0", "did you mean `contact-matrix`?"),
+    ("an unknown cone", LECTURE, "method: { lecture: { cone: disk } }\n", 16, "method.lecture.cone", "did you mean `disc`?"),
     // The text.
     ("a bracket left open", "[0, 2, 0]", "[0, 2, 0", 12, "", "not valid YAML"),
     ("a tab", "seed: 7", "\tseed: 7", 15, "", "not valid YAML"),

@@ -2,8 +2,9 @@
 
 use crate::collide::SolvedContact;
 use crate::experiment::types::Experiment;
+use crate::measure::Judge;
 use crate::measure::divergence::Criterion;
-use crate::measure::{Judge, more};
+use crate::measure::more::{self, Watched};
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::record::sampler::Sampler;
@@ -27,6 +28,7 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     let plan = Plan::new(model, &experiment.method);
     let mut stepper = Stepper::new(&experiment.method, &plan, model);
     let mut judge = Judge::new(model, &start, &experiment.diverge, plan.contact);
+    judge.watched = Watched::new(&experiment.measure);
     let (mut before, mut state) = (start.clone(), start);
     let mut stepping = Duration::ZERO;
     let mut diverged = None;
@@ -47,7 +49,7 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
         }
     }
     let mut measured = summarize(model, &state, &mut judge, &stepper, &clock, diverged, stepping);
-    measured.more = more::columns(experiment, model, &state);
+    measured.more = more::columns(experiment, model, &state, &judge.watched);
     if let Some(sampler) = &mut sampler {
         sampler.end(&state, &measured);
     }

@@ -3,6 +3,7 @@
 //! - `experiment/`: what a file, a `--set` and an axis mean, and what is said when they mean nothing
 //! - `model/`: meshes, mass properties, containers, start states
 //! - `methods/`: each method against its own recurrence, the exact motion, its conserved quantities
+//! - `measure/`: columns that `measure:` adds, against another way to their numbers
 //! - `map_a`: the lecture's stability notes against the measured table
 //! - `sweep/`: resume, threads, panics, tables, recordings of a sweep
 //! - `record/`: recordings, read back from their files
@@ -20,6 +21,7 @@ mod configs;
 mod counters;
 mod experiment;
 mod map_a;
+mod measure;
 mod methods;
 mod model;
 mod record;

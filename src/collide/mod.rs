@@ -25,6 +25,17 @@ pub struct Contact {
     pub restitution: f64,
 }
 
+impl Contact {
+    /// e₁ = n and two tangents; for the faces of a box the tangents are the other coordinate axes.
+    pub fn frame(&self) -> [Vector3<f64>; 3] {
+        let normal = self.normal;
+        let least = normal.iamin();
+        let along = Vector3::ith(least, 1.0);
+        let t1 = (along - normal * normal[least]).normalize();
+        [normal, t1, normal.cross(&t1)]
+    }
+}
+
 /// A contact of the last step and the impulse that it put on its body, world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolvedContact {
@@ -74,6 +85,17 @@ pub fn deepest_m(model: &Model, body: &Body, at: &BodyState) -> f64 {
         }
     }
     deepest
+}
+
+/// The body's point nearest to a face, the first of equals: from the centre of mass to it, world axes, and its gap.
+pub fn nearest(body: &Body, at: &BodyState, face: &Face) -> Option<(Vector3<f64>, f64)> {
+    let mut nearest: Option<(Vector3<f64>, f64)> = None;
+    each_gap(body, at, face, face.gap_m(&at.p_WB), |_, r_B, r_shift_W, gap| {
+        if nearest.is_none_or(|(_, least)| gap < least) {
+            nearest = Some((at.q_WB * r_B + r_shift_W, gap));
+        }
+    });
+    nearest
 }
 
 /// Calls `visit(node, point in body axes, further shift in world axes, gap)` for every candidate point; says how many.

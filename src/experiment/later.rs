@@ -5,11 +5,10 @@
 const LATER: &[(&str, &[&str])] = &[
     ("Experiment", &["bench", "exact", "reference", "limits"]),
     ("Sweep", &["where", "sample"]),
-    ("Scene", &["pairs", "pins", "forces", "air", "allow_overlap"]),
+    ("Scene", &["pairs", "pins", "forces", "air"]),
     ("Container", &["mesh"]),
     ("Body", &["copies", "fixed", "kinematic"]),
     ("Shape", &["cylinder", "capsule", "ellipsoid", "convex", "mesh"]),
-    ("Random", &["place"]),
     ("Method", &["event-driven", "auto"]),
     ("Free", &["tolerance"]),
     ("Integrator", &["crank-nicolson", "implicit-midpoint", "rk4", "dop853", "taylor", "exact"]),

@@ -53,6 +53,14 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub random: Option<Random>,
+    /// A body may start inside a face.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub allow_overlap: bool,
+}
+
+/// Left out of the resolved experiment, so that a case that does not use a newer key keeps its id.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// y is up, and g is the lecture's (L5).
@@ -221,6 +229,8 @@ pub struct Random {
     pub attitude: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<Direction>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub place: Option<Place>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -228,6 +238,14 @@ pub struct Random {
 pub enum Direction {
     /// The velocity is reflected into the lower half.
     Downward,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Place {
+    /// Shifted along the floor's normal to the first step of a contact: the lowest point is inside by a random part of
+    /// what it moves in a step.
+    AtContact,
 }
 
 /// The exchangeable unit is the whole step. One word, or one key with settings.
@@ -272,6 +290,8 @@ pub struct Lecture {
     pub start: Start,
     pub iteration: Iteration,
     pub correction: Correction,
+    #[serde(skip_serializing_if = "is_default")]
+    pub cone: Cone,
     pub sweeps: u32,
     pub update: Update,
     pub rotation: Rotation,
@@ -284,6 +304,7 @@ impl Default for Lecture {
             start: Start::None,
             iteration: Iteration::GaussSeidel,
             correction: Correction::AfterSweep,
+            cone: Cone::Disc,
             sweeps: 50,
             update: Update::SemiImplicit,
             rotation: Rotation::Literal,
@@ -322,6 +343,17 @@ pub enum Correction {
     AfterSweep,
     /// Right after the contact's three rows: this is projected Gauss–Seidel.
     PerContact,
+}
+
+/// What |f_c2, f_c3| < μ |f_c1| bounds (L19).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cone {
+    /// The length of (f₂, f₃): Coulomb's law.
+    #[default]
+    Disc,
+    /// f₂ and f₃ each, as the line can be read: up to √2 times the friction, by the direction.
+    Box,
 }
 
 /// Which velocity moves the position (L5).
@@ -516,6 +548,12 @@ impl Stream {
 pub enum Measure {
     /// Each body's end state: `<body>.position_m.x`, ….
     State,
+    /// Each body's mass, centre of mass and inertia: `<body>.inertia_kg_m2.xx`, ….
+    Inertia,
+    /// Rank of A = J M⁻¹ Jᵀ, and how fast Jacobi's iteration grows, in the step with the most contacts.
+    ContactMatrix,
+    /// The penalty method's, of the first step with a contact.
+    CriticalStep,
 }
 
 /// The axes of a sweep, still as written; `axes.rs` and `search.rs` read them.

@@ -3,7 +3,7 @@
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::types::{
-    Container, Diverge, Experiment, Method, Penalty, Plane, Random, Record, RecordCases, Scene, Shape, Time,
+    Container, Diverge, Experiment, Measure, Method, Penalty, Plane, Random, Record, RecordCases, Scene, Shape, Time,
 };
 use super::validate_body::validate_body;
 
@@ -21,7 +21,8 @@ pub fn validate(experiment: &Experiment) -> Result<()> {
     validate_contact(experiment, root.key("scene"))?;
     validate_time(&experiment.time, root.key("time"))?;
     validate_diverge(&experiment.diverge, root.key("diverge"))?;
-    validate_record(&experiment.record, root.key("record"))
+    validate_record(&experiment.record, root.key("record"))?;
+    validate_measure(experiment, root.key("measure"))
 }
 
 /// Any multiple of a unit quaternion may be written; from here on they are unit ones.
@@ -79,6 +80,9 @@ fn validate_random(random: &Random, scene: &Scene, at: Path) -> Result<()> {
     if random.direction.is_some() && random.speed_m_s.is_none() {
         return Err(ExperimentError::missing(at.key("speed_m_s").to_key_path(), "`direction` needs a speed"));
     }
+    if random.place.is_some() {
+        validate_place(scene, at.key("place"))?;
+    }
     let is_point = |shape: &Shape| *shape == Shape::None;
     let point = scene.bodies.iter().find(|body| is_point(&body.shape) && body.inertia_kg_m2.is_none());
     match (point, random.spin_rad_s) {
@@ -88,6 +92,16 @@ fn validate_random(random: &Random, scene: &Scene, at: Path) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+fn validate_place(scene: &Scene, at: Path) -> Result<()> {
+    if scene.container.is_none() {
+        return Err(unexpected(at, "no place, as the scene has no `container` to touch", "`at-contact`"));
+    }
+    if scene.bodies.iter().all(|body| body.shape == Shape::None) {
+        return Err(unexpected(at, "no place, as no body has a shape", "`at-contact`"));
+    }
+    Ok(())
 }
 
 fn validate_method(method: &Method, at: Path) -> Result<()> {
@@ -195,6 +209,17 @@ fn validate_record(record: &Record, at: Path) -> Result<()> {
     match record.cases {
         RecordCases::Sample(count) => at_least_one(count, at.key("cases").key("sample")),
         _ => Ok(()),
+    }
+}
+
+fn validate_measure(experiment: &Experiment, at: Path) -> Result<()> {
+    let critical = experiment.measure.iter().position(|measure| *measure == Measure::CriticalStep);
+    match (critical, &experiment.method) {
+        (None, _) | (_, Method::Penalty(_)) => Ok(()),
+        (Some(i), _) => {
+            let expected = "what every method has, as only the step of the method `penalty` is critical";
+            Err(unexpected(at.item(i, None), expected, "`critical-step`"))
+        }
     }
 }
 

@@ -3,8 +3,11 @@
 //! Nothing here imports a method or takes a solver's word: what an impulse did to a body is worked out again from the
 //! impulse, the arm and the mass properties.
 
+pub mod contact_matrix;
+pub mod critical_step;
 pub mod divergence;
 pub mod energy;
+mod kept;
 pub mod momentum;
 pub mod more;
 pub mod order;
@@ -17,6 +20,7 @@ use crate::state::State;
 use divergence::{Criterion, Divergence};
 use energy::{Energy, EnergyLedger};
 use momentum::MomentumLedger;
+use more::Watched;
 use nalgebra::Vector3;
 
 /// What the contacts of one step did to a body: Σp and Σ r×p about its centre of mass, world axes.
@@ -37,6 +41,7 @@ pub struct Judge {
     /// None: the method never looks for contacts.
     pub penetration_max_m: Option<f64>,
     pub contacts_max: u64,
+    pub watched: Watched,
     divergence: Divergence,
     pushes: Vec<Push>,
 }
@@ -49,6 +54,7 @@ impl Judge {
             momentum: MomentumLedger::new(model, start),
             penetration_max_m: contact.then_some(0.0),
             contacts_max: 0,
+            watched: Watched::default(),
             divergence: Divergence::new(rules, &energy),
             pushes: vec![Push::NONE; model.bodies.len()],
         }
@@ -67,6 +73,7 @@ impl Judge {
         let energy = Energy::of(model, after);
         if !contacts.is_empty() {
             self.energy.observe_contacts(model, before, &self.pushes, step_s);
+            self.watched.observe(before, contacts);
         }
         self.energy.observe(energy);
         self.momentum.observe(model, before, after, &self.pushes, !contacts.is_empty(), step_s);

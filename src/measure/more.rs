@@ -1,26 +1,65 @@
 //! Columns that are measured only when `measure:` asks for them.
 
-use crate::experiment::types::{Experiment, Measure};
-use crate::model::Model;
+use super::contact_matrix::{self, ContactMatrix};
+use super::critical_step::{self, CriticalStep};
+use crate::collide::SolvedContact;
+use crate::experiment::types::{self as file, Experiment, Measure, Method};
+use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
 use serde_json::{Map, Value, json};
 
-/// The columns that an experiment asks for, from its model and its last state.
-pub fn columns(experiment: &Experiment, model: &Model, end: &State) -> Map<String, Value> {
-    let mut columns = Map::new();
-    for measure in &experiment.measure {
-        match measure {
-            Measure::State => columns.extend(end_states(model, end)),
+/// What has to be watched during the run; nothing unless it is asked for.
+#[derive(Clone, Debug, Default)]
+pub struct Watched {
+    pub contact_matrix: Option<ContactMatrix>,
+    pub critical_step: Option<CriticalStep>,
+}
+
+impl Watched {
+    pub fn new(measures: &[Measure]) -> Self {
+        let asked = |measure| measures.contains(&measure);
+        Watched {
+            contact_matrix: asked(Measure::ContactMatrix).then(ContactMatrix::default),
+            critical_step: asked(Measure::CriticalStep).then(CriticalStep::default),
         }
     }
-    columns
+
+    pub fn observe(&mut self, before: &State, contacts: &[SolvedContact]) {
+        if let Some(watch) = &mut self.contact_matrix {
+            watch.observe(before, contacts);
+        }
+        if let Some(watch) = &mut self.critical_step {
+            watch.observe(before, contacts);
+        }
+    }
+}
+
+/// The columns that an experiment asks for, from its model, its last state and what was watched on the way there.
+pub fn columns(experiment: &Experiment, model: &Model, end: &State, watched: &Watched) -> Map<String, Value> {
+    let of = |measure: &Measure| -> Vec<Value> {
+        match measure {
+            Measure::State => end.bodies.iter().flat_map(end_state).collect(),
+            Measure::Inertia => experiment.scene.bodies.iter().zip(&model.bodies).flat_map(inertia).collect(),
+            Measure::ContactMatrix => watched.contact_matrix.iter().flat_map(|watch| watch.columns(model)).collect(),
+            Measure::CriticalStep => {
+                let settings = penalty(&experiment.method);
+                watched.critical_step.iter().flat_map(|watch| watch.columns(model, settings)).collect()
+            }
+        }
+    };
+    names(experiment).into_iter().zip(experiment.measure.iter().flat_map(of)).collect()
 }
 
 /// Names of those columns, before anything has run.
 pub fn names(experiment: &Experiment) -> Vec<String> {
-    let bodies = || experiment.scene.bodies.iter().map(|body| body.name.as_str());
+    let each_body = |parts: &[(&str, &[&str])]| -> Vec<String> {
+        experiment.scene.bodies.iter().flat_map(|body| names_of(&body.name, parts)).collect()
+    };
     let of = |measure: &Measure| match measure {
-        Measure::State => bodies().flat_map(state_names).collect::<Vec<_>>(),
+        Measure::State => each_body(&STATE),
+        Measure::Inertia => each_body(&INERTIA),
+        Measure::ContactMatrix => contact_matrix::NAMES.map(str::to_string).to_vec(),
+        Measure::CriticalStep => critical_step::NAMES.map(str::to_string).to_vec(),
     };
     experiment.measure.iter().flat_map(of).collect()
 }
@@ -33,19 +72,41 @@ const STATE: [(&str, &[&str]); 4] = [
     ("angular_velocity_rad_s", &["x", "y", "z"]),
 ];
 
-fn state_names(body: &str) -> Vec<String> {
-    let components = |(vector, parts): (&str, &[&str])| {
-        parts.iter().map(|part| format!("{body}.{vector}.{part}")).collect::<Vec<_>>()
+/// Mass properties; the tensor is about the centre of mass, body axes.
+const INERTIA: [(&str, &[&str]); 3] = [
+    ("mass_kg", &[]),
+    ("center_of_mass_m", &["x", "y", "z"]),
+    ("inertia_kg_m2", &["xx", "yy", "zz", "xy", "yz", "zx"]),
+];
+
+fn names_of(body: &str, quantities: &[(&str, &[&str])]) -> Vec<String> {
+    let components = |(quantity, parts): &(&str, &[&str])| {
+        if parts.is_empty() {
+            return vec![format!("{body}.{quantity}")];
+        }
+        parts.iter().map(|part| format!("{body}.{quantity}.{part}")).collect::<Vec<_>>()
     };
-    STATE.into_iter().flat_map(components).collect()
+    quantities.iter().flat_map(components).collect()
 }
 
 /// Position of the centre of mass, attitude body → world, velocities in the world frame.
-fn end_states(model: &Model, end: &State) -> Map<String, Value> {
-    let numbers = |at: &BodyState| -> Vec<Value> {
-        let parts = [at.p_WB.as_slice(), at.q_WB.coords.as_slice(), at.v_WB.as_slice(), at.w_WB.as_slice()];
-        parts.concat().into_iter().map(|x| json!(x)).collect()
-    };
-    let bodies = model.bodies.iter().zip(&end.bodies);
-    bodies.flat_map(|(body, at)| state_names(&body.name).into_iter().zip(numbers(at))).collect()
+fn end_state(at: &BodyState) -> Vec<Value> {
+    let parts = [at.p_WB.as_slice(), at.q_WB.coords.as_slice(), at.v_WB.as_slice(), at.w_WB.as_slice()];
+    parts.concat().into_iter().map(|x| json!(x)).collect()
+}
+
+/// As the run used them. A point without `inertia_kg_m2` has none.
+fn inertia((described, body): (&file::Body, &Body)) -> Vec<Value> {
+    let is_point = described.shape == file::Shape::None && described.inertia_kg_m2.is_none();
+    let (p, I) = (&body.p_BoBcm, &body.I_B);
+    let tensor = [I[(0, 0)], I[(1, 1)], I[(2, 2)], I[(0, 1)], I[(1, 2)], I[(2, 0)]];
+    let tensor = tensor.map(|x| if is_point { Value::Null } else { json!(x) });
+    [body.mass_kg, p.x, p.y, p.z].map(|x| json!(x)).into_iter().chain(tensor).collect()
+}
+
+fn penalty(method: &Method) -> Option<&file::Penalty> {
+    match method {
+        Method::Penalty(settings) => Some(settings),
+        _ => None,
+    }
 }

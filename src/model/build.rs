@@ -3,7 +3,9 @@
 use super::container::{Container, Face};
 use super::mass::{MassProperties, Moments, box_moments, exact, lumped, sphere_moments};
 use super::mesh::{TetMesh, box_counts, box_mesh, sphere_mesh};
-use super::{Body, Geometry, Model, random};
+use super::place::{Landing, MOST_DRAWS};
+use super::random::Draws;
+use super::{Body, Geometry, Model};
 use crate::collide;
 use crate::experiment::types as file;
 use crate::state::{BodyState, State};
@@ -22,19 +24,23 @@ pub struct BuildError {
 pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError> {
     let scene = &experiment.scene;
     let container = scene.container.as_ref().map(build_container);
+    let landing = Landing::new(experiment, container.as_ref());
     let mut bodies = Vec::with_capacity(scene.bodies.len());
     let mut states = Vec::with_capacity(scene.bodies.len());
+    let mut depths_m = Vec::with_capacity(scene.bodies.len());
     for described in &scene.bodies {
         let body = build_body(described, scene);
-        states.push(first_state(described, &body, scene, experiment.seed));
+        let (state, depth_m) = first_state(described, &body, experiment, landing.as_ref())?;
+        states.push(state);
+        depths_m.push(depth_m);
         bodies.push(body);
     }
     let gravity_m_s2 = Vector3::from(scene.gravity_m_s2);
     let potential_zero_m = potential_zero(&gravity_m_s2, container.as_ref(), &states);
     let model = Model { gravity_m_s2, bodies, container, potential_zero_m };
     let state = State { step: 0, time_s: 0.0, bodies: states };
-    if !matches!(experiment.method, file::Method::Free(_)) {
-        refuse_overlap(&model, &state)?;
+    if !matches!(experiment.method, file::Method::Free(_)) && !scene.allow_overlap {
+        refuse_overlap(&model, &state, &depths_m)?;
     }
     Ok((model, state))
 }
@@ -142,7 +148,37 @@ fn snapped(I_B: Matrix3<f64>) -> Matrix3<f64> {
     if (I_B - mean).abs().max() <= ROUNDING * mean[(0, 0)] { mean } else { I_B }
 }
 
-fn first_state(described: &file::Body, body: &Body, scene: &file::Scene, seed: u64) -> BodyState {
+/// The state at t = 0, and how deep `place: at-contact` has put it into the floor.
+fn first_state(
+    described: &file::Body,
+    body: &Body,
+    experiment: &file::Experiment,
+    landing: Option<&Landing>,
+) -> Result<(BodyState, f64), BuildError> {
+    let given = given_state(described);
+    let placed = |mut state: BodyState| {
+        state.p_WB = Vector3::from(described.position_m) + state.q_WB * body.p_BoBcm;
+        state
+    };
+    let Some(random) = &experiment.scene.random else { return Ok((placed(given), 0.0)) };
+    let mut draws = Draws::new(experiment.seed, &described.name);
+    let mut draw = || {
+        let mut state = given;
+        let part = draws.next(random, &mut state);
+        (placed(state), part)
+    };
+    match landing {
+        Some(landing) if body.touches() => landing.first(body, draw).ok_or_else(|| BuildError {
+            path: "scene.random.place".into(),
+            expected: "a body that approaches the floor in some draw".into(),
+            found: format!("{} receding in all of {MOST_DRAWS}", body.name),
+        }),
+        _ => Ok((draw().0, 0.0)),
+    }
+}
+
+/// What the file says, but for the position, which follows from the attitude.
+fn given_state(described: &file::Body) -> BodyState {
     let mut state = BodyState {
         p_WB: Vector3::zeros(),
         q_WB: described.orientation.as_ref().map_or_else(UnitQuaternion::identity, attitude),
@@ -152,10 +188,6 @@ fn first_state(described: &file::Body, body: &Body, scene: &file::Scene, seed: u
     if let Some(w_B) = described.angular_velocity_body_rad_s {
         state.w_WB = state.q_WB * Vector3::from(w_B);
     }
-    if let Some(random) = &scene.random {
-        random::draw(random, seed, &described.name, &mut state);
-    }
-    state.p_WB = Vector3::from(described.position_m) + state.q_WB * body.p_BoBcm;
     state
 }
 
@@ -185,12 +217,13 @@ fn potential_zero(gravity: &Vector3<f64>, container: Option<&Container>, states:
     up * height
 }
 
-fn refuse_overlap(model: &Model, state: &State) -> Result<(), BuildError> {
+/// `allowed_m`: how deep each body has been put into the floor on purpose.
+fn refuse_overlap(model: &Model, state: &State, allowed_m: &[f64]) -> Result<(), BuildError> {
     /// Of the body's size: a body placed on the floor is not inside it.
     const ROUNDING: f64 = 1e-9;
-    for (body, at) in model.bodies.iter().zip(&state.bodies) {
+    for ((body, at), allowed) in model.bodies.iter().zip(&state.bodies).zip(allowed_m) {
         let depth = collide::deepest_m(model, body, at);
-        if depth > ROUNDING * body.bounding_radius_m {
+        if depth > allowed + ROUNDING * body.bounding_radius_m {
             return Err(BuildError {
                 path: format!("scene.bodies.{}.position_m", body.name),
                 expected: "no overlap with the container at the start".into(),

@@ -32,6 +32,11 @@ impl Container {
         Container { faces: [1, 0, 2].into_iter().flat_map(|axis| [face(axis, 1.0), face(axis, -1.0)]).collect() }
     }
 
+    /// The face whose normal is most upward, the first of equals.
+    pub fn floor(&self, up: &Vector3<f64>) -> Option<&Face> {
+        self.faces.iter().reduce(|best, face| if face.normal.dot(up) > best.normal.dot(up) { face } else { best })
+    }
+
     /// Least value of up·x inside, if the container is closed below.
     ///
     /// A linear programme, solved by its dual: the largest Σ λᵢ offsetᵢ over the λ ≥ 0 of at most three faces with

@@ -7,6 +7,7 @@ mod build;
 pub mod container;
 pub mod mass;
 pub mod mesh;
+mod place;
 pub mod random;
 
 pub use build::{BuildError, build};

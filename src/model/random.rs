@@ -7,22 +7,34 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sha2::{Digest, Sha256};
 
-/// Replaces what `random` names. All draws are made whether they are asked for or not, in one order, so that asking
-/// for a spin does not change the velocity.
-pub fn draw(random: &Random, seed: u64, name: &str, state: &mut BodyState) {
-    let mut rng = generator(seed, name);
-    let (along_v, along_w, attitude) = (direction(&mut rng), direction(&mut rng), attitude(&mut rng));
-    if let Some(speed) = random.speed_m_s {
-        state.v_WB = along_v * speed;
-        if random.direction == Some(Direction::Downward) {
-            state.v_WB.y = -state.v_WB.y.abs();
+/// The draws of one body.
+pub struct Draws {
+    rng: ChaCha8Rng,
+}
+
+impl Draws {
+    pub fn new(seed: u64, name: &str) -> Self {
+        Draws { rng: generator(seed, name) }
+    }
+
+    /// Replaces what `random` names and returns a number uniform on (0, 1). All draws are made whether they are asked for
+    /// or not, in one order, so that asking for a spin does not change the velocity.
+    pub fn next(&mut self, random: &Random, state: &mut BodyState) -> f64 {
+        let rng = &mut self.rng;
+        let (along_v, along_w, attitude) = (direction(rng), direction(rng), attitude(rng));
+        if let Some(speed) = random.speed_m_s {
+            state.v_WB = along_v * speed;
+            if random.direction == Some(Direction::Downward) {
+                state.v_WB.y = -state.v_WB.y.abs();
+            }
         }
-    }
-    if let Some(spin) = random.spin_rad_s {
-        state.w_WB = along_w * spin;
-    }
-    if random.attitude {
-        state.q_WB = attitude;
+        if let Some(spin) = random.spin_rad_s {
+            state.w_WB = along_w * spin;
+        }
+        if random.attitude {
+            state.q_WB = attitude;
+        }
+        unit(rng)
     }
 }
 
@@ -34,6 +46,11 @@ fn generator(seed: u64, name: &str) -> ChaCha8Rng {
 /// Uniform on [−1, 1) in steps of 2⁻⁵², which is f64's epsilon.
 fn symmetric(rng: &mut ChaCha8Rng) -> f64 {
     (rng.next_u64() >> 11) as f64 * f64::EPSILON - 1.0
+}
+
+/// Uniform on (0, 1), both ends left out: odd multiples of 2⁻⁵³.
+fn unit(rng: &mut ChaCha8Rng) -> f64 {
+    ((rng.next_u64() >> 12) as f64 + 0.5) * f64::EPSILON
 }
 
 /// A point of the open unit disc and its squared radius, by rejection: no trigonometry, hence the same bits everywhere.

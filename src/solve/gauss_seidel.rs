@@ -5,7 +5,7 @@
 
 use super::problem::{Block, ContactProblem, Coupling, Memory};
 use super::{Impulse, corrected};
-use crate::experiment::types::{Correction, Iteration};
+use crate::experiment::types::{Cone, Correction, Iteration};
 use crate::measure::work::Work;
 use nalgebra::Vector3;
 
@@ -14,6 +14,7 @@ use nalgebra::Vector3;
 pub struct Sweeps {
     pub iteration: Iteration,
     pub correction: Correction,
+    pub cone: Cone,
     pub most: u32,
     /// Stop when no impulse changes by more than this part of the largest. At 0 that is when a sweep changes not one
     /// bit: the sweeps left out would have changed nothing.
@@ -47,9 +48,9 @@ pub fn iterate(problem: &ContactProblem, sweeps: &Sweeps, p: &mut [Impulse], scr
 }
 
 /// Puts every impulse back into its cone.
-pub fn correct_all(problem: &ContactProblem, p: &mut [Impulse]) {
+pub fn correct_all(problem: &ContactProblem, cone: Cone, p: &mut [Impulse]) {
     for (block, p) in problem.blocks.iter().zip(p) {
-        *p = corrected(p, block.friction);
+        *p = corrected(p, block.friction, cone);
     }
 }
 
@@ -61,18 +62,19 @@ fn sweep_until_done(
     before: &mut Vec<Impulse>,
     work: &mut Work,
 ) {
+    let cone = sweeps.cone;
     for _ in 0..sweeps.most {
         work.sweeps += 1;
         before.clear();
         before.extend_from_slice(p);
         match (sweeps.iteration, sweeps.correction) {
-            (Iteration::Jacobi, _) => jacobi(problem, coupling, before, p),
+            (Iteration::Jacobi, _) => jacobi(problem, coupling, cone, before, p),
             (Iteration::GaussSeidel, Correction::AfterSweep) => {
                 in_place(problem, coupling, p, three_rows);
-                in_place(problem, coupling, p, |block, _, p| corrected(p, block.friction));
+                in_place(problem, coupling, p, |block, _, p| corrected(p, block.friction, cone));
             }
             (Iteration::GaussSeidel, Correction::PerContact) if sweeps.friction => {
-                in_place(problem, coupling, p, within_cone);
+                in_place(problem, coupling, p, |block, c, p| within_cone(block, c, p, cone));
             }
             (Iteration::GaussSeidel, Correction::PerContact) => {
                 in_place(problem, coupling, p, |block, c, p| {
@@ -106,10 +108,10 @@ fn in_place(
 }
 
 /// As printed: every row from the forces of the sweep before.
-fn jacobi(problem: &ContactProblem, coupling: &mut impl Coupling, before: &[Impulse], p: &mut [Impulse]) {
+fn jacobi(problem: &ContactProblem, coupling: &mut impl Coupling, cone: Cone, before: &[Impulse], p: &mut [Impulse]) {
     for (i, block) in problem.blocks.iter().enumerate() {
         let c = coupling.velocity(i, block, before);
-        p[i] = corrected(&(before[i] - c.component_mul(&block.inverse_diagonal)), block.friction);
+        p[i] = corrected(&(before[i] - c.component_mul(&block.inverse_diagonal)), block.friction, cone);
     }
     for (i, block) in problem.blocks.iter().enumerate() {
         coupling.moved(block, &(p[i] - before[i]));
@@ -132,11 +134,11 @@ fn three_rows(block: &Block, c: &Vector3<f64>, p: &Impulse) -> Impulse {
 /// contact then opposes its slip. With a length of its own for each row it points elsewhere, and the forces of redundant
 /// contacts work against each other (measured: a slab on four corners slides 1.15 times too far).
 #[inline(always)]
-fn within_cone(block: &Block, c: &Vector3<f64>, p: &Impulse) -> Impulse {
+fn within_cone(block: &Block, c: &Vector3<f64>, p: &Impulse, cone: Cone) -> Impulse {
     let normal = (p.x - c.x * block.inverse_diagonal.x).max(0.0);
     let change = normal - p.x;
     let tangent = |i: usize| p[i] - (c[i] + block.A[(i, 0)] * change) * block.tangent_step;
-    corrected(&Impulse::new(normal, tangent(1), tangent(2)), block.friction)
+    corrected(&Impulse::new(normal, tangent(1), tangent(2)), block.friction, cone)
 }
 
 fn has_settled(before: &[Impulse], p: &[Impulse], tolerance: f64) -> bool {

@@ -226,7 +226,7 @@ impl Block {
     }
 
     fn new(contact: &Contact, before: &BodyState, free: &Twist, mass_kg: f64, I_W_inverse: &Matrix3<f64>) -> Self {
-        let frame = contact_frame(&contact.normal);
+        let frame = contact.frame();
         let rows = frame.map(|e| {
             let j = Twist { v: e, w: contact.r_BC_W.cross(&e) };
             Row { j, response: Twist { v: e / mass_kg, w: I_W_inverse * j.w } }
@@ -264,12 +264,4 @@ fn rows_times_responses(rows: &[Row; 3], others: &[Row; 3]) -> Matrix3<f64> {
 fn largest_eigenvalue(a: f64, b: f64, c: f64) -> f64 {
     let half = (a - b) / 2.0;
     (a + b) / 2.0 + (half * half + c * c).sqrt()
-}
-
-/// e₁ = n and two tangents; for the faces of a box the tangents are the other coordinate axes.
-fn contact_frame(normal: &Vector3<f64>) -> [Vector3<f64>; 3] {
-    let least = normal.iamin();
-    let along = Vector3::ith(least, 1.0);
-    let t1 = (along - normal * normal[least]).normalize();
-    [*normal, t1, normal.cross(&t1)]
 }

@@ -41,10 +41,11 @@ impl Lecture {
         s.problem.gather(model, state, &s.free, &s.found);
         first_guess(&s.problem, self.settings.start, &mut s.impulses);
         if !s.found.is_empty() {
-            correct_all(&s.problem, &mut s.impulses);
+            correct_all(&s.problem, self.settings.cone, &mut s.impulses);
             let sweeps = Sweeps {
                 iteration: self.settings.iteration,
                 correction: self.settings.correction,
+                cone: self.settings.cone,
                 most: self.settings.sweeps,
                 tolerance: 0.0,
                 friction: true,

@@ -6,7 +6,7 @@
 
 use super::{Clock, Scratch};
 use crate::collide::{Contact, detect};
-use crate::experiment::types::{Correction, Iteration, PositionCorrection, TimeStepping as Settings};
+use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
 use crate::integrate::rotation::{exponential, turn_at_momentum, w_from_momentum};
 use crate::model::Model;
 use crate::solve::Impulse;
@@ -35,6 +35,7 @@ impl TimeStepping {
             sweeps: Sweeps {
                 iteration: Iteration::GaussSeidel,
                 correction: Correction::PerContact,
+                cone: Cone::Disc,
                 most: settings.sweeps,
                 tolerance: settings.tolerance,
                 friction,

@@ -93,6 +93,8 @@ const ROWS: &[Row] = &[
     ("a container from a mesh", "    box:\n", "    mesh:\n", 4, "scene.container.mesh", "`mesh` is not available in this version"),
     ("a direction without speed", "  friction: 0.3\n", "  random: { direction: downward }\n", 2, "scene.random.speed_m_s", "`direction` needs a speed"),
     ("a random spin of a point", "  friction: 0.3\n", "  random: { spin_rad_s: 1 }\n", 2, "scene.random.spin_rad_s", "`point` is a point without `inertia_kg_m2`"),
+    ("a contact with nothing", "  friction: 0.3\n  container:\n    box:\n      size_m: [4, 4, 4]\n", "  random: { place: at-contact }\n", 2, "scene.random.place", "no `container` to touch"),
+    ("a contact of nothing", "  bodies:\n    - name: cube\n      shape: { box: { size_m: [1, 1, 1] } }\n      mesh: { nodes_per_edge: 3 }\n      mass_kg: 1.0\n      position_m: [0, 2, 0]\n", "  random: { place: at-contact }\n  bodies:\n", 6, "scene.random.place", "no body has a shape"),
     // Method and scene.
     ("the lecture without mesh", "      mesh: { nodes_per_edge: 3 }\n", "", 7, "scene.bodies.cube.mesh", "the method `lecture` touches with nodes and needs a mesh"),
     ("no sweeps", LECTURE, "method: { lecture: { sweeps: 0 } }\n", 16, "method.lecture.sweeps", "at least 1, found 0"),
@@ -106,6 +108,9 @@ const ROWS: &[Row] = &[
     ("an energy factor of 1", END, "  end_s: 1\ndiverge:\n  energy_factor: 1\n", 21, "diverge.energy_factor", "greater than 1"),
     ("a negative interval", END, "  end_s: 1\nrecord: { every_s: -1 }\n", 20, "record.every_s", "at least 0"),
     ("an unknown stream", END, "  end_s: 1\nrecord:\n  streams: [bodies, contact]\n", 21, "record.streams.1", "did you mean `contacts`?"),
+    ("a critical step of no spring", END, "  end_s: 1\nmeasure: [state, critical-step]\n", 20, "measure.1", "only the step of the method `penalty` is critical, found `critical-step`"),
+    ("an unknown measure", END, "  end_s: 1\nmeasure: [contact-matrx]\n", 20, "measure.0", "did you mean `contact-matrix`?"),
+    ("an unknown cone", LECTURE, "method: { lecture: { cone: disk } }\n", 16, "method.lecture.cone", "did you mean `disc`?"),
     // The text.
     ("a bracket left open", "[0, 2, 0]", "[0, 2, 0", 12, "", "not valid YAML"),
     ("a tab", "seed: 7", "\tseed: 7", 15, "", "not valid YAML"),

@@ -1,5 +1,6 @@
 //! Each method against its own recurrence, the exact motion, and what it should conserve.
 
+mod cone;
 mod contact;
 mod divergence;
 mod free;

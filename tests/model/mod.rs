@@ -1,5 +1,6 @@
 //! Meshes, mass properties, containers, start states.
 
+mod at_contact;
 mod container;
 mod mass;
 mod mesh;

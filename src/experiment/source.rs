@@ -30,7 +30,10 @@ pub fn read(path: &Path) -> Result<String> {
 /// One mapping, with merged keys (`<<`) in place.
 pub fn parse(text: &str) -> Result<Value> {
     let mut tree: Value = serde_yaml::from_str(text).map_err(|error| syntax_error(&error, text))?;
-    tree.apply_merge().map_err(|error| syntax_error(&error, text))?;
+    // Once for every merge within a merged mapping.
+    while has_merge(&tree) {
+        tree.apply_merge().map_err(|error| syntax_error(&error, text))?;
+    }
     match tree {
         Value::Mapping(_) => Ok(tree),
         Value::Null => {
@@ -42,6 +45,14 @@ pub fn parse(text: &str) -> Result<Value> {
             "an experiment (a mapping with the keys scene, method, time, …)",
             &describe(&other),
         )),
+    }
+}
+
+fn has_merge(tree: &Value) -> bool {
+    match tree {
+        Value::Mapping(mapping) => mapping.contains_key("<<") || mapping.values().any(has_merge),
+        Value::Sequence(items) => items.iter().any(has_merge),
+        _ => false,
     }
 }
 

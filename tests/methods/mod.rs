@@ -5,6 +5,7 @@ mod divergence;
 mod free;
 mod lecture;
 mod penalty;
+mod residual;
 mod skipping;
 
 /// Slope of log error against log step (least squares).

@@ -4,8 +4,8 @@
 //! solver `pgs` of time-stepping. `after-sweep` is the slide to the letter. As printed the slide's formula is Jacobi; Gauss–Seidel uses the values already updated.
 
 use super::problem::{Block, ContactProblem, Coupling, Memory};
-use super::{Impulse, corrected};
-use crate::experiment::types::{Correction, Iteration};
+use super::{Impulse, corrected, exact_contact};
+use crate::experiment::types::{Correction, Iteration, Local, Order};
 use crate::measure::work::Work;
 use nalgebra::Vector3;
 
@@ -23,26 +23,63 @@ pub struct Sweeps {
     pub friction: bool,
 }
 
+/// Variants of projected Gauss–Seidel; the default is the lecture's `per-contact`.
+#[derive(Clone, Copy, Debug)]
+pub struct Variant {
+    pub local: Local,
+    /// Part of a contact's change that is made, before it is corrected.
+    pub relaxation: f64,
+    pub order: Order,
+}
+
+impl Default for Variant {
+    fn default() -> Self {
+        Variant { local: Local::Common, relaxation: 1.0, order: Order::Fixed }
+    }
+}
+
 /// The solver's memory between steps, to spare the allocator.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     before: Vec<Impulse>,
+    order: Vec<usize>,
     coupling: Memory,
 }
 
 impl Scratch {
     pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
-        Scratch { before: Vec::with_capacity(contacts), coupling: Memory::with_capacity(bodies) }
+        Scratch {
+            before: Vec::with_capacity(contacts),
+            order: Vec::with_capacity(contacts),
+            coupling: Memory::with_capacity(bodies),
+        }
     }
 }
 
 /// Improves `p` by at most `sweeps.most` sweeps.
 pub fn iterate(problem: &ContactProblem, sweeps: &Sweeps, p: &mut [Impulse], scratch: &mut Scratch, work: &mut Work) {
-    let Scratch { before, coupling } = scratch;
+    iterate_as(problem, sweeps, &Variant::default(), p, scratch, work);
+}
+
+/// The same with a variant of `correction: per-contact`.
+pub fn iterate_as(
+    problem: &ContactProblem,
+    sweeps: &Sweeps,
+    variant: &Variant,
+    p: &mut [Impulse],
+    scratch: &mut Scratch,
+    work: &mut Work,
+) {
+    let Scratch { before, order, coupling } = scratch;
+    order.clear();
+    if variant.order == Order::Shuffled {
+        order.extend(0..p.len());
+    }
+    let how = (sweeps, variant);
     if problem.is_dense() {
-        sweep_until_done(problem, &mut problem.dense(), sweeps, p, before, work);
+        sweep_until_done(problem, &mut problem.dense(), how, p, before, order, work);
     } else {
-        sweep_until_done(problem, &mut problem.through_bodies(p, coupling), sweeps, p, before, work);
+        sweep_until_done(problem, &mut problem.through_bodies(p, coupling), how, p, before, order, work);
     }
 }
 
@@ -56,33 +93,69 @@ pub fn correct_all(problem: &ContactProblem, p: &mut [Impulse]) {
 fn sweep_until_done(
     problem: &ContactProblem,
     coupling: &mut impl Coupling,
-    sweeps: &Sweeps,
+    (sweeps, variant): (&Sweeps, &Variant),
     p: &mut [Impulse],
     before: &mut Vec<Impulse>,
+    order: &mut [usize],
     work: &mut Work,
 ) {
-    for _ in 0..sweeps.most {
+    for sweep in 0..sweeps.most {
         work.sweeps += 1;
         before.clear();
         before.extend_from_slice(p);
         match (sweeps.iteration, sweeps.correction) {
             (Iteration::Jacobi, _) => jacobi(problem, coupling, before, p),
             (Iteration::GaussSeidel, Correction::AfterSweep) => {
-                in_place(problem, coupling, p, three_rows);
-                in_place(problem, coupling, p, |block, _, p| corrected(p, block.friction));
+                in_place(problem, coupling, p, 0..before.len(), three_rows);
+                in_place(problem, coupling, p, 0..before.len(), |block, _, p| corrected(p, block.friction));
             }
-            (Iteration::GaussSeidel, Correction::PerContact) if sweeps.friction => {
-                in_place(problem, coupling, p, within_cone);
+            (Iteration::GaussSeidel, Correction::PerContact) if variant.order == Order::Fixed => {
+                per_contact(problem, coupling, p, 0..before.len(), sweeps.friction, variant);
             }
             (Iteration::GaussSeidel, Correction::PerContact) => {
-                in_place(problem, coupling, p, |block, c, p| {
-                    Impulse::new((p.x - c.x * block.inverse_diagonal.x).max(0.0), 0.0, 0.0)
-                });
+                shuffle(order, sweep);
+                per_contact(problem, coupling, p, order.iter().copied(), sweeps.friction, variant);
             }
         }
         if has_settled(before, p, sweeps.tolerance) {
             break;
         }
+    }
+}
+
+/// One sweep of projected Gauss–Seidel in any of its variants.
+fn per_contact(
+    problem: &ContactProblem,
+    coupling: &mut impl Coupling,
+    p: &mut [Impulse],
+    order: impl Iterator<Item = usize>,
+    friction: bool,
+    variant: &Variant,
+) {
+    let part = variant.relaxation;
+    match variant.local {
+        _ if !friction => in_place(problem, coupling, p, order, |block, c, p| {
+            Impulse::new((p.x - c.x * block.inverse_diagonal.x * part).max(0.0), 0.0, 0.0)
+        }),
+        Local::Common => in_place(problem, coupling, p, order, |block, c, p| within_cone(block, c, p, part)),
+        Local::Rows => in_place(problem, coupling, p, order, |block, c, p| rows_within_cone(block, c, p, part)),
+        Local::Exact => in_place(problem, coupling, p, order, |block, c, p| {
+            let exact = exact_contact::solve(&block.A, c, p, block.friction);
+            corrected(&(p * (1.0 - part) + exact * part), block.friction)
+        }),
+    }
+}
+
+/// Another order for every sweep, the same in every step (Fisher and Yates with the generator of G. Steele, D. Lea,
+/// C. Flood, OOPSLA 2014): an iteration that goes round in circles in one order does not in all.
+fn shuffle(order: &mut [usize], sweep: u32) {
+    let mut seed = u64::from(sweep) << 32;
+    for i in (1..order.len()).rev() {
+        seed = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut x = seed;
+        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        order.swap(i, ((x ^ (x >> 31)) % (i as u64 + 1)) as usize);
     }
 }
 
@@ -95,9 +168,11 @@ fn in_place(
     problem: &ContactProblem,
     coupling: &mut impl Coupling,
     p: &mut [Impulse],
+    order: impl Iterator<Item = usize>,
     improve: impl Fn(&Block, &Vector3<f64>, &Impulse) -> Impulse,
 ) {
-    for (i, block) in problem.blocks.iter().enumerate() {
+    for i in order {
+        let block = &problem.blocks[i];
         let c = coupling.velocity(i, block, p);
         let new = improve(block, &c, &p[i]);
         coupling.moved(block, &(new - p[i]));
@@ -132,11 +207,21 @@ fn three_rows(block: &Block, c: &Vector3<f64>, p: &Impulse) -> Impulse {
 /// contact then opposes its slip. With a length of its own for each row it points elsewhere, and the forces of redundant
 /// contacts work against each other (measured: a slab on four corners slides 1.15 times too far).
 #[inline(always)]
-fn within_cone(block: &Block, c: &Vector3<f64>, p: &Impulse) -> Impulse {
-    let normal = (p.x - c.x * block.inverse_diagonal.x).max(0.0);
+fn within_cone(block: &Block, c: &Vector3<f64>, p: &Impulse, part: f64) -> Impulse {
+    let normal = (p.x - c.x * block.inverse_diagonal.x * part).max(0.0);
     let change = normal - p.x;
-    let tangent = |i: usize| p[i] - (c[i] + block.A[(i, 0)] * change) * block.tangent_step;
+    let tangent = |i: usize| p[i] - (c[i] + block.A[(i, 0)] * change) * block.tangent_step * part;
     corrected(&Impulse::new(normal, tangent(1), tangent(2)), block.friction)
+}
+
+/// The same with each tangent row divided by its own diagonal, as textbooks have it: it settles, but elsewhere.
+fn rows_within_cone(block: &Block, c: &Vector3<f64>, p: &Impulse, part: f64) -> Impulse {
+    let (A, d) = (&block.A, &block.inverse_diagonal);
+    let normal = (p.x - c.x * d.x * part).max(0.0);
+    let d1 = normal - p.x;
+    let d2 = -(c.y + A[(1, 0)] * d1) * d.y * part;
+    let d3 = -(c.z + A[(2, 0)] * d1 + A[(2, 1)] * d2) * d.z * part;
+    corrected(&Impulse::new(normal, p.y + d2, p.z + d3), block.friction)
 }
 
 fn has_settled(before: &[Impulse], p: &[Impulse], tolerance: f64) -> bool {

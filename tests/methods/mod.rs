@@ -1,6 +1,7 @@
 //! Each method against its own recurrence, the exact motion, and what it should conserve.
 
 mod contact;
+mod cycles;
 mod divergence;
 mod free;
 mod lecture;

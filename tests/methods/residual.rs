@@ -91,7 +91,7 @@ fn impacts() -> [Impact; 6] {
 fn an_exact_impulse_has_no_residual() {
     for impact in impacts() {
         let residual = impact.residual(impact.solved());
-        // measured: 1.2e-16 at most
+        // measured: 3.5e-17 at most
         assert!(residual < 1e-15, "{:?} {}: {residual}", impact.velocity, impact.friction);
     }
 }
@@ -109,7 +109,7 @@ fn a_wrong_impulse_is_found() {
     ];
     for (what, impulse) in wrong {
         let residual = IMPACT.residual(impulse);
-        // measured: 0.10 (half) … 0.39 (friction the other way)
+        // measured: 0.080 (twice) … 0.98 (none)
         assert!(residual > 0.05, "{what}: {residual}");
     }
     let pulled = Impact { velocity: [0.0, 1.0, 0.0], ..IMPACT }.residual(Vector3::new(0.0, -1.0, 0.0));
@@ -132,7 +132,7 @@ fn the_residual_has_no_unit() {
         for impact in impacts() {
             let impulse = impact.solved() * 0.9 + Vector3::new(0.1, 0.0, 0.0);
             let (one, other) = (impact.residual(impulse), scaled(&impact).residual(impulse * (mass * length / time)));
-            // measured: 0 and 1.5e-15
+            // measured: 0 and 3.6e-15
             assert!((other / one - 1.0).abs() <= bound, "{mass}: {one} {other}");
         }
     }
@@ -154,6 +154,7 @@ fn more_sweeps_leave_less_residual() {
     };
     let residuals = [1, 4, 16, 64, 256].map(residual);
     assert!(residuals.windows(2).all(|pair| pair[1] < pair[0] || pair[1] < 1e-14), "{residuals:?}");
+    // measured: 0.19, 1.1e-2, 1.1e-5, 1.5e-16, 1.6e-16
     assert!(residuals[0] > 1e-3 && residuals[4] < 1e-14, "{residuals:?}");
 }
 
@@ -163,7 +164,7 @@ fn only_those_who_claim_to_solve_contact_are_judged() {
     assert_eq!(of("method=free", &[]), None);
     assert_eq!(of("method={penalty: {stiffness_n_m: 1e4}}", &[]), None);
     assert_eq!(of("method=time-stepping", &["time.end_s=0.01"]), None, "no contact yet");
-    // measured: 0.78 and 1.1e-3
+    // measured: 1.77 and 6.1e-6
     let (lecture, sound) = (of("method=lecture", &[]).unwrap(), of("method=time-stepping", &[]).unwrap());
-    assert!(lecture > 0.1 && sound < 0.05, "{lecture} {sound}");
+    assert!(lecture > 0.1 && sound < 1e-3, "{lecture} {sound}");
 }

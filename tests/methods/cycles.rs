@@ -88,7 +88,7 @@ fn exact_contacts_and_under_relaxation_alone_do_not_end_it() {
     assert!(residual(84, 500, &["relaxation=0.5"]) < 1e-14);
 }
 
-/// With a length of its own for each tangent row the iteration settles, but away from the solution, at every μ.
+/// With a length of its own for each tangent row the iteration settles away from the solution where contacts slip.
 #[test]
 fn tangent_rows_of_their_own_settle_elsewhere() {
     for friction in ["0.1", "0.3"] {

@@ -10,6 +10,8 @@ use crate::model::Model;
 pub struct Plan {
     /// Some body can touch something, and the method looks.
     pub contact: bool,
+    /// The method claims that its impulses obey the law of contact, and is held to it.
+    pub constraint: bool,
     /// Tangent rows are solved.
     pub friction: bool,
     pub stages: Vec<Stage>,
@@ -29,7 +31,8 @@ impl Plan {
         let friction = friction(model, method, contact.runs);
         let (has_contact, has_friction) = (contact.runs, friction.runs);
         let stages = vec![contact, friction, gyroscopic(model, method), position_correction(method, has_contact)];
-        Plan { contact: has_contact, friction: has_friction, stages }
+        let constraint = has_contact && !matches!(method, Method::Penalty(_));
+        Plan { contact: has_contact, constraint, friction: has_friction, stages }
     }
 }
 

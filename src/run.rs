@@ -27,7 +27,7 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     let clock = clock(experiment);
     let plan = Plan::new(model, &experiment.method);
     let mut stepper = Stepper::new(&experiment.method, &plan, model);
-    let mut judge = Judge::new(model, &start, &experiment.diverge, plan.contact);
+    let mut judge = Judge::new(model, &start, &experiment.diverge, &plan);
     judge.watched = Watched::new(&experiment.measure);
     let (mut before, mut state) = (start.clone(), start);
     let mut stepping = Duration::ZERO;
@@ -86,6 +86,7 @@ fn summarize(
         angular_momentum_drift_rel: finite(judge.momentum.angular_drift_rel()),
         penetration_max_m: judge.penetration_max_m.and_then(finite),
         penetration_end_m: penetration_end_m.and_then(finite),
+        residual_max: judge.residual.max.and_then(finite),
         contact_gain_max: judge.energy.contact_gain_max.and_then(finite),
         contacts_max: judge.contacts_max,
         wall_s: finite(stepping.as_secs_f64()),

@@ -46,7 +46,7 @@ fn allocations(sets: &[&str]) -> (u64, u64) {
     let clock = gotai::run::clock(&experiment);
     let plan = Plan::new(&model, &experiment.method);
     let mut stepper = Stepper::new(&experiment.method, &plan, &model);
-    let mut judge = Judge::new(&model, &start, &experiment.diverge, plan.contact);
+    let mut judge = Judge::new(&model, &start, &experiment.diverge, &plan);
     let (mut before, mut state) = (start.clone(), start);
     let counted = ALLOCATIONS.get();
     while state.step < clock.steps {
@@ -68,6 +68,7 @@ fn no_step_allocates() {
         "{lecture: {correction: per-contact, rotation: momentum}}",
         "{penalty: {stiffness_n_m: 1e4}}",
         "time-stepping",
+        "{time-stepping: {local: exact, order: shuffled, relaxation: 0.5, contacts_per_face: 4}}",
     ];
     for method in methods {
         for mesh in ["nodes_per_edge: 2", "nodes_per_edge: 5"] {

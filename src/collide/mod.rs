@@ -3,6 +3,8 @@
 //! A node is in contact when n·(u_c − u_p) < margin. Contacts come in a stable order: body, face, node. A face farther
 //! from the centre of mass than the bounding radius is skipped with one dot product.
 
+pub mod reduce;
+
 use crate::measure::work::Work;
 use crate::model::container::Face;
 use crate::model::{Body, Geometry, Model};

@@ -112,7 +112,9 @@ fn validate_method(method: &Method, at: Path) -> Result<()> {
         Method::TimeStepping(stepping) => {
             let at = at.key("time-stepping");
             at_least_one(stepping.sweeps, at.key("sweeps"))?;
-            not_negative(stepping.tolerance, at.key("tolerance"))
+            not_negative(stepping.tolerance, at.key("tolerance"))?;
+            relaxation(stepping.relaxation, at.key("relaxation"))?;
+            stepping.contacts_per_face.map_or(Ok(()), |count| holds_a_face(count, at.key("contacts_per_face")))
         }
     }
 }
@@ -242,6 +244,16 @@ pub(super) fn a_part(x: f64, at: Path) -> Result<()> {
 
 fn at_least_one(n: u32, at: Path) -> Result<()> {
     if n >= 1 { Ok(()) } else { Err(unexpected(at, "a whole number of at least 1", &n.to_string())) }
+}
+
+/// Outside of these no sweep converges.
+fn relaxation(x: f64, at: Path) -> Result<()> {
+    if x > 0.0 && x < 2.0 { Ok(()) } else { Err(unexpected(at, "a number between 0 and 2", &number(x))) }
+}
+
+fn holds_a_face(contacts: u32, at: Path) -> Result<()> {
+    let expected = "a whole number of at least 3, as fewer contacts hold no face";
+    if contacts >= 3 { Ok(()) } else { Err(unexpected(at, expected, &contacts.to_string())) }
 }
 
 pub(super) fn sizes(sizes: &[f64; 3], at: Path) -> Result<()> {

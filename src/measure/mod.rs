@@ -1,4 +1,4 @@
-//! The judges: energy, momentum, penetration, divergence, computed from states and contacts alone.
+//! The judges: energy, momentum, the law of contact, penetration, divergence, computed from states and contacts alone.
 //!
 //! Nothing here imports a method or takes a solver's word: what an impulse did to a body is worked out again from the
 //! impulse, the arm and the mass properties.
@@ -11,17 +11,20 @@ mod kept;
 pub mod momentum;
 pub mod more;
 pub mod order;
+pub mod residual;
 pub mod work;
 
 use crate::collide::{self, SolvedContact};
 use crate::experiment::types::Diverge;
 use crate::model::Model;
+use crate::plan::Plan;
 use crate::state::State;
 use divergence::{Criterion, Divergence};
 use energy::{Energy, EnergyLedger};
 use momentum::MomentumLedger;
 use more::Watched;
 use nalgebra::Vector3;
+use residual::ResidualLedger;
 
 /// What the contacts of one step did to a body: Σp and Σ r×p about its centre of mass, world axes.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +41,7 @@ impl Push {
 pub struct Judge {
     pub energy: EnergyLedger,
     pub momentum: MomentumLedger,
+    pub residual: ResidualLedger,
     /// None: the method never looks for contacts.
     pub penetration_max_m: Option<f64>,
     pub contacts_max: u64,
@@ -47,12 +51,13 @@ pub struct Judge {
 }
 
 impl Judge {
-    pub fn new(model: &Model, start: &State, rules: &Diverge, contact: bool) -> Self {
+    pub fn new(model: &Model, start: &State, rules: &Diverge, plan: &Plan) -> Self {
         let energy = Energy::of(model, start);
         Judge {
             energy: EnergyLedger::new(energy),
             momentum: MomentumLedger::new(model, start),
-            penetration_max_m: contact.then_some(0.0),
+            residual: ResidualLedger::new(plan.constraint, model),
+            penetration_max_m: plan.contact.then_some(0.0),
             contacts_max: 0,
             watched: Watched::default(),
             divergence: Divergence::new(rules, &energy),
@@ -75,6 +80,7 @@ impl Judge {
             self.energy.observe_contacts(model, before, &self.pushes, step_s);
             self.watched.observe(before, contacts);
         }
+        self.residual.observe(model, before, contacts, &self.pushes, step_s);
         self.energy.observe(energy);
         self.momentum.observe(model, before, after, &self.pushes, !contacts.is_empty(), step_s);
         let depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max);

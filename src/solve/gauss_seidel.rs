@@ -4,8 +4,8 @@
 //! solver `pgs` of time-stepping. `after-sweep` is the slide to the letter. As printed the slide's formula is Jacobi; Gauss–Seidel uses the values already updated.
 
 use super::problem::{Block, ContactProblem, Coupling, Memory};
-use super::{Impulse, corrected};
-use crate::experiment::types::{Cone, Correction, Iteration};
+use super::{Impulse, corrected, exact_contact};
+use crate::experiment::types::{Cone, Correction, Iteration, Local, Order};
 use crate::measure::work::Work;
 use nalgebra::Vector3;
 
@@ -22,28 +22,53 @@ pub struct Sweeps {
     /// False where μ = 0 everywhere: tangent rows are left out (per-contact correction only; after a sweep the
     /// uncorrected tangents have already been felt by the normals).
     pub friction: bool,
+    pub variant: Variant,
+}
+
+/// Variants of `correction: per-contact`; the default is the lecture's.
+#[derive(Clone, Copy, Debug)]
+pub struct Variant {
+    pub local: Local,
+    /// Part of a contact's change that is made, before it is corrected.
+    pub relaxation: f64,
+    pub order: Order,
+}
+
+impl Default for Variant {
+    fn default() -> Self {
+        Variant { local: Local::Common, relaxation: 1.0, order: Order::Fixed }
+    }
 }
 
 /// The solver's memory between steps, to spare the allocator.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     before: Vec<Impulse>,
+    order: Vec<usize>,
     coupling: Memory,
 }
 
 impl Scratch {
     pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
-        Scratch { before: Vec::with_capacity(contacts), coupling: Memory::with_capacity(bodies) }
+        Scratch {
+            before: Vec::with_capacity(contacts),
+            order: Vec::with_capacity(contacts),
+            coupling: Memory::with_capacity(bodies),
+        }
     }
 }
 
 /// Improves `p` by at most `sweeps.most` sweeps.
 pub fn iterate(problem: &ContactProblem, sweeps: &Sweeps, p: &mut [Impulse], scratch: &mut Scratch, work: &mut Work) {
-    let Scratch { before, coupling } = scratch;
+    let Scratch { before, order, coupling } = scratch;
+    order.clear();
+    if sweeps.variant.order == Order::Shuffled {
+        order.extend(0..p.len());
+    }
     if problem.is_dense() {
-        sweep_until_done(problem, &mut problem.dense(), sweeps, p, before, work);
+        sweep_until_done(problem, &mut problem.dense(), sweeps, p, before, order, work);
     } else {
-        sweep_until_done(problem, &mut problem.through_bodies(p, coupling), sweeps, p, before, work);
+        sweep_until_done(problem, &mut problem.through_bodies(p, coupling), sweeps, p, before, order, work);
     }
 }
 
@@ -60,31 +85,66 @@ fn sweep_until_done(
     sweeps: &Sweeps,
     p: &mut [Impulse],
     before: &mut Vec<Impulse>,
+    order: &mut [usize],
     work: &mut Work,
 ) {
     let cone = sweeps.cone;
-    for _ in 0..sweeps.most {
+    for sweep in 0..sweeps.most {
         work.sweeps += 1;
         before.clear();
         before.extend_from_slice(p);
         match (sweeps.iteration, sweeps.correction) {
             (Iteration::Jacobi, _) => jacobi(problem, coupling, cone, before, p),
             (Iteration::GaussSeidel, Correction::AfterSweep) => {
-                in_place(problem, coupling, p, three_rows);
-                in_place(problem, coupling, p, |block, _, p| corrected(p, block.friction, cone));
+                in_place(problem, coupling, p, 0..before.len(), three_rows);
+                in_place(problem, coupling, p, 0..before.len(), |block, _, p| corrected(p, block.friction, cone));
             }
-            (Iteration::GaussSeidel, Correction::PerContact) if sweeps.friction => {
-                in_place(problem, coupling, p, |block, c, p| within_cone(block, c, p, cone));
+            (Iteration::GaussSeidel, Correction::PerContact) if sweeps.variant.order == Order::Fixed => {
+                per_contact(problem, coupling, p, 0..before.len(), sweeps);
             }
             (Iteration::GaussSeidel, Correction::PerContact) => {
-                in_place(problem, coupling, p, |block, c, p| {
-                    Impulse::new((p.x - c.x * block.inverse_diagonal.x).max(0.0), 0.0, 0.0)
-                });
+                shuffle(order, sweep);
+                per_contact(problem, coupling, p, order.iter().copied(), sweeps);
             }
         }
         if has_settled(before, p, sweeps.tolerance) {
             break;
         }
+    }
+}
+
+/// One sweep of projected Gauss–Seidel in any of its variants.
+fn per_contact(
+    problem: &ContactProblem,
+    coupling: &mut impl Coupling,
+    p: &mut [Impulse],
+    order: impl Iterator<Item = usize>,
+    sweeps: &Sweeps,
+) {
+    let (cone, Variant { local, relaxation: part, .. }) = (sweeps.cone, sweeps.variant);
+    match local {
+        _ if !sweeps.friction => in_place(problem, coupling, p, order, |block, c, p| {
+            Impulse::new((p.x - c.x * block.inverse_diagonal.x * part).max(0.0), 0.0, 0.0)
+        }),
+        Local::Common => in_place(problem, coupling, p, order, |block, c, p| within_cone(block, c, p, part, cone)),
+        Local::Rows => in_place(problem, coupling, p, order, |block, c, p| rows_within_cone(block, c, p, part, cone)),
+        Local::Exact => in_place(problem, coupling, p, order, |block, c, p| {
+            let exact = exact_contact::solve(&block.A, c, p, block.friction);
+            corrected(&(p * (1.0 - part) + exact * part), block.friction, cone)
+        }),
+    }
+}
+
+/// Another order for every sweep, the same in every step (Fisher and Yates with the generator of G. Steele, D. Lea,
+/// C. Flood, OOPSLA 2014): an iteration that goes round in circles in one order does not in all.
+fn shuffle(order: &mut [usize], sweep: u32) {
+    let mut seed = u64::from(sweep) << 32;
+    for i in (1..order.len()).rev() {
+        seed = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut x = seed;
+        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        order.swap(i, ((x ^ (x >> 31)) % (i as u64 + 1)) as usize);
     }
 }
 
@@ -97,9 +157,11 @@ fn in_place(
     problem: &ContactProblem,
     coupling: &mut impl Coupling,
     p: &mut [Impulse],
+    order: impl Iterator<Item = usize>,
     improve: impl Fn(&Block, &Vector3<f64>, &Impulse) -> Impulse,
 ) {
-    for (i, block) in problem.blocks.iter().enumerate() {
+    for i in order {
+        let block = &problem.blocks[i];
         let c = coupling.velocity(i, block, p);
         let new = improve(block, &c, &p[i]);
         coupling.moved(block, &(new - p[i]));
@@ -134,11 +196,21 @@ fn three_rows(block: &Block, c: &Vector3<f64>, p: &Impulse) -> Impulse {
 /// contact then opposes its slip. With a length of its own for each row it points elsewhere, and the forces of redundant
 /// contacts work against each other (measured: a slab on four corners slides 1.15 times too far).
 #[inline(always)]
-fn within_cone(block: &Block, c: &Vector3<f64>, p: &Impulse, cone: Cone) -> Impulse {
-    let normal = (p.x - c.x * block.inverse_diagonal.x).max(0.0);
+fn within_cone(block: &Block, c: &Vector3<f64>, p: &Impulse, part: f64, cone: Cone) -> Impulse {
+    let normal = (p.x - c.x * block.inverse_diagonal.x * part).max(0.0);
     let change = normal - p.x;
-    let tangent = |i: usize| p[i] - (c[i] + block.A[(i, 0)] * change) * block.tangent_step;
+    let tangent = |i: usize| p[i] - (c[i] + block.A[(i, 0)] * change) * block.tangent_step * part;
     corrected(&Impulse::new(normal, tangent(1), tangent(2)), block.friction, cone)
+}
+
+/// The same with each tangent row divided by its own diagonal, as textbooks have it: it settles, but elsewhere.
+fn rows_within_cone(block: &Block, c: &Vector3<f64>, p: &Impulse, part: f64, cone: Cone) -> Impulse {
+    let (A, d) = (&block.A, &block.inverse_diagonal);
+    let normal = (p.x - c.x * d.x * part).max(0.0);
+    let d1 = normal - p.x;
+    let d2 = -(c.y + A[(1, 0)] * d1) * d.y * part;
+    let d3 = -(c.z + A[(2, 0)] * d1 + A[(2, 1)] * d2) * d.z * part;
+    corrected(&Impulse::new(normal, p.y + d2, p.z + d3), block.friction, cone)
 }
 
 fn has_settled(before: &[Impulse], p: &[Impulse], tolerance: f64) -> bool {

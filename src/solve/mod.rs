@@ -1,5 +1,6 @@
 //! Contact solvers: a `ContactProblem` (plain data) becomes impulses, one method a file, each owning its scratch.
 
+pub mod exact_contact;
 pub mod gauss_seidel;
 pub mod position;
 pub mod problem;

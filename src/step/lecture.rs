@@ -4,7 +4,7 @@ use super::{Clock, Scratch, move_body};
 use crate::collide::detect;
 use crate::experiment::types::Lecture as Settings;
 use crate::model::Model;
-use crate::solve::gauss_seidel::{Sweeps, correct_all, iterate};
+use crate::solve::gauss_seidel::{Sweeps, Variant, correct_all, iterate};
 use crate::solve::problem::Twist;
 use crate::solve::start::first_guess;
 use crate::state::State;
@@ -49,6 +49,7 @@ impl Lecture {
                 most: self.settings.sweeps,
                 tolerance: 0.0,
                 friction: true,
+                variant: Variant::default(),
             };
             iterate(&s.problem, &sweeps, &mut s.impulses, &mut s.solver, &mut s.work);
         }

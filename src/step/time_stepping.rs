@@ -5,21 +5,24 @@
 //! displacement of its own that is no velocity and adds no kinetic energy (split impulse).
 
 use super::{Clock, Scratch};
-use crate::collide::{Contact, detect};
+use crate::collide::reduce::Reduction;
+use crate::collide::{Contact, SolvedContact, detect};
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
 use crate::integrate::rotation::{exponential, turn_at_momentum, w_from_momentum};
 use crate::model::Model;
 use crate::solve::Impulse;
-use crate::solve::gauss_seidel::{Sweeps, iterate};
+use crate::solve::gauss_seidel::{Sweeps, Variant, iterate};
 use crate::solve::position::push_out;
 use crate::solve::problem::Twist;
 use crate::state::State;
+use nalgebra::Vector3;
 
 /// Of a body's bounding radius: a body resting at gap zero is in contact whatever its last bit says.
 const MARGIN: f64 = 1e-9;
 
 pub struct TimeStepping {
     sweeps: Sweeps,
+    reduction: Option<Reduction>,
     position_correction: PositionCorrection,
     /// Which contact had which impulse in the last step, in the order of contacts.
     last: Vec<(usize, (u32, u32), Impulse)>,
@@ -39,7 +42,9 @@ impl TimeStepping {
                 most: settings.sweeps,
                 tolerance: settings.tolerance,
                 friction,
+                variant: Variant { local: settings.local, relaxation: settings.relaxation, order: settings.order },
             },
+            reduction: settings.contacts_per_face.map(|most| Reduction::new(most, scratch.contacts())),
             position_correction: settings.position_correction,
             last: Vec::with_capacity(scratch.contacts()),
             pushes: Vec::with_capacity(scratch.contacts()),
@@ -51,6 +56,9 @@ impl TimeStepping {
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
         // 1. Contact test.
         detect(model, state, MARGIN, &mut self.scratch.found, &mut self.scratch.work);
+        if let Some(reduction) = &mut self.reduction {
+            reduction.apply(&mut self.scratch.found);
+        }
         // 2. Contact impulses; displacements that remove penetration.
         self.scratch.free_velocities(model, state, clock.step_s);
         self.solve_contacts(model, state);
@@ -90,6 +98,9 @@ impl TimeStepping {
         self.last.clear();
         self.last.extend(s.found.iter().zip(&s.impulses).map(|(c, p)| (c.body, c.feature, *p)));
         s.take_solution();
+        if let Some(reduction) = &self.reduction {
+            show(&reduction.left_out, &mut s.solved);
+        }
     }
 
     fn push_out(&mut self, model: &Model) -> bool {
@@ -97,6 +108,12 @@ impl TimeStepping {
         self.position_correction == PositionCorrection::Projection
             && push_out(&s.problem, &s.found, model, &self.sweeps, &mut self.pushes, &mut self.pushed, &mut s.work)
     }
+}
+
+/// Contacts that were left out are there, without an impulse.
+fn show(left_out: &[Contact], solved: &mut Vec<SolvedContact>) {
+    solved.extend(left_out.iter().map(|contact| SolvedContact { contact: *contact, impulse_W: Vector3::zeros() }));
+    solved.sort_unstable_by_key(|s| (s.contact.body, s.contact.feature));
 }
 
 /// Last step's impulse of every contact that is still there, else 0. Both lists are in the order of contacts.

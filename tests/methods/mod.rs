@@ -2,10 +2,12 @@
 
 mod cone;
 mod contact;
+mod cycles;
 mod divergence;
 mod free;
 mod lecture;
 mod penalty;
+mod residual;
 mod skipping;
 
 /// Slope of log error against log step (least squares).

@@ -21,13 +21,16 @@ fn every_config_runs() {
         if whole.axes().axes.iter().any(|axis| axis.path == "seed") {
             sets.push("seed=1".into());
         }
+        if let Some(search) = whole.search() {
+            sets.push(format!("{}={}", search.critical, search.between[0]));
+        }
         let cut = ExperimentFile::load(&config, &sets).unwrap_or_else(|error| panic!("{error}"));
         let cut = cases(&cut).unwrap();
         cut.par_iter().enumerate().for_each(|(i, case)| {
             let targets = if i == 0 { gotai::record::writer::Target::AVAILABLE } else { &[] };
             let (measured, written) = build_and_run(case, folder.path(), targets);
             written.unwrap();
-            assert_eq!(measured.outcome, Outcome::Finished, "{name}: {:?}", case.axes);
+            assert_ne!(measured.outcome, Outcome::Failed, "{name}: {:?}", case.axes);
             assert!(measured.energy_end_j.is_some(), "{name}");
         });
     }

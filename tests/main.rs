@@ -8,6 +8,7 @@
 //! - `sweep/`: resume, threads, panics, tables, recordings of a sweep
 //! - `record/`: recordings, read back from their files
 //! - `cli/`: the program as a user meets it: output, exit codes
+//! - `check/`: expectations, their statistics, searches, `gotai check`
 //! - `configs`: every file under configs/ runs
 //! - `allocation`: no step allocates
 //! - `counters`: how much work a run is
@@ -16,6 +17,7 @@
 #![allow(non_snake_case)]
 
 mod allocation;
+mod check;
 mod cli;
 mod configs;
 mod counters;

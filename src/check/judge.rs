@@ -178,7 +178,7 @@ fn trend_of_shares(levels: &[Vec<&Cells>], of: &Predicate, rising: bool) -> Resu
         true => cochran_armitage(&counted),
         false => cochran_armitage(&counted.iter().rev().copied().collect::<Vec<_>>()),
     };
-    Ok((p, shares.join(" → ")))
+    Ok((p, arrows(&shares)))
 }
 
 fn trend_of_numbers(
@@ -202,7 +202,16 @@ fn trend_of_numbers(
     let cells = strata(&rows, &others).into_iter().map(of_cell).collect::<Result<Vec<_>, String>>()?;
     let means =
         levels.iter().map(|rows| Ok(short(mean(&numbers(rows, column)?)))).collect::<Result<Vec<_>, String>>()?;
-    Ok((mann_kendall(&cells), means.join(" → ")))
+    Ok((mann_kendall(&cells), arrows(&means)))
+}
+
+/// Level by level; of many levels the first and the last.
+fn arrows(levels: &[String]) -> String {
+    const MOST: usize = 12;
+    match levels.len() {
+        0..=MOST => levels.join(" → "),
+        n => format!("{} → … → {}", levels[..3].join(" → "), levels[n - 3..].join(" → ")),
+    }
 }
 
 fn of_order(schema: &Schema, rows: &[&Cells], column: &Column, against: &str, bounds: &Bounds) -> Verdict {

@@ -68,10 +68,8 @@ impl Command {
 
     fn planned(&self) -> Result<Vec<(Planned, Schema)>, CliError> {
         let mut planned = Vec::new();
-        for given in &self.configs {
-            for config in configs(given)? {
-                planned.extend(self.plan_one(config)?);
-            }
+        for config in configs(&self.configs)? {
+            planned.extend(self.plan_one(config)?);
         }
         if planned.is_empty() {
             let given: Vec<_> = self.configs.iter().map(|path| path.display().to_string()).collect();
@@ -83,7 +81,7 @@ impl Command {
     fn plan_one(&self, config: Config) -> Result<Option<(Planned, Schema)>, CliError> {
         if self.sweep.load(&config)?.expect().is_empty() {
             let path = config.path.display();
-            return match config.is_of_folder() {
+            return match config.is_of_folder {
                 true => Ok(None),
                 false => Err(CliError::Input(format!("{path}: expect: missing: nothing to check"))),
             };

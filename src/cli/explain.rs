@@ -57,10 +57,11 @@ impl Command {
             }));
             return Ok(ExitCode::SUCCESS);
         }
-        print(format!("{} cases, {} steps", cost.cases, cost.steps));
+        let at_most = if file.search().is_some() { "at most " } else { "" };
+        print(format!("{} cases, {at_most}{} steps", cost.cases, cost.steps));
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let wall_s = cost.seconds / cores.min(cost.cases.max(1)) as f64;
-        print(format!("about {wall_s:.1} s on {cores} cores (from a trial of some cases)"));
+        print(format!("{at_most}about {wall_s:.1} s on {cores} cores (from a trial of some cases)"));
         print(format!("about {:.1} MB of recordings", cost.bytes as f64 / 1e6));
         for axis in &file.axes().axes {
             print(format!("  axis {}: {} values", axis.path, axis.values.len()));
@@ -105,7 +106,7 @@ fn tallies(cases: &[Case]) -> Vec<Tally> {
 /// Extrapolated from trials of a few cases, evenly through the plan.
 fn cost(cases: &[Case]) -> Cost {
     const TRIALS: usize = 12;
-    let steps = cases.iter().map(|case| clock(&case.experiment).steps).sum();
+    let steps = cases.iter().map(|case| clock(&case.experiment).steps * runs(case)).sum();
     let trials = cases.len().min(TRIALS);
     let tried = (0..trials).map(|i| &cases[i * cases.len() / trials]);
     let seconds = tried.map(trial_s).sum::<f64>() * cases.len() as f64 / trials.max(1) as f64;
@@ -122,7 +123,12 @@ fn trial_s(case: &Case) -> f64 {
     while state.step < clock.steps && started.elapsed() < MOMENT {
         stepper.step(&model, &mut state, &clock);
     }
-    started.elapsed().as_secs_f64() * clock.steps as f64 / state.step.max(1) as f64
+    started.elapsed().as_secs_f64() * (clock.steps * runs(case)) as f64 / state.step.max(1) as f64
+}
+
+/// Of a search about how many; all counted with the steps of the first one, which is mostly the longest.
+fn runs(case: &Case) -> u64 {
+    case.search.as_ref().map_or(1, |cell| cell.expected_runs() as u64)
 }
 
 /// Sizes measured with one body and 0 to 8 contacts, zstd level 1: bytes a sample in one file.
@@ -130,7 +136,7 @@ fn bytes(cases: &[Case]) -> u64 {
     const OF_A_BODY: u64 = 150;
     const OF_A_CONTACT: u64 = 60;
     const LIKELY_CONTACTS: u64 = 3;
-    let Some(first) = cases.first() else { return 0 };
+    let Some(first) = cases.first().filter(|case| case.search.is_none()) else { return 0 };
     let files = targets(first.experiment.record.to).len() as u64;
     let rule = first.experiment.record.cases;
     let recorded = known_before(rule, cases.len()).map_or(FEW.min(cases.len()), |known| known.len());

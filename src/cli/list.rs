@@ -18,6 +18,8 @@ pub struct Command {
 enum What {
     Methods,
     Shapes,
+    /// What `measure:` can ask for
+    Measures,
 }
 
 /// Word, settings with defaults, what it is, source.
@@ -33,7 +35,7 @@ const METHODS: [Line; 4] = [
     (
         "lecture",
         "start: none (default) | direct | inverse | pseudo-inverse; iteration: jacobi | gauss-seidel (default); \
-         correction: after-sweep (default) | per-contact; sweeps: 50; update: explicit | semi-implicit (default); \
+         correction: after-sweep (default) | per-contact; cone: disc (default) | box; sweeps: 50; update: explicit | semi-implicit (default); \
          rotation: literal (default) | momentum",
         "the lecture's constraint method, order 1; unstable at long steps and many nodes",
         "lecture L16–L21",
@@ -48,7 +50,8 @@ const METHODS: [Line; 4] = [
     (
         "time-stepping",
         "solver: pgs (default); scheme: semi-implicit (default); impact: newton (default); sweeps: 50; tolerance: 1e-12; \
-         position_correction: projection (default) | none",
+         position_correction: projection (default) | none; local: common (default) | rows | exact; relaxation: 1; order: \
+         fixed (default) | shuffled; contacts_per_face: all (default) or at least 3",
         "velocity–impulse with projected Gauss–Seidel, momentum-conserving rotation; order 1; the default method",
         "Moreau 1988; Stewart & Trinkle 1996; Anitescu & Potra 1997",
     ),
@@ -60,11 +63,39 @@ const SHAPES: [Line; 3] = [
     ("none", "", "a point with mass and inertia, without contact", ""),
 ];
 
+const MEASURES: [Line; 4] = [
+    (
+        "state",
+        "<body>.position_m.x, .orientation_xyzw.x, .velocity_m_s.x, .angular_velocity_rad_s.x, …",
+        "each body's end state: centre of mass, body → world, world frame",
+        "",
+    ),
+    (
+        "inertia",
+        "<body>.mass_kg, .center_of_mass_m.x, …, .inertia_kg_m2.xx, …",
+        "mass properties that the run used; inertia about the centre of mass, body axes",
+        "lecture L8, L9",
+    ),
+    (
+        "contact-matrix",
+        "contact_matrix_contacts, contact_matrix_rank, jacobi_radius",
+        "A = J M⁻¹ Jᵀ at the first step with the most contacts: its rank, and the spectral radius of E − D⁻¹A",
+        "lecture L16, L20",
+    ),
+    (
+        "critical-step",
+        "normal_lambda_max_1_kg, critical_step_s",
+        "largest eigenvalue of Jn M⁻¹ Jnᵀ at the first contact, and the longest stable step of `penalty` by linear theory",
+        "lecture L15",
+    ),
+];
+
 impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
         let lines: &[Line] = match self.what {
             What::Methods => &METHODS,
             What::Shapes => &SHAPES,
+            What::Measures => &MEASURES,
         };
         if self.output.json {
             let document: Vec<_> = lines

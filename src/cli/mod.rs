@@ -178,15 +178,20 @@ impl ExperimentArgs {
     }
 }
 
-/// recordings/<path of the config below configs/, without .yaml>; a config elsewhere goes by its own name.
+/// recordings/<path of the config below configs/, without .yaml>.
 fn default_out(config: &Path) -> PathBuf {
+    Path::new("recordings").join(below_configs(config))
+}
+
+/// Path below configs/, without .yaml; a config elsewhere goes by its own name.
+fn below_configs(config: &Path) -> PathBuf {
     let parts: Vec<_> = config.components().collect();
     let below = parts.iter().rposition(|part| *part == Component::Normal("configs".as_ref()));
-    let name = match below {
+    let name: PathBuf = match below {
         Some(at) if at + 1 < parts.len() => parts[at + 1..].iter().collect(),
         _ => PathBuf::from(config.file_name().unwrap_or("run".as_ref())),
     };
-    Path::new("recordings").join(name.with_extension(""))
+    name.with_extension("")
 }
 
 /// Prints to stdout; a reader that has gone away is no error.

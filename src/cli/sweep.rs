@@ -20,7 +20,7 @@ impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
         // Every case of every file is checked before the first run.
         let pool = self.sweep.run.pool()?;
-        let configs = configs(&self.config)?.into_iter();
+        let configs = configs(std::slice::from_ref(&self.config))?.into_iter();
         let planned = configs.map(|config| pool.install(|| self.sweep.planned(config, None)));
         let planned = planned.collect::<Result<Vec<_>, _>>()?;
         let mut swept = Vec::with_capacity(planned.len());

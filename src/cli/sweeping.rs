@@ -1,7 +1,7 @@
 //! What `sweep` and `check` share: files of a folder, their cases, running what is missing.
 
 use super::progress::Bar;
-use super::{CliError, ExperimentArgs, OutputArgs, RunArgs};
+use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, below_configs};
 use crate::case::Case;
 use crate::experiment::ExperimentFile;
 use crate::experiment::types::RecordTo;
@@ -33,14 +33,9 @@ pub struct SweepArgs {
 /// An experiment file on the command line, or found in a folder there.
 pub struct Config {
     pub path: PathBuf,
-    /// What was written on the command line.
-    given: PathBuf,
-}
-
-impl Config {
-    pub fn is_of_folder(&self) -> bool {
-        self.path != self.given
-    }
+    /// Below `--out`: the file's place in its folder, or nothing for a file on its own.
+    below: PathBuf,
+    pub is_of_folder: bool,
 }
 
 /// A file whose cases have all been checked.
@@ -97,21 +92,37 @@ impl SweepArgs {
         Ok(Swept { config: config.path.clone(), dir, ran, planned: cases.len(), rows })
     }
 
-    /// In a folder's sweep every file has a folder of its own, also below `--out`.
+    /// Of several files every one has a folder of its own, also below `--out`.
     fn out(&self, config: &Config) -> PathBuf {
-        match (&self.run.out, config.path.strip_prefix(&config.given)) {
-            (Some(out), Ok(below)) if !below.as_os_str().is_empty() => out.join(below.with_extension("")),
-            _ => self.run.out(&config.path),
+        match &self.run.out {
+            Some(out) => out.join(&config.below),
+            None => self.run.out(&config.path),
         }
     }
 }
 
-/// The file itself, or all .yaml below a folder, in the order of their paths.
-pub fn configs(given: &Path) -> Result<Vec<Config>, CliError> {
-    let config = |path: PathBuf| Config { path, given: given.to_path_buf() };
-    if !given.is_dir() {
-        return Ok(vec![config(given.to_path_buf())]);
+/// The files themselves, and all .yaml below folders in the order of their paths.
+pub fn configs(given: &[PathBuf]) -> Result<Vec<Config>, CliError> {
+    let mut all = Vec::new();
+    for path in given {
+        let name = below_configs(path);
+        // A folder of its own only where there is another to tell it from.
+        let base = if given.len() > 1 { name } else { PathBuf::new() };
+        if path.is_dir() {
+            let below = |file: &Path| base.join(file.strip_prefix(path).unwrap_or(file).with_extension(""));
+            all.extend(files_of(path)?.into_iter().map(|file| Config {
+                below: below(&file),
+                path: file,
+                is_of_folder: true,
+            }));
+        } else {
+            all.push(Config { path: path.clone(), below: base, is_of_folder: false });
+        }
     }
+    Ok(all)
+}
+
+fn files_of(given: &Path) -> Result<Vec<PathBuf>, CliError> {
     let mut found = Vec::new();
     let mut folders = vec![given.to_path_buf()];
     while let Some(folder) = folders.pop() {
@@ -129,7 +140,7 @@ pub fn configs(given: &Path) -> Result<Vec<Config>, CliError> {
         return Err(CliError::Input(format!("{}: expected experiment files (*.yaml), found none", given.display())));
     }
     found.sort();
-    Ok(found.into_iter().map(config).collect())
+    Ok(found)
 }
 
 /// On Ctrl-C or SIGTERM: no row is torn, the tables are written, and the exit code says which signal it was.

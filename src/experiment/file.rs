@@ -201,6 +201,13 @@ impl ExperimentFile {
         if let (true, Some(sweep)) = (is_searched, sweep.as_mapping_mut()) {
             sweep.shift_remove("search");
         }
+        if let Some(Value::Mapping(search)) = sweep.get_mut("search") {
+            // A single value is left of what was tried together.
+            if search.get("over").is_some_and(|over| is_one_of(over, &removed)) {
+                search.shift_remove("over");
+                search.shift_remove("fraction");
+            }
+        }
         if let Some(Value::Mapping(axes)) = sweep.get_mut("axes") {
             axes.retain(|key, _| !is_one_of(key, &removed));
         }

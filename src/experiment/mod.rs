@@ -10,6 +10,7 @@ pub mod file;
 pub mod filter;
 pub mod key_path;
 mod later;
+mod method;
 pub mod nearest;
 pub mod overrides;
 pub mod positions;

@@ -36,8 +36,15 @@ fn above_floor(points: &[(f64, f64)]) -> usize {
     let finite = points.iter().take_while(|(_, e)| e.is_finite()).count();
     let largest = points[..finite].iter().map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
     let stops = |pair: &[(f64, f64)]| pair[1].1 >= pair[0].1 && pair[0].1 < largest + libm::log(FAR);
-    // The last value before it is in the floor as likely as not.
-    points[..finite].windows(2).position(stops).unwrap_or(finite)
+    /// The floor still bends the line by a tenth at ten times its height.
+    const ABOVE: f64 = 10.0;
+    match points[..finite].windows(2).position(stops) {
+        None => finite,
+        Some(stop) => {
+            let floor = points[stop].1 + libm::log(ABOVE);
+            points[..stop].iter().take_while(|(_, e)| *e > floor).count()
+        }
+    }
 }
 
 fn slope(points: &[(f64, f64)]) -> Option<f64> {

@@ -58,17 +58,23 @@ impl Scratch {
     }
 }
 
-/// Improves `p` by at most `sweeps.most` sweeps.
-pub fn iterate(problem: &ContactProblem, sweeps: &Sweeps, p: &mut [Impulse], scratch: &mut Scratch, work: &mut Work) {
+/// Improves `p` by at most `sweeps.most` sweeps. Whether it has settled.
+pub fn iterate(
+    problem: &ContactProblem,
+    sweeps: &Sweeps,
+    p: &mut [Impulse],
+    scratch: &mut Scratch,
+    work: &mut Work,
+) -> bool {
     let Scratch { before, order, coupling } = scratch;
     order.clear();
     if sweeps.variant.order == Order::Shuffled {
         order.extend(0..p.len());
     }
     if problem.is_dense() {
-        sweep_until_done(problem, &mut problem.dense(), sweeps, p, before, order, work);
+        sweep_until_done(problem, &mut problem.dense(), sweeps, p, before, order, work)
     } else {
-        sweep_until_done(problem, &mut problem.through_bodies(p, coupling), sweeps, p, before, order, work);
+        sweep_until_done(problem, &mut problem.through_bodies(p, coupling), sweeps, p, before, order, work)
     }
 }
 
@@ -87,7 +93,7 @@ fn sweep_until_done(
     before: &mut Vec<Impulse>,
     order: &mut [usize],
     work: &mut Work,
-) {
+) -> bool {
     let cone = sweeps.cone;
     for sweep in 0..sweeps.most {
         work.sweeps += 1;
@@ -108,9 +114,10 @@ fn sweep_until_done(
             }
         }
         if has_settled(before, p, sweeps.tolerance) {
-            break;
+            return true;
         }
     }
+    false
 }
 
 /// One sweep of projected Gauss–Seidel in any of its variants.

@@ -130,6 +130,17 @@ impl ContactProblem {
         self.blocks.iter().zip(impulses).map(|(block, p)| half(block, p)).sum()
     }
 
+    /// Impulses of an iteration that has not settled may add energy (a bar at μ = 1: up to 1.004 of it): only that part of
+    /// them is kept which takes the most. The cones allow it, as they are cones; approaches that remain are next step's.
+    pub fn take_back(&self, impulses: &mut [Impulse], u: &[Twist]) {
+        let added = self.energy(impulses, u);
+        if added > 0.0 {
+            let linear: f64 = self.blocks.iter().zip(&*impulses).map(|(block, p)| p.dot(&block.b)).sum();
+            let part = (-linear / (2.0 * (added - linear))).max(0.0);
+            impulses.iter_mut().for_each(|p| *p *= part);
+        }
+    }
+
     /// A as a dense matrix, 3L × 3L.
     pub fn A(&self) -> DMatrix<f64> {
         let n = self.blocks.len();

@@ -92,8 +92,9 @@ impl TimeStepping {
         if s.problem.energy(&s.impulses, &s.response) > 0.0 {
             s.impulses.fill(Impulse::zeros());
         }
-        if !s.found.is_empty() {
-            iterate(&s.problem, &self.sweeps, &mut s.impulses, &mut s.solver, &mut s.work);
+        if !s.found.is_empty() && !iterate(&s.problem, &self.sweeps, &mut s.impulses, &mut s.solver, &mut s.work) {
+            s.problem.response(&s.impulses, &mut s.response);
+            s.problem.take_back(&mut s.impulses, &s.response);
         }
         self.last.clear();
         self.last.extend(s.found.iter().zip(&s.impulses).map(|(c, p)| (c.body, c.feature, *p)));

@@ -23,7 +23,7 @@ const ROWS: &[Row] = &[
     ("a key that is a number", "seed: 7", "7: 7", 15, "7", "unknown key"),
     ("a key twice", "seed: 7\n", "seed: 7\nseed: 8\n", 16, "seed", "this key is already there, on line 15"),
     ("a key twice, nested", CUBE, "      mass_kg: 1\n      name: cuboid\n", 11, "scene.bodies.0.name", "already there, on line 7"),
-    ("a later key", "seed: 7\n", "seed: 7\nexpect: []\n", 16, "expect", "not available in this version"),
+    ("a later key", "seed: 7\n", "seed: 7\nexact: top\n", 16, "exact", "not available in this version"),
     ("a later key of the scene", "  friction: 0.3\n", "  pins: []\n", 2, "scene.pins", "not available in this version"),
     ("a later key of a body", CUBE, "      fixed: true\n", 10, "scene.bodies.cube.fixed", "not available in this version"),
     ("a later key of a sweep", "seed: 7\n", "sweep: { where: [] }\n", 15, "sweep.where", "not available in this version"),

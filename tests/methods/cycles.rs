@@ -127,14 +127,17 @@ fn no_cure_gains_energy_wherever_it_is_stopped() {
     assert!(most <= 1.0 + 1e-12, "{most}");
 }
 
-/// Among 12 000 impacts with μ from 1 to 5 one gains with `exact`, one with `rows`, 61 with 1.5 and 953 with 1.8.
+/// Impulses that had not settled gained 1.15 (exact), 12.7 and 77453 (over-relaxation) here, before what adds energy was
+/// taken back.
 #[test]
-fn exact_contacts_and_over_relaxation_can_gain_energy() {
-    // measured: 1.15
-    assert!(gain(66, 100, 3, &["local=exact"]) > 1.1);
-    // measured: 12.7 and 77453
-    assert!(gain(282, 50, 5, &["relaxation=1.5"]) > 10.0);
-    assert!(gain(64, 50, 5, &["relaxation=1.8"]) > 1e4);
+fn impulses_that_have_not_settled_add_no_energy() {
+    let all = [
+        gain(66, 100, 3, &["local=exact"]),
+        gain(282, 50, 5, &["relaxation=1.5"]),
+        gain(64, 50, 5, &["relaxation=1.8"]),
+    ];
+    // measured: 0.987, 1.0, 1.0
+    assert!(all.iter().all(|gain| *gain <= 1.0 + 1e-12), "{all:?}");
 }
 
 /// A deterministic spread of numbers in [−1, 1).

@@ -1,0 +1,267 @@
+//! The vocabulary of `method:`: every method with its settings, defaults with their reasons. A part of `types.rs`.
+
+use super::types::is_default;
+use serde::{Deserialize, Serialize};
+
+/// The exchangeable unit is the whole step. One word, or one key with settings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Method {
+    Free(Free),
+    Lecture(Lecture),
+    Penalty(Penalty),
+    TimeStepping(TimeStepping),
+}
+
+impl Default for Method {
+    /// The sound method: nobody should get the lecture's instability without asking for it.
+    fn default() -> Self {
+        Method::TimeStepping(TimeStepping::default())
+    }
+}
+
+/// Motion without contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Free {
+    #[serde(default)]
+    pub integrator: Integrator,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Integrator {
+    /// The slide's formula (L5): u uses the old v.
+    ExplicitEuler,
+    /// The slide's C program (L5): u uses the new v.
+    #[default]
+    SemiImplicitEuler,
+}
+
+/// The lecture's constraint method with all its variants (L16–L21).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Lecture {
+    pub start: Start,
+    pub iteration: Iteration,
+    pub correction: Correction,
+    #[serde(skip_serializing_if = "is_default")]
+    pub cone: Cone,
+    pub sweeps: u32,
+    pub update: Update,
+    pub rotation: Rotation,
+}
+
+impl Default for Lecture {
+    /// The variant that reproduces both of the lecture's stability notes.
+    fn default() -> Self {
+        Lecture {
+            start: Start::None,
+            iteration: Iteration::GaussSeidel,
+            correction: Correction::AfterSweep,
+            cone: Cone::Disc,
+            sweeps: 50,
+            update: Update::SemiImplicit,
+            rotation: Rotation::Literal,
+        }
+    }
+}
+
+/// First guess of the constraint force (L20).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Start {
+    /// F = 0.
+    None,
+    /// F = −A⁻¹ b by LU; a non-finite start is replaced by 0.
+    Direct,
+    /// The same with the inverse matrix.
+    Inverse,
+    /// The same with the Moore–Penrose inverse.
+    PseudoInverse,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Iteration {
+    /// The printed formula.
+    Jacobi,
+    /// In place.
+    GaussSeidel,
+}
+
+/// When forces are put back into the friction cone.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Correction {
+    /// All contacts, once a sweep.
+    AfterSweep,
+    /// Right after the contact's three rows: this is projected Gauss–Seidel.
+    PerContact,
+}
+
+/// What |f_c2, f_c3| < μ |f_c1| bounds (L19).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cone {
+    /// The length of (f₂, f₃): Coulomb's law.
+    #[default]
+    Disc,
+    /// f₂ and f₃ each, as the line can be read: up to √2 times the friction, by the direction.
+    Box,
+}
+
+/// Which velocity moves the position (L5).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Update {
+    Explicit,
+    #[default]
+    SemiImplicit,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rotation {
+    /// I dω/dt = τ, R ← dR R: the slide's, without the gyroscopic term.
+    Literal,
+    /// World-frame angular momentum conserved, midpoint rotation.
+    Momentum,
+}
+
+/// Spring and damper per penetrating node (L15).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Penalty {
+    pub stiffness_n_m: f64,
+    #[serde(default)]
+    pub damping_n_s_m: f64,
+    /// Below this slip the regularised Coulomb force falls linearly to 0.
+    #[serde(default = "default_slip_speed")]
+    pub slip_speed_m_s: f64,
+    #[serde(default)]
+    pub update: Update,
+    #[serde(default = "momentum")]
+    pub rotation: Rotation,
+}
+
+/// A thousandth of the speeds met in the lecture's scene (some m/s): slower slip counts as sticking, larger values creep
+/// more on a slope, smaller ones need smaller steps.
+fn default_slip_speed() -> f64 {
+    1e-2
+}
+
+fn momentum() -> Rotation {
+    Rotation::Momentum
+}
+
+/// Velocity–impulse time-stepping (Moreau 1988; Stewart & Trinkle 1996; Anitescu & Potra 1997).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TimeStepping {
+    pub solver: Solver,
+    pub scheme: Scheme,
+    pub impact: Impact,
+    pub sweeps: u32,
+    /// Stop when a sweep changes no impulse by more than this part of the largest; 0: only when nothing changes.
+    /// 1e-12: what is left is below the rounding of a step.
+    pub tolerance: f64,
+    pub position_correction: PositionCorrection,
+    #[serde(skip_serializing_if = "Local::is_common")]
+    pub local: Local,
+    /// Part of a contact's change that is made at its turn, between 0 and 2. Below 1 fewer impacts end in a limit cycle,
+    /// and all take longer.
+    #[serde(skip_serializing_if = "is_one")]
+    pub relaxation: f64,
+    #[serde(skip_serializing_if = "Order::is_fixed")]
+    pub order: Order,
+    /// So many contacts of a body on a face are solved, the deepest and those farthest from each other; the others get
+    /// no impulse. Absent: all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contacts_per_face: Option<u32>,
+}
+
+fn is_one(x: &f64) -> bool {
+    *x == 1.0
+}
+
+impl Default for TimeStepping {
+    fn default() -> Self {
+        TimeStepping {
+            solver: Solver::Pgs,
+            scheme: Scheme::SemiImplicit,
+            impact: Impact::Newton,
+            sweeps: 50,
+            tolerance: 1e-12,
+            position_correction: PositionCorrection::Projection,
+            local: Local::Common,
+            relaxation: 1.0,
+            order: Order::Fixed,
+            contacts_per_face: None,
+        }
+    }
+}
+
+/// What a contact does at its turn in a sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Local {
+    /// The normal row, then both tangents by one step length, then the disc.
+    Common,
+    /// Every tangent row by its own diagonal (the common textbook form): it settles away from the solution.
+    Rows,
+    /// Its 3×3 problem solved exactly (nonlinear Gauss–Seidel).
+    Exact,
+}
+
+impl Local {
+    fn is_common(&self) -> bool {
+        *self == Local::Common
+    }
+}
+
+/// In which order a sweep visits the contacts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Order {
+    /// That of the contact test.
+    Fixed,
+    /// Another one every sweep, the same in every step.
+    Shuffled,
+}
+
+impl Order {
+    fn is_fixed(&self) -> bool {
+        *self == Order::Fixed
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Solver {
+    /// Projected Gauss–Seidel, disc per contact.
+    Pgs,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scheme {
+    /// Forces at the old position, position with the new velocity.
+    SemiImplicit,
+}
+
+/// What happens to the normal velocity of an approaching contact.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Impact {
+    /// Multiplied by −e, all contacts at once (Moreau).
+    Newton,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PositionCorrection {
+    /// Split impulse: penetration is removed by a pseudo-velocity that is forgotten after the step.
+    Projection,
+    None,
+}

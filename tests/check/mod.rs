@@ -1,0 +1,7 @@
+//! Expectations, their statistics, searches, and `gotai check` as a CI meets it.
+
+mod bad;
+mod command;
+mod search;
+mod trend;
+mod verdicts;

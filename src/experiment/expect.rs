@@ -59,7 +59,7 @@ struct Expect {
     equal: Option<String>,
     ratio: Option<QuantityText>,
     difference: Option<QuantityText>,
-    r#where: Option<Mapping>,
+    r#where: Option<Value>,
     min: Option<f64>,
     max: Option<f64>,
     above: Option<f64>,
@@ -73,20 +73,20 @@ struct Expect {
     between: Option<[f64; 2]>,
     across: Option<String>,
     within_rel: Option<f64>,
-    of: Option<Mapping>,
-    to: Option<Mapping>,
+    of: Option<Value>,
+    to: Option<Value>,
     why: Option<String>,
 }
 
 /// The kinds of expectation, and the keys that each may carry besides `where` and `why`.
 const KINDS: [(&str, &[&str]); 7] = [
-    ("column", &["min", "max", "above", "below", "quantile"]),
-    ("fraction", &["min", "max", "above", "below"]),
+    ("column", &["min", "max", "above", "below", "between", "quantile"]),
+    ("fraction", &["min", "max", "above", "below", "between"]),
     ("trend", &["along", "rising", "falling", "p_max"]),
-    ("order", &["against", "between", "min", "max"]),
+    ("order", &["against", "between", "min", "max", "above", "below"]),
     ("equal", &["across", "within_rel"]),
-    ("ratio", &["of", "to", "min", "max", "above", "below", "quantile"]),
-    ("difference", &["of", "to", "min", "max", "above", "below", "quantile"]),
+    ("ratio", &["of", "to", "min", "max", "above", "below", "between", "quantile"]),
+    ("difference", &["of", "to", "min", "max", "above", "below", "between", "quantile"]),
 ];
 
 /// Reads the list that stands below `expect:`.
@@ -144,7 +144,7 @@ impl Expect {
             "order" => What::Order {
                 column: Column::new(needed(&self.order, at, "order")?),
                 against: needed(&self.against, at, "against")?.clone(),
-                bounds: self.order_bounds(at)?,
+                bounds: self.bounds(at)?,
             },
             "equal" => What::Equal {
                 column: needed(&self.equal, at, "equal")?.clone(),
@@ -165,8 +165,17 @@ impl Expect {
         Ok(What::Compare { how, quantity, quantile: self.quantile(at)?, of, to, bounds: self.bounds(at)? })
     }
 
+    /// `between: [min, max]` is short for both.
     fn bounds(&self, at: Path) -> Result<Bounds> {
-        let bounds = Bounds { min: self.min, max: self.max, above: self.above, below: self.below };
+        let mut bounds = Bounds { min: self.min, max: self.max, above: self.above, below: self.below };
+        if let Some([low, high]) = self.between {
+            if low > high || !bounds.is_none() {
+                let found = format!("[{}, {}]", number(low), number(high));
+                let expected = "[min, max], without other bounds beside it";
+                return Err(ExperimentError::unexpected(at.key("between").to_key_path(), expected, &found));
+            }
+            bounds = Bounds { min: Some(low), max: Some(high), ..bounds };
+        }
         bounds.check(at)?;
         Ok(bounds)
     }
@@ -175,18 +184,6 @@ impl Expect {
         let bounds = self.bounds(at)?;
         bounds.check_share(at)?;
         Ok(bounds)
-    }
-
-    fn order_bounds(&self, at: Path) -> Result<Bounds> {
-        let Some([low, high]) = self.between else {
-            return self.bounds(at);
-        };
-        if low > high || self.min.or(self.max).is_some() {
-            let found = format!("[{}, {}]", number(low), number(high));
-            let expected = "[least, most] order, without min and max beside it";
-            return Err(ExperimentError::unexpected(at.key("between").to_key_path(), expected, &found));
-        }
-        Ok(Bounds { min: Some(low), max: Some(high), ..Bounds::default() })
     }
 
     fn is_rising(&self, at: Path) -> Result<bool> {

@@ -22,21 +22,51 @@ pub enum Condition {
     Bounds(Bounds),
 }
 
+/// Longer ones first.
+const SIGNS: [&str; 10] = ["<=", ">=", "!=", "==", "≤", "≥", "≠", "<", ">", "="];
+
 /// Numbers of a file and of a row are the same if they differ by no more than this, relative: 5e-3 and 0.005 written as
 /// a quotient.
 const SAME: f64 = 1e-9;
 
 impl Filter {
-    pub fn read(text: Option<&Mapping>, at: Path) -> Result<Filter> {
-        let entries = text.into_iter().flatten();
-        let read = |(key, value): (&Value, &Value)| {
-            let Some(key) = key.as_str() else {
-                let found = describe(key);
-                return Err(ExperimentError::unexpected(at.to_key_path(), "an axis or a column", &found));
-            };
-            Ok((key.to_string(), Condition::read(value, at.key(key))?))
-        };
-        entries.map(read).collect::<Result<_>>().map(Filter)
+    /// A mapping, or a list of mappings and of texts like `"time.step_s <= 0.01"`.
+    pub fn read(written: Option<&Value>, at: Path) -> Result<Filter> {
+        let mut filter = Filter::default();
+        match written {
+            None => {}
+            Some(Value::Sequence(items)) => {
+                for (i, item) in items.iter().enumerate() {
+                    filter.add(item, at.item(i, None))?;
+                }
+            }
+            Some(item) => filter.add(item, at)?,
+        }
+        Ok(filter)
+    }
+
+    fn add(&mut self, item: &Value, at: Path) -> Result<()> {
+        match item {
+            Value::Mapping(entries) => {
+                for (key, value) in entries {
+                    let key = key.as_str().ok_or_else(|| {
+                        ExperimentError::unexpected(at.to_key_path(), "an axis or a column", &describe(key))
+                    })?;
+                    self.0.push((key.to_string(), Condition::read(value, at.key(key))?));
+                }
+                Ok(())
+            }
+            Value::String(text) if SIGNS.iter().any(|sign| text.contains(sign)) => {
+                let from = SIGNS.iter().filter_map(|sign| text.find(sign)).min().unwrap_or_default();
+                let (key, condition) = text.split_at(from);
+                self.0.push((key.trim().to_string(), Condition::read_text(condition, at)?));
+                Ok(())
+            }
+            other => {
+                let expected = "axes or columns with their values, or \"axis <= value\"";
+                Err(ExperimentError::unexpected(at.to_key_path(), expected, &describe(other)))
+            }
+        }
     }
 
     /// `cell` gives a row's value by the name of its column.
@@ -65,14 +95,16 @@ impl Condition {
 
     /// `"<= 0.01"`, `"> 3"`, `"!= cube"`, or the text itself.
     fn read_text(text: &str, at: Path) -> Result<Condition> {
-        const SIGNS: [&str; 8] = ["<=", ">=", "!=", "≤", "≥", "≠", "<", ">"];
         let Some((sign, rest)) = SIGNS.iter().find_map(|sign| Some((*sign, text.trim().strip_prefix(sign)?.trim())))
         else {
             return Ok(Condition::Is(vec![Cell::from(text)]));
         };
         let x = rest.parse::<f64>().ok().filter(|x| x.is_finite());
-        if matches!(sign, "!=" | "≠") {
-            return Ok(Condition::IsNot(x.map_or_else(|| Cell::from(rest), Cell::from)));
+        let value = || x.map_or_else(|| Cell::from(rest), Cell::from);
+        match sign {
+            "!=" | "≠" => return Ok(Condition::IsNot(value())),
+            "==" | "=" => return Ok(Condition::Is(vec![value()])),
+            _ => {}
         }
         let Some(x) = x else {
             let found = format!("`{text}`");

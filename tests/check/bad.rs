@@ -49,6 +49,9 @@ const EXPECT: &[(&str, &str, &str)] = &[
     ("{ column: steps, max: 1, where: { time.step_s: [0.01, 0.02] } }", "expect.0.where.time.step_s", "found `0.02`"),
     ("{ column: steps, max: 1, where: { seed: '<= one' } }", "expect.0.where.seed", "expected a number after the sign"),
     ("{ column: steps, max: 1, where: { outcome: '< 1' } }", "expect.0.where.outcome", "which is text"),
+    ("{ column: steps, max: 1, between: [0, 1] }", "expect.0.between", "without other bounds beside it"),
+    ("{ column: steps, max: 1, where: seed }", "expect.0.where", "axes or columns with their values"),
+    ("{ column: steps, max: 1, where: ['sed < 1'] }", "expect.0.where.sed", "did you mean `seed`?"),
     ("{ column: steps, max: 1, along: seed }", "expect.0.along", "expected only keys of `column`"),
     (
         "{ fraction: { outcome: exploded }, max: 1 }",

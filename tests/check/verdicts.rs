@@ -55,6 +55,7 @@ fn a_column_is_bounded_in_every_row() {
     let rows = rows(|step, _, seed| json!({ "energy_end_j": step + seed as f64 }));
     check("{ column: energy_end_j, min: 0.025, max: 1.1 }", &rows, true, "0.025 … 1.1");
     check("{ column: energy_end_j, max: 1.09 }", &rows, false, "2 of 12 rows outside");
+    check("{ column: energy_end_j, between: [0.025, 1.1] }", &rows, true, "0.025 … 1.1");
     check("{ column: energy_end_j, below: 1.1 }", &rows, false, "outside");
     check("{ column: energy_end_j, quantile: 0.5, max: 0.6 }", &rows, true, "0.5625");
     check("{ column: energy_end_j / step_used_s, where: { seed: 0 }, min: 1, max: 1 }", &rows, true, "1");
@@ -89,6 +90,9 @@ fn a_filter_knows_values_labels_lists_and_inequalities() {
         ("{ scene.gravity_m_s2: moon }", 6),
         ("{ scene.gravity_m_s2: '!= moon', steps: 10 }", 3),
         ("{ outcome: finished }", 12),
+        ("[time.step_s <= 0.05, { seed: 1 }]", 4),
+        ("['steps > 5', 'scene.gravity_m_s2 != moon']", 3),
+        ("'seed = 1'", 6),
     ] {
         let judged = judged(&format!("{{ column: energy_end_j, max: 2, where: {filter} }}"), &rows);
         assert_eq!((judged.rows, judged.met), (count, true), "{filter}");

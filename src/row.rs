@@ -1,5 +1,6 @@
 //! One row a case: the outcome and what the judges measured. Columns as in the README.
 
+use crate::measure::error::Errors;
 use crate::measure::work::Work;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -117,6 +118,13 @@ impl Measured {
             wall_s: None,
             more: Map::new(),
         }
+    }
+
+    pub fn set_errors(&mut self, errors: &Errors) {
+        self.error_position_m = finite(errors.position_m);
+        self.error_orientation_rad = finite(errors.orientation_rad);
+        self.error_velocity_m_s = finite(errors.velocity_m_s);
+        self.error_angular_velocity_rad_s = finite(errors.angular_velocity_rad_s);
     }
 
     pub fn count_work(&mut self, work: &Work) {

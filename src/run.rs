@@ -1,9 +1,11 @@
 //! THE MAIN LOOP: advance the state, show every step to the judges and the recorders, end in an outcome.
 
 use crate::collide::SolvedContact;
+use crate::exact::Reference;
 use crate::experiment::types::Experiment;
 use crate::measure::Judge;
 use crate::measure::divergence::Criterion;
+use crate::measure::error::Errors;
 use crate::measure::more::{self, Watched};
 use crate::model::Model;
 use crate::plan::Plan;
@@ -29,6 +31,7 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     let mut stepper = Stepper::new(&experiment.method, &plan, model);
     let mut judge = Judge::new(model, &start, &experiment.diverge, &plan);
     judge.watched = Watched::new(&experiment.measure);
+    let exact = experiment.exact.map(|exact| Reference::new(exact, model, &start));
     let (mut before, mut state) = (start.clone(), start);
     let mut stepping = Duration::ZERO;
     let mut diverged = None;
@@ -49,6 +52,9 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
         }
     }
     let mut measured = summarize(model, &state, &mut judge, &stepper, &clock, diverged, stepping);
+    if let Some(exact) = exact {
+        measured.set_errors(&Errors::between(&state, &exact.state_at(state.time_s)));
+    }
     measured.more = more::columns(experiment, model, &state, &judge.watched);
     if let Some(sampler) = &mut sampler {
         sampler.end(&state, &measured);

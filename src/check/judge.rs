@@ -3,7 +3,7 @@
 //! No row selected, a null or a number that is not finite: not met, never a pass.
 
 use super::trend::{cochran_armitage, mann_kendall};
-use super::{Cells, Schema, holds, number, selected, strata};
+use super::{Cells, Schema, selected, strata};
 use crate::experiment::expect::{Comparison, Expectation, What};
 use crate::experiment::filter::Filter;
 use crate::experiment::predicate::{Bounds, Column, Predicate, Quantity};
@@ -160,7 +160,7 @@ fn levels<'a>(schema: &Schema, rows: &[&'a Cells], along: &str) -> Result<Vec<Ve
     let is_numeric = schema.axis(along).is_none_or(|values| values.iter().all(Value::is_number));
     let column = Column { name: along.to_string(), divided_by: None };
     let place = |row: &&Cells| match is_numeric {
-        true => number(&column, row),
+        true => column.value(|name| row.get(name)),
         false => schema.level(along, row).map(|level| level as f64),
     };
     let missing = || format!("{along} is null in a row");
@@ -289,12 +289,12 @@ fn spread(rows: &[&Cells], vector: &[&str]) -> Option<f64> {
 }
 
 fn count(rows: &[&Cells], of: &Predicate) -> Result<usize, String> {
-    let hold = rows.iter().map(|row| holds(of, row).ok_or_else(|| null(of, row)));
+    let hold = rows.iter().map(|row| of.holds(|name| row.get(name)).ok_or_else(|| null(of, row)));
     Ok(hold.collect::<Result<Vec<_>, _>>()?.into_iter().filter(|holds| *holds).count())
 }
 
 fn numbers(rows: &[&Cells], column: &Column) -> Result<Vec<f64>, String> {
-    rows.iter().map(|row| number(column, row).ok_or_else(|| null(column, row))).collect()
+    rows.iter().map(|row| column.value(|name| row.get(name)).ok_or_else(|| null(column, row))).collect()
 }
 
 fn null(what: impl std::fmt::Display, row: &Cells) -> String {

@@ -11,7 +11,6 @@ pub use known::refuse_unknown;
 
 use crate::experiment::axes::Axes;
 use crate::experiment::filter::{Filter, is_same};
-use crate::experiment::predicate::{Column, Predicate};
 use crate::row::{Measured, Row};
 use serde_json::{Map, Value};
 
@@ -101,25 +100,6 @@ fn cells(row: &impl serde::Serialize) -> Cells {
 
 fn selected<'a>(rows: &[&'a Cells], filter: &Filter) -> Vec<&'a Cells> {
     rows.iter().copied().filter(|row| filter.takes(|name| row.get(name))).collect()
-}
-
-/// Null and what is not a number: none.
-fn number(column: &Column, row: &Cells) -> Option<f64> {
-    let cell = |name: &str| row.get(name).and_then(Value::as_f64);
-    match &column.divided_by {
-        None => cell(&column.name),
-        Some(by) => Some(cell(&column.name)? / cell(by)?).filter(|x| x.is_finite()),
-    }
-}
-
-/// None: the number that would decide it is not there.
-fn holds(predicate: &Predicate, row: &Cells) -> Option<bool> {
-    let text = |name: &str, word: &str| row.get(name).and_then(Value::as_str) == Some(word);
-    match predicate {
-        Predicate::Outcome(outcome) => Some(text("outcome", outcome.name())),
-        Predicate::Criterion(name) => Some(text("criterion", name)),
-        Predicate::Column { column, bounds } => number(column, row).map(|x| bounds.contain(x)),
-    }
 }
 
 /// Rows that agree in all of these axes, in the order of their first rows.

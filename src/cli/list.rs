@@ -18,6 +18,8 @@ pub struct Command {
 enum What {
     Methods,
     Shapes,
+    /// Closed forms that errors can be measured against (`exact:`)
+    Exact,
     /// What `measure:` can ask for
     Measures,
 }
@@ -63,6 +65,13 @@ const SHAPES: [Line; 3] = [
     ("none", "", "a point with mass and inertia, without contact", ""),
 ];
 
+const EXACT: [Line; 1] = [(
+    "free-motion",
+    "",
+    "parabola and torque-free rotation of any body, by Jacobi elliptic functions; without contact",
+    "van Zon & Schofield, JCP 225 (2007) 145",
+)];
+
 const MEASURES: [Line; 4] = [
     (
         "state",
@@ -95,6 +104,7 @@ impl Command {
         let lines: &[Line] = match self.what {
             What::Methods => &METHODS,
             What::Shapes => &SHAPES,
+            What::Exact => &EXACT,
             What::Measures => &MEASURES,
         };
         if self.output.json {

@@ -6,6 +6,7 @@ use super::validate::Result;
 use crate::row::Outcome;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
+use serde_json::Value as Cell;
 use std::fmt;
 
 /// An interval; `min` and `max` belong to it, `above` and `below` do not.
@@ -83,6 +84,15 @@ impl Column {
         }
     }
 
+    /// `cell` gives a row's value by the name of its column. Null and what is not a number: none.
+    pub fn value<'a>(&self, cell: impl Fn(&str) -> Option<&'a Cell>) -> Option<f64> {
+        let number = |name: &str| cell(name).and_then(Cell::as_f64);
+        match &self.divided_by {
+            None => number(&self.name),
+            Some(by) => Some(number(&self.name)? / number(by)?).filter(|x| x.is_finite()),
+        }
+    }
+
     pub fn names(&self) -> impl Iterator<Item = &str> {
         std::iter::once(self.name.as_str()).chain(self.divided_by.as_deref())
     }
@@ -100,6 +110,18 @@ pub enum Predicate {
     Outcome(Outcome),
     Criterion(String),
     Column { column: Column, bounds: Bounds },
+}
+
+impl Predicate {
+    /// Of a row; none: the number that would decide it is not there.
+    pub fn holds<'a>(&self, cell: impl Fn(&str) -> Option<&'a Cell>) -> Option<bool> {
+        let is = |name: &str, word: &str| cell(name).and_then(Cell::as_str) == Some(word);
+        match self {
+            Predicate::Outcome(outcome) => Some(is("outcome", outcome.name())),
+            Predicate::Criterion(name) => Some(is("criterion", name)),
+            Predicate::Column { column, bounds } => column.value(&cell).map(|x| bounds.contain(x)),
+        }
+    }
 }
 
 impl fmt::Display for Predicate {

@@ -29,6 +29,9 @@ pub struct Experiment {
     /// Columns beyond those of every row.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub measure: Vec<Measure>,
+    /// The closed form that errors are measured against.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub exact: Option<Exact>,
     /// Axes and their values, expanded by `sweep/`; absent in a resolved case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sweep: Option<Sweep>,
@@ -332,6 +335,14 @@ pub enum Stream {
 
 impl Stream {
     pub const ALL: [Stream; 4] = [Stream::Bodies, Stream::Contacts, Stream::Forces, Stream::Energy];
+}
+
+/// Closed forms, by name; what each is stands in `exact/`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Exact {
+    /// Parabola and torque-free rotation of every body.
+    FreeMotion,
 }
 
 /// What is measured only when asked for.

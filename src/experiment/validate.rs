@@ -3,7 +3,8 @@
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::types::{
-    Container, Diverge, Experiment, Measure, Method, Penalty, Plane, Random, Record, RecordCases, Scene, Shape, Time,
+    Container, Diverge, Exact, Experiment, Measure, Method, Penalty, Plane, Random, Record, RecordCases, Scene, Shape,
+    Time,
 };
 use super::validate_body::validate_body;
 
@@ -19,6 +20,7 @@ pub fn validate(experiment: &Experiment) -> Result<()> {
     validate_scene(&experiment.scene, root.key("scene"))?;
     validate_method(&experiment.method, root.key("method"))?;
     validate_contact(experiment, root.key("scene"))?;
+    validate_exact(experiment, root.key("exact"))?;
     validate_time(&experiment.time, root.key("time"))?;
     validate_diverge(&experiment.diverge, root.key("diverge"))?;
     validate_record(&experiment.record, root.key("record"))?;
@@ -139,6 +141,19 @@ fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
             one_shape(&experiment.scene, at)
         }
         Method::TimeStepping(_) => one_shape(&experiment.scene, at),
+    }
+}
+
+/// A closed form is the truth only where its assumptions hold.
+fn validate_exact(experiment: &Experiment, at: Path) -> Result<()> {
+    let scene = &experiment.scene;
+    let touches = scene.container.is_some() && scene.bodies.iter().any(|body| body.shape != Shape::None);
+    match experiment.exact {
+        Some(Exact::FreeMotion) if touches && !matches!(experiment.method, Method::Free(_)) => {
+            let expected = "no exact motion, or the method `free`: a body may touch the container";
+            Err(unexpected(at, expected, "`free-motion`"))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -7,6 +7,7 @@ pub mod contact_matrix;
 pub mod critical_step;
 pub mod divergence;
 pub mod energy;
+pub mod error;
 mod kept;
 pub mod momentum;
 pub mod more;

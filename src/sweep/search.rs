@@ -8,7 +8,7 @@
 use super::plan::columns;
 use crate::case::Case;
 use crate::experiment::axes::decimal;
-use crate::experiment::predicate::{Column, Predicate};
+use crate::experiment::predicate::Predicate;
 use crate::experiment::search::Search;
 use crate::experiment::types::Experiment;
 use crate::experiment::{ExperimentError, ExperimentFile};
@@ -181,21 +181,6 @@ fn float(number: &Number) -> f64 {
 
 /// A number that is no longer there (a diverged run's energy) is beyond every bound.
 fn is_true(until: &Predicate, measured: &Measured) -> bool {
-    match until {
-        Predicate::Outcome(outcome) => measured.outcome == *outcome,
-        Predicate::Criterion(name) => measured.criterion.as_ref() == Some(name),
-        Predicate::Column { column, bounds } => match number(column, measured) {
-            Some(x) => bounds.contain(x),
-            None => measured.outcome != Outcome::Finished,
-        },
-    }
-}
-
-fn number(column: &Column, measured: &Measured) -> Option<f64> {
     let row = serde_json::to_value(measured).unwrap_or_default();
-    let cell = |name: &str| row.get(name).and_then(Value::as_f64);
-    match &column.divided_by {
-        None => cell(&column.name),
-        Some(by) => Some(cell(&column.name)? / cell(by)?).filter(|x| x.is_finite()),
-    }
+    until.holds(|name| row.get(name)).unwrap_or(measured.outcome != Outcome::Finished)
 }

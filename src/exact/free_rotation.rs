@@ -97,7 +97,9 @@ impl FreeRotation {
 
 impl Steady {
     fn new(body: &Principal, q_WB: &UnitQuaternion<f64>, w_W: &Vector3<f64>) -> Self {
-        let rod = body.moments[0].f64() <= NO_MOMENT * body.moments[2].f64();
+        let [least, _, most] = body.moments.map(Dd::f64);
+        // A point has no axis: it turns as it did.
+        let rod = most > 0.0 && least <= NO_MOMENT * most;
         let axis_B = if rod { rounded(&body.axes[0]) } else { Vector3::zeros() };
         let spin = q_WB.inverse_transform_vector(w_W).dot(&axis_B);
         let across = w_W - q_WB * axis_B * spin;

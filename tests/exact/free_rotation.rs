@@ -68,7 +68,7 @@ fn every_body_is_where_forty_digits_say() {
             (most, w_most) = (most.max(off), w_most.max(w_off));
         }
     }
-    // Up to 10⁴ revolutions; measured: MMM and WWW
+    // Up to 10⁴ revolutions; measured: 3.7e-15 and 1.5e-15
     assert!(most < 1e-13 && w_most < 1e-13, "{most:.1e} rad, ω {w_most:.1e}");
 }
 
@@ -87,7 +87,7 @@ fn the_start_and_what_is_conserved_are_kept_to_rounding() {
         println!("{}: {}", case.name, here.map(|x| format!("{x:.1e}")).join(", "));
         most = [0, 1, 2, 3].map(|i| most[i].max(here[i]));
     }
-    // measured: CCC
+    // measured: 3.7e-16, 1.6e-15, 2.9e-15, 5.2e-15
     assert!(most[0] < 3e-15 && most[1] < 3e-15 && most[2] < 1e-14 && most[3] < 2e-14, "{most:?}");
 }
 
@@ -127,7 +127,7 @@ fn a_rod_is_the_limit_of_a_pencil_and_a_point_turns_as_it_did() {
     let at = |moments| FreeRotation::new(&diagonal(moments), &q_WB, &w_W).at(5.0);
     let (rod, pencil) = (at([2.0, 2.0, 0.0]), at([2.0, 2.0, 1e-12]));
     println!("rod: {:.1e}, ω {:.1e}", angle(&rod.0, &pencil.0), (rod.1 - pencil.1).norm());
-    // measured: PPP
+    // measured: 4.9e-12 (the moment left out) and 8.0e-14
     assert!(angle(&rod.0, &pencil.0) < 1e-11 && (rod.1 - pencil.1).norm() < 1e-11);
     for moments in [[0.0; 3], [2.0; 3]] {
         let (q, w) = at(moments);

@@ -133,7 +133,7 @@ fn a_rod_is_the_limit_of_a_pencil_and_a_point_turns_as_it_did() {
         let (q, w) = at(moments);
         let turned = UnitQuaternion::from_scaled_axis(w_W * 5.0) * q_WB;
         println!("point: {:.1e}, ω {:.1e}", angle(&q, &turned), (w - w_W).norm());
-        // measured: QQQ
+        // measured: 7.6e-16 and 1.1e-16
         assert!(angle(&q, &turned) < 1e-14 && (w - w_W).norm() < 1e-15);
     }
 }
@@ -181,6 +181,6 @@ fn no_start_is_undefined() {
                 assert!((q_WB.norm() - 1.0).abs() < 1e-14 && w.sum().is_finite(), "{moments:?} {w_W:?} {t_s}");
             }
         }
-    } // A phase of many units rounds: measured NNN
+    } // A phase of many units rounds: at most 1.8e-14 seen, next to the middle axis
     assert!(start < 1e-12, "{start:.1e}");
 }

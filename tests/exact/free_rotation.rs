@@ -181,6 +181,7 @@ fn no_start_is_undefined() {
                 assert!((q_WB.norm() - 1.0).abs() < 1e-14 && w.sum().is_finite(), "{moments:?} {w_W:?} {t_s}");
             }
         }
-    } // A phase of many units rounds next to the middle axis; 1.8e-14 seen at w = (0, 1, -1e-17)
+    }
+    // A phase of many units rounds next to the middle axis; 1.8e-14 seen at w = (0, 1, -1e-17)
     assert!(start < 1e-12, "{start:.1e}");
 }

@@ -43,6 +43,8 @@ pub mod solve;
 
 pub mod measure;
 
+pub mod exact;
+
 pub mod row;
 
 pub mod record;

@@ -3,6 +3,7 @@
 //! - `experiment/`: what a file, a `--set` and an axis mean, and what is said when they mean nothing
 //! - `model/`: meshes, mass properties, containers, start states
 //! - `methods/`: each method against its own recurrence, the exact motion, its conserved quantities
+//! - `exact/`: closed forms against 40-digit references
 //! - `measure/`: columns that `measure:` adds, against another way to their numbers
 //! - `map_a`: the lecture's stability notes against the measured table
 //! - `sweep/`: resume, threads, panics, tables, recordings of a sweep
@@ -21,6 +22,7 @@ mod check;
 mod cli;
 mod configs;
 mod counters;
+mod exact;
 mod experiment;
 mod map_a;
 mod measure;

@@ -1,0 +1,3 @@
+//! Closed forms against references of more digits.
+
+mod free_rotation;

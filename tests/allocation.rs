@@ -1,6 +1,7 @@
 //! No step allocates. The allocator counts per thread, so that other tests do not disturb.
 
 use crate::yaml::{CUBE_IN_BOX, experiment};
+use gotai::experiment::types::Integrator;
 use gotai::measure::Judge;
 use gotai::model::build;
 use gotai::plan::Plan;
@@ -78,5 +79,9 @@ fn no_step_allocates() {
             assert_eq!(allocated, 0, "{method}, {mesh}");
         }
     }
-    assert_eq!(allocations(&["method=free"]).0, 0);
+    for integrator in Integrator::ALL {
+        let set = format!("method.free.integrator={}", integrator.word());
+        let sets = [&set, "diverge.escape=false", "scene.bodies.cube.inertia_kg_m2=[0.1, 0.2, 0.25]"];
+        assert_eq!(allocations(&sets).0, 0, "{}", integrator.word());
+    }
 }

@@ -1,8 +1,10 @@
 //! `gotai list`: what can be written, one line each.
 
 use super::{CliError, OutputArgs, print, print_json};
+use crate::experiment::types::Integrator;
+use crate::integrate::claims::{Claim, Kept, claim};
 use clap::{Args, ValueEnum};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::process::ExitCode;
 
 #[derive(Args)]
@@ -30,9 +32,9 @@ type Line = (&'static str, &'static str, &'static str, &'static str);
 const METHODS: [Line; 4] = [
     (
         "free",
-        "integrator: explicit-euler | semi-implicit-euler (default)",
-        "motion without contact; order 1",
-        "lecture L4, L5",
+        "integrator: semi-implicit-euler (default), or one of those below; tolerance: 1e-9 (of dop853)",
+        "motion without contact",
+        "lecture L4, L5, L24",
     ),
     (
         "lecture",
@@ -108,19 +110,39 @@ impl Command {
             What::Measures => &MEASURES,
         };
         if self.output.json {
-            let document: Vec<_> = lines
-                .iter()
-                .map(|(name, settings, what, source)| {
-                    json!({ "name": name, "settings": settings, "what": what, "source": source })
-                })
-                .collect();
-            print_json(&document);
+            print_json(&lines.iter().map(line_json).collect::<Vec<_>>());
         } else {
             for (name, settings, what, source) in lines {
                 let from = if source.is_empty() { String::new() } else { format!(" [{source}]") };
                 print(format!("{name:14} {what}{from}\n{:14}   {settings}", ""));
+                for integrator in integrators(name) {
+                    print(format!("{:14}     {}", "", promise(*integrator)));
+                }
             }
         }
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// Those that a method chooses among.
+fn integrators(method: &str) -> &'static [Integrator] {
+    if method == "free" { &Integrator::ALL } else { &[] }
+}
+
+fn line_json((name, settings, what, source): &Line) -> Value {
+    let mut line = json!({ "name": name, "settings": settings, "what": what, "source": source });
+    let integrators = integrators(name);
+    if !integrators.is_empty() {
+        let named = |i: &Integrator| json!({ "name": i.word(), "claim": claim(*i) });
+        line["integrators"] = integrators.iter().map(named).collect();
+    }
+    line
+}
+
+fn promise(integrator: Integrator) -> String {
+    let Claim { order, energy, angular_momentum, parabola, source } = claim(integrator);
+    let kept = [(energy, "energy"), (angular_momentum, "angular momentum"), (parabola, "parabola")];
+    let kept: Vec<&str> = kept.iter().filter(|(kept, _)| *kept == Kept::ToRounding).map(|(_, what)| *what).collect();
+    let keeps = if kept.is_empty() { String::new() } else { format!("; to rounding: {}", kept.join(", ")) };
+    format!("{:19} order {order}{keeps} [{source}]", integrator.word())
 }

@@ -26,9 +26,13 @@ impl Default for Method {
 pub struct Free {
     #[serde(default)]
     pub integrator: Integrator,
+    /// Of `dop853` alone: error of one inner step, relative and absolute. Absent: 1e-9.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// What each promises: `integrate::claims`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integrator {
     /// The slide's formula (L5): u uses the old v.
@@ -36,6 +40,42 @@ pub enum Integrator {
     /// The slide's C program (L5): u uses the new v.
     #[default]
     SemiImplicitEuler,
+    /// The trapezoidal rule.
+    CrankNicolson,
+    /// Keeps energy and angular momentum.
+    ImplicitMidpoint,
+    /// The classical Runge–Kutta method.
+    Rk4,
+    /// Keeps energy and angular momentum, and the symplectic form.
+    MoserVeselov,
+    /// Dormand and Prince's 8(5,3) with error control.
+    Dop853,
+}
+
+impl Integrator {
+    /// All of them, as written above; a test holds this against the parser's own list.
+    pub const ALL: [Integrator; 7] = [
+        Integrator::ExplicitEuler,
+        Integrator::SemiImplicitEuler,
+        Integrator::CrankNicolson,
+        Integrator::ImplicitMidpoint,
+        Integrator::Rk4,
+        Integrator::MoserVeselov,
+        Integrator::Dop853,
+    ];
+
+    /// Its word in the file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Integrator::ExplicitEuler => "explicit-euler",
+            Integrator::SemiImplicitEuler => "semi-implicit-euler",
+            Integrator::CrankNicolson => "crank-nicolson",
+            Integrator::ImplicitMidpoint => "implicit-midpoint",
+            Integrator::Rk4 => "rk4",
+            Integrator::MoserVeselov => "moser-veselov",
+            Integrator::Dop853 => "dop853",
+        }
+    }
 }
 
 /// The lecture's constraint method with all its variants (L16–L21).

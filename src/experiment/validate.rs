@@ -3,10 +3,11 @@
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::types::{
-    Container, Diverge, Exact, Experiment, Measure, Method, Penalty, Plane, Random, Record, RecordCases, Scene, Shape,
-    Time,
+    Container, Diverge, Exact, Experiment, Free, Integrator, Measure, Method, Penalty, Plane, Random, Record,
+    RecordCases, Scene, Shape, Time,
 };
 use super::validate_body::validate_body;
+use crate::integrate::dop853::SMALLEST_TOLERANCE;
 
 pub(super) type Result<T> = std::result::Result<T, ExperimentError>;
 
@@ -108,7 +109,7 @@ fn validate_place(scene: &Scene, at: Path) -> Result<()> {
 
 fn validate_method(method: &Method, at: Path) -> Result<()> {
     match method {
-        Method::Free(_) => Ok(()),
+        Method::Free(free) => validate_free(free, at.key("free")),
         Method::Lecture(lecture) => at_least_one(lecture.sweeps, at.key("lecture").key("sweeps")),
         Method::Penalty(penalty) => validate_penalty(penalty, at.key("penalty")),
         Method::TimeStepping(stepping) => {
@@ -119,6 +120,21 @@ fn validate_method(method: &Method, at: Path) -> Result<()> {
             stepping.contacts_per_face.map_or(Ok(()), |count| holds_a_face(count, at.key("contacts_per_face")))
         }
     }
+}
+
+fn validate_free(free: &Free, at: Path) -> Result<()> {
+    let Some(tolerance) = free.tolerance else { return Ok(()) };
+    let at = at.key("tolerance");
+    if free.integrator != Integrator::Dop853 {
+        let expected =
+            format!("no tolerance, as `{}` does not control its error (`dop853` does)", free.integrator.word());
+        return Err(unexpected(at, &expected, &number(tolerance)));
+    }
+    if tolerance < SMALLEST_TOLERANCE {
+        let expected = format!("a number of at least {SMALLEST_TOLERANCE:e}");
+        return Err(unexpected(at, &expected, &number(tolerance)));
+    }
+    Ok(())
 }
 
 fn validate_penalty(penalty: &Penalty, at: Path) -> Result<()> {

@@ -1,4 +1,14 @@
-//! Motion without contact: one method a file.
+//! Motion without contact: one method a file. `claims` says what each promises, and the tests hold it to that.
 
+pub mod claims;
+pub mod crank_nicolson;
+pub mod dop853;
+pub mod dop853_tableau;
 pub mod euler;
+pub mod implicit_midpoint;
+pub mod momentum;
+pub mod moser_veselov;
+pub mod newton;
+pub mod phase;
+pub mod rk4;
 pub mod rotation;

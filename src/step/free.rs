@@ -2,28 +2,37 @@
 
 use super::Clock;
 use crate::experiment::types::{Free as Settings, Integrator, Update};
-use crate::integrate::euler;
+use crate::integrate::{crank_nicolson, dop853, euler, implicit_midpoint, moser_veselov, rk4};
 use crate::measure::work::Work;
 use crate::model::Model;
 use crate::state::State;
 
 pub struct Free {
-    update: Update,
+    integrator: Integrator,
+    /// Of every body, for `dop853`.
+    controls: Vec<dop853::Control>,
     pub(super) work: Work,
 }
 
 impl Free {
-    pub fn new(settings: &Settings) -> Self {
-        let update = match settings.integrator {
-            Integrator::ExplicitEuler => Update::Explicit,
-            Integrator::SemiImplicitEuler => Update::SemiImplicit,
-        };
-        Free { update, work: Work::default() }
+    pub fn new(settings: &Settings, model: &Model) -> Self {
+        let control = dop853::Control::new(settings.tolerance.unwrap_or(dop853::DEFAULT_TOLERANCE));
+        let controls = vec![control; model.bodies.len()];
+        Free { integrator: settings.integrator, controls, work: Work::default() }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
-        for (body, at) in model.bodies.iter().zip(&mut state.bodies) {
-            euler::step(body, at, &model.gravity_m_s2, self.update, clock.step_s, &mut self.work);
+        let (g, h, work) = (&model.gravity_m_s2, clock.step_s, &mut self.work);
+        for ((body, at), control) in model.bodies.iter().zip(&mut state.bodies).zip(&mut self.controls) {
+            match self.integrator {
+                Integrator::ExplicitEuler => euler::step(body, at, g, Update::Explicit, h, work),
+                Integrator::SemiImplicitEuler => euler::step(body, at, g, Update::SemiImplicit, h, work),
+                Integrator::CrankNicolson => crank_nicolson::step(body, at, g, h, work),
+                Integrator::ImplicitMidpoint => implicit_midpoint::step(body, at, g, h, work),
+                Integrator::Rk4 => rk4::step(body, at, g, h, work),
+                Integrator::MoserVeselov => moser_veselov::step(body, at, g, h, work),
+                Integrator::Dop853 => dop853::step(body, at, g, h, control, work),
+            }
         }
         clock.advance(state);
     }

@@ -68,7 +68,7 @@ impl Stepper {
     pub fn new(method: &Method, plan: &Plan, model: &Model) -> Self {
         let scratch = Scratch::new(model, plan);
         match method {
-            Method::Free(settings) => Stepper::Free(free::Free::new(settings)),
+            Method::Free(settings) => Stepper::Free(free::Free::new(settings, model)),
             Method::Lecture(settings) => Stepper::Lecture(lecture::Lecture::new(settings, scratch)),
             Method::Penalty(settings) => Stepper::Penalty(penalty::Penalty::new(settings, scratch)),
             Method::TimeStepping(settings) => {

@@ -103,7 +103,7 @@ fn a_method_is_one_word_or_one_key_with_settings() {
     assert_eq!(with_method("time-stepping"), Method::default());
     assert_eq!(
         with_method("{ free: { integrator: explicit-euler } }"),
-        Method::Free(Free { integrator: Integrator::ExplicitEuler })
+        Method::Free(Free { integrator: Integrator::ExplicitEuler, tolerance: None })
     );
 }
 

@@ -1,0 +1,45 @@
+//! What the integrators promise for a free rigid body. One table: `gotai list methods` prints it, and the tests run every
+//! line of it.
+
+use crate::experiment::types::Integrator;
+use serde::Serialize;
+
+/// One line of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Claim {
+    /// Of attitude and angular velocity; of the position too, where it is not exact.
+    pub order: u32,
+    /// Rotational energy of a body without torque.
+    pub energy: Kept,
+    /// Its angular momentum, as a vector of the world.
+    pub angular_momentum: Kept,
+    /// Its parabola.
+    pub parabola: Kept,
+    pub source: &'static str,
+}
+
+/// Whether a quantity of the motion is one of the method's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kept {
+    /// At any step for which the method has a solution: what is left walks by a rounding a step.
+    ToRounding,
+    No,
+}
+
+pub fn claim(integrator: Integrator) -> Claim {
+    use Integrator::*;
+    use Kept::{No, ToRounding};
+    let (order, energy, angular_momentum, parabola, source) = match integrator {
+        ExplicitEuler => (1, No, No, No, "lecture L5, the formula"),
+        SemiImplicitEuler => (1, No, No, No, "lecture L5, the C program"),
+        CrankNicolson => (2, No, No, ToRounding, "Crank & Nicolson 1947"),
+        ImplicitMidpoint => {
+            (2, ToRounding, ToRounding, ToRounding, "Simo & Wong 1991; Austin, Krishnaprasad & Wang 1993")
+        }
+        Rk4 => (4, No, No, ToRounding, "Kutta 1901"),
+        MoserVeselov => (2, ToRounding, ToRounding, ToRounding, "Moser & Veselov 1991; McLachlan & Zanna 2005"),
+        Dop853 => (8, No, No, ToRounding, "Hairer, Nørsett & Wanner, Solving ODEs I, II.5, II.10"),
+    };
+    Claim { order, energy, angular_momentum, parabola, source }
+}

@@ -1,0 +1,26 @@
+//! The discrete Moser–Veselov equations, order 2: h \[Π\]× = F J − J Fᵀ with J = ½ tr(I) − I, then R ← R F, Π ← Fᵀ Π
+//! (Moser & Veselov 1991; as an integrator and its backward error: McLachlan & Zanna 2005).
+//!
+//! A variational method: R Π does not change. It is integrable with the motion's own integrals, which for three axes
+//! include the energy: the body runs through the exact curve of Π at a rate that is wrong by O(h²). Beyond about
+//! h |ω| = 1 there is no F.
+
+use super::momentum::{half_turned, turn};
+use super::phase::fall;
+use crate::measure::work::Work;
+use crate::model::Body;
+use crate::state::BodyState;
+use nalgebra::{Matrix3, Vector3};
+
+/// One step of a body under a constant acceleration; the discrete Lagrangian of Störmer and Verlet makes its parabola
+/// exact.
+pub fn step(body: &Body, at: &mut BodyState, acceleration: &Vector3<f64>, step_s: f64, work: &mut Work) {
+    fall(at, acceleration, step_s);
+    turn(equation, body, at, step_s, work);
+}
+
+/// With F = cay(c): (1 + c²) g = 2 (I c + c × I c), or g + g × c + (g·c) c = 2 I c, where g = h Π.
+fn equation(g: &Vector3<f64>, I_B: &Matrix3<f64>, c: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+    let (left, derivative) = half_turned(g, c);
+    (left - I_B * c * 2.0, derivative - I_B * 2.0)
+}

@@ -28,7 +28,7 @@ pub struct Ended {
 pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Option<&mut Sampler>) -> Ended {
     let clock = clock(experiment);
     let plan = Plan::new(model, &experiment.method);
-    let mut stepper = Stepper::new(&experiment.method, &plan, model);
+    let mut stepper = Stepper::new(&experiment.method, &plan, model, &start);
     let mut judge = Judge::new(model, &start, &experiment.diverge, &plan);
     judge.watched = Watched::new(&experiment.measure);
     let exact = experiment.exact.map(|exact| Reference::new(exact, model, &start));

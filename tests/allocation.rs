@@ -46,7 +46,7 @@ fn allocations(sets: &[&str]) -> (u64, u64) {
     let (model, start) = build(&experiment).unwrap();
     let clock = gotai::run::clock(&experiment);
     let plan = Plan::new(&model, &experiment.method);
-    let mut stepper = Stepper::new(&experiment.method, &plan, &model);
+    let mut stepper = Stepper::new(&experiment.method, &plan, &model, &start);
     let mut judge = Judge::new(&model, &start, &experiment.diverge, &plan);
     let (mut before, mut state) = (start.clone(), start);
     let counted = ALLOCATIONS.get();

@@ -84,9 +84,20 @@ fn the_readme_names_every_config_method_row_and_folder() {
     for row in 1..=25 {
         assert!(readme.contains(&format!("| L{row} |")), "README.md's lecture map lacks L{row}");
     }
-    for folder in
-        ["cli", "experiment", "sweep", "model", "step", "integrate", "collide", "solve", "measure", "record", "check"]
-    {
+    for folder in [
+        "cli",
+        "experiment",
+        "sweep",
+        "model",
+        "step",
+        "integrate",
+        "collide",
+        "solve",
+        "exact",
+        "measure",
+        "record",
+        "check",
+    ] {
         assert!(root().join("src").join(folder).is_dir() && readme.contains(&format!("{folder}/")), "{folder}");
     }
 }

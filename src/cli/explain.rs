@@ -118,7 +118,8 @@ fn trial_s(case: &Case) -> f64 {
     const MOMENT: Duration = Duration::from_millis(200);
     let Ok((model, mut state)) = model::build(&case.experiment) else { return 0.0 };
     let clock = clock(&case.experiment);
-    let mut stepper = Stepper::new(&case.experiment.method, &Plan::new(&model, &case.experiment.method), &model);
+    let mut stepper =
+        Stepper::new(&case.experiment.method, &Plan::new(&model, &case.experiment.method), &model, &state);
     let started = Instant::now();
     while state.step < clock.steps && started.elapsed() < MOMENT {
         stepper.step(&model, &mut state, &clock);

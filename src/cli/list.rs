@@ -144,5 +144,6 @@ fn promise(integrator: Integrator) -> String {
     let kept = [(energy, "energy"), (angular_momentum, "angular momentum"), (parabola, "parabola")];
     let kept: Vec<&str> = kept.iter().filter(|(kept, _)| *kept == Kept::ToRounding).map(|(_, what)| *what).collect();
     let keeps = if kept.is_empty() { String::new() } else { format!("; to rounding: {}", kept.join(", ")) };
-    format!("{:19} order {order}{keeps} [{source}]", integrator.word())
+    let order = order.map_or("without error".to_string(), |order| format!("order {order}"));
+    format!("{:19} {order}{keeps} [{source}]", integrator.word())
 }

@@ -26,10 +26,11 @@ impl FreeMotion {
         State { step: 0, time_s: t_s, bodies: bodies.collect() }
     }
 
-    /// The same for one body, by its index, without a new `State`.
-    pub fn move_body(&self, index: usize, at: &mut BodyState, t_s: f64) {
-        let (start, rotation) = &self.bodies[index];
-        *at = self.body_at(start, rotation, t_s);
+    /// Puts the bodies where they are at the state's time.
+    pub fn write(&self, state: &mut State) {
+        for ((start, rotation), at) in self.bodies.iter().zip(&mut state.bodies) {
+            *at = self.body_at(start, rotation, state.time_s);
+        }
     }
 
     fn body_at(&self, start: &BodyState, rotation: &FreeRotation, t_s: f64) -> BodyState {

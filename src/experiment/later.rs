@@ -10,7 +10,7 @@ const LATER: &[(&str, &[&str])] = &[
     ("Body", &["copies", "fixed", "kinematic"]),
     ("Shape", &["cylinder", "capsule", "ellipsoid", "convex", "mesh"]),
     ("Method", &["event-driven", "auto"]),
-    ("Integrator", &["taylor", "exact"]),
+    ("Integrator", &["taylor"]),
     ("Solver", &["newton"]),
     ("Scheme", &["moreau"]),
     ("Impact", &["poisson", "sequential"]),

@@ -50,11 +50,13 @@ pub enum Integrator {
     MoserVeselov,
     /// Dormand and Prince's 8(5,3) with error control.
     Dop853,
+    /// The closed form: a parabola and elliptic functions, from the start in one leap to every time.
+    Exact,
 }
 
 impl Integrator {
     /// All of them, as written above; a test holds this against the parser's own list.
-    pub const ALL: [Integrator; 7] = [
+    pub const ALL: [Integrator; 8] = [
         Integrator::ExplicitEuler,
         Integrator::SemiImplicitEuler,
         Integrator::CrankNicolson,
@@ -62,6 +64,7 @@ impl Integrator {
         Integrator::Rk4,
         Integrator::MoserVeselov,
         Integrator::Dop853,
+        Integrator::Exact,
     ];
 
     /// Its word in the file.
@@ -74,6 +77,7 @@ impl Integrator {
             Integrator::Rk4 => "rk4",
             Integrator::MoserVeselov => "moser-veselov",
             Integrator::Dop853 => "dop853",
+            Integrator::Exact => "exact",
         }
     }
 }

@@ -8,7 +8,8 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Claim {
     /// Of attitude and angular velocity; of the position too, where it is not exact.
-    pub order: u32,
+    /// None: there is no error of the step's.
+    pub order: Option<u32>,
     /// Rotational energy of a body without torque.
     pub energy: Kept,
     /// Its angular momentum, as a vector of the world.
@@ -39,7 +40,9 @@ pub fn claim(integrator: Integrator) -> Claim {
         }
         Rk4 => (4, No, No, ToRounding, "Kutta 1901"),
         MoserVeselov => (2, ToRounding, ToRounding, ToRounding, "Moser & Veselov 1991; McLachlan & Zanna 2005"),
+        Exact => (0, ToRounding, ToRounding, ToRounding, "van Zon & Schofield, JCP 225 (2007) 145"),
         Dop853 => (8, No, No, ToRounding, "Hairer, Nørsett & Wanner, Solving ODEs I, II.5, II.10"),
     };
+    let order = (order > 0).then_some(order);
     Claim { order, energy, angular_momentum, parabola, source }
 }

@@ -1,6 +1,7 @@
 //! Motion without contact (L4, L5).
 
 use super::Clock;
+use crate::exact::free_motion::FreeMotion;
 use crate::experiment::types::{Free as Settings, Integrator, Update};
 use crate::integrate::{crank_nicolson, dop853, euler, implicit_midpoint, moser_veselov, rk4};
 use crate::measure::work::Work;
@@ -11,17 +12,24 @@ pub struct Free {
     integrator: Integrator,
     /// Of every body, for `dop853`.
     controls: Vec<dop853::Control>,
+    /// From the start, for `exact`.
+    motion: Option<FreeMotion>,
     pub(super) work: Work,
 }
 
 impl Free {
-    pub fn new(settings: &Settings, model: &Model) -> Self {
+    pub fn new(settings: &Settings, model: &Model, start: &State) -> Self {
         let control = dop853::Control::new(settings.tolerance.unwrap_or(dop853::DEFAULT_TOLERANCE));
         let controls = vec![control; model.bodies.len()];
-        Free { integrator: settings.integrator, controls, work: Work::default() }
+        let motion = (settings.integrator == Integrator::Exact).then(|| FreeMotion::new(model, start));
+        Free { integrator: settings.integrator, controls, motion, work: Work::default() }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
+        if let Some(motion) = &self.motion {
+            clock.advance(state);
+            return motion.write(state);
+        }
         let (g, h, work) = (&model.gravity_m_s2, clock.step_s, &mut self.work);
         for ((body, at), control) in model.bodies.iter().zip(&mut state.bodies).zip(&mut self.controls) {
             match self.integrator {
@@ -32,6 +40,8 @@ impl Free {
                 Integrator::Rk4 => rk4::step(body, at, g, h, work),
                 Integrator::MoserVeselov => moser_veselov::step(body, at, g, h, work),
                 Integrator::Dop853 => dop853::step(body, at, g, h, control, work),
+                // Not a step from the state before, see above.
+                Integrator::Exact => {}
             }
         }
         clock.advance(state);

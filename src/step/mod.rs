@@ -65,10 +65,10 @@ pub enum Stepper {
 }
 
 impl Stepper {
-    pub fn new(method: &Method, plan: &Plan, model: &Model) -> Self {
+    pub fn new(method: &Method, plan: &Plan, model: &Model, start: &State) -> Self {
         let scratch = Scratch::new(model, plan);
         match method {
-            Method::Free(settings) => Stepper::Free(free::Free::new(settings, model)),
+            Method::Free(settings) => Stepper::Free(free::Free::new(settings, model, start)),
             Method::Lecture(settings) => Stepper::Lecture(lecture::Lecture::new(settings, scratch)),
             Method::Penalty(settings) => Stepper::Penalty(penalty::Penalty::new(settings, scratch)),
             Method::TimeStepping(settings) => {

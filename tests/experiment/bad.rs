@@ -23,7 +23,7 @@ const ROWS: &[Row] = &[
     ("a key that is a number", "seed: 7", "7: 7", 15, "7", "unknown key"),
     ("a key twice", "seed: 7\n", "seed: 7\nseed: 8\n", 16, "seed", "this key is already there, on line 15"),
     ("a key twice, nested", CUBE, "      mass_kg: 1\n      name: cuboid\n", 11, "scene.bodies.0.name", "already there, on line 7"),
-    ("a later key", "seed: 7\n", "seed: 7\nexact: top\n", 16, "exact", "not available in this version"),
+    ("a later key", "seed: 7\n", "seed: 7\nlimits: {}\n", 16, "limits", "not available in this version"),
     ("a later key of the scene", "  friction: 0.3\n", "  pins: []\n", 2, "scene.pins", "not available in this version"),
     ("a later key of a body", CUBE, "      fixed: true\n", 10, "scene.bodies.cube.fixed", "not available in this version"),
     ("a later key of a sweep", "seed: 7\n", "sweep: { where: [] }\n", 15, "sweep.where", "not available in this version"),
@@ -118,6 +118,8 @@ const ROWS: &[Row] = &[
     ("a negative interval", END, "  end_s: 1\nrecord: { every_s: -1 }\n", 20, "record.every_s", "at least 0"),
     ("an unknown stream", END, "  end_s: 1\nrecord:\n  streams: [bodies, contact]\n", 21, "record.streams.1", "did you mean `contacts`?"),
     ("a critical step of no spring", END, "  end_s: 1\nmeasure: [state, critical-step]\n", 20, "measure.1", "only the step of the method `penalty` is critical, found `critical-step`"),
+    ("an unknown closed form", END, "  end_s: 1\nexact: free-motoin\n", 20, "exact", "expected `free-motion`, found `free-motoin`"),
+    ("a closed form where bodies touch", END, "  end_s: 1\nexact: free-motion\n", 20, "exact", "a body may touch the container, found `free-motion`"),
     ("an unknown measure", END, "  end_s: 1\nmeasure: [contact-matrx]\n", 20, "measure.0", "did you mean `contact-matrix`?"),
     ("an unknown cone", LECTURE, "method: { lecture: { cone: disk } }\n", 16, "method.lecture.cone", "did you mean `disc`?"),
     // The text.

@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 fn whole_matrix(experiment: &Experiment, steps: u64) -> DMatrix<f64> {
     let (model, mut state) = build(experiment).unwrap();
     let (clock, plan) = (gotai::run::clock(experiment), Plan::new(&model, &experiment.method));
-    let mut stepper = Stepper::new(&experiment.method, &plan, &model);
+    let mut stepper = Stepper::new(&experiment.method, &plan, &model, &state);
     let mut most: (Vec<Contact>, State) = (Vec::new(), state.clone());
     while state.step < steps {
         let before = state.clone();

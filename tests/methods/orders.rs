@@ -63,7 +63,7 @@ fn two_methods_agree_on_the_reference() {
 fn every_integrator_has_the_order_that_it_claims() {
     let reference = reference();
     for integrator in Integrator::ALL {
-        let order = claim(integrator).order;
+        let Some(order) = claim(integrator).order else { continue };
         // Where the error is small enough to be a power and large enough not to be rounding.
         let coarsest = match order {
             1 => 1e-3,
@@ -83,6 +83,15 @@ fn every_integrator_has_the_order_that_it_claims() {
 }
 
 #[test]
+fn the_closed_form_has_no_error_of_the_step() {
+    for step_s in [1.0, 0.1, 0.007] {
+        let error = rotation_error(&after_steps_of(Integrator::Exact, step_s), &reference());
+        // measured: 9.3e-15
+        assert!(error < 1e-13, "{step_s}: {error:e}");
+    }
+}
+
+#[test]
 fn a_parabola_is_exact_where_it_is_claimed() {
     let exact = Vector3::new(3.0, 10.0 + 4.0 - 0.5 * 9.8, 0.0);
     for integrator in Integrator::ALL {
@@ -98,7 +107,7 @@ fn drifts(integrator: Integrator, step_s: f64, steps: u64) -> (f64, f64) {
     let experiment = experiment(BAR, &[&format!("method.free.integrator={}", integrator.word())]);
     let (model, start) = build(&experiment).unwrap();
     let clock = Clock { steps, end_s: step_s * steps as f64, step_s };
-    let mut stepper = Stepper::new(&experiment.method, &Plan::new(&model, &experiment.method), &model);
+    let mut stepper = Stepper::new(&experiment.method, &Plan::new(&model, &experiment.method), &model, &start);
     let (E0, L0) = kept(&model, &start);
     let (mut state, mut worst) = (start, (0.0_f64, 0.0_f64));
     while state.step < steps {
@@ -124,7 +133,7 @@ fn every_integrator_keeps_what_it_claims_and_nothing_else() {
     let bound = 10.0 * f64::EPSILON * (STEPS as f64).sqrt();
     for integrator in Integrator::ALL {
         // In steps of a hundredth not even what dop853 loses is above rounding.
-        let step_s = if claim(integrator).order > 4 { 0.1 } else { 0.01 };
+        let step_s = if claim(integrator).order.is_none_or(|order| order > 4) { 0.1 } else { 0.01 };
         let (energy, momentum) = drifts(integrator, step_s, STEPS);
         // measured: 2.0e-13 and less for what is claimed, 1.2e-7 and more for what is not; the bound is 7.0e-13
         for (what, drift, claimed) in
@@ -178,7 +187,7 @@ fn dop853_keeps_its_inner_step_from_one_step_of_the_clock_to_the_next() {
 #[test]
 fn the_work_of_a_step_is_known() {
     // A hundred steps. Newton's method takes three turns, and the trapezoidal rule the old velocity too.
-    assert_eq!(Integrator::ALL.map(|i| at_the_end(i, &[]).1), [100, 100, 400, 300, 400, 300, 1200]);
+    assert_eq!(Integrator::ALL.map(|i| at_the_end(i, &[]).1), [100, 100, 400, 300, 400, 300, 1200, 0]);
 }
 
 #[test]

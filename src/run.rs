@@ -34,7 +34,7 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     let exact = experiment.exact.map(|exact| Reference::new(exact, model, &start));
     let (mut before, mut state) = (start.clone(), start);
     let mut stepping = Duration::ZERO;
-    let mut diverged = None;
+    let (mut diverged, mut stalled) = (None, None);
     if let Some(sampler) = &mut sampler {
         sampler.sample(model, &state, &[], clock.step_s);
     }
@@ -43,6 +43,11 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
         let started = Instant::now();
         stepper.step(model, &mut state, &clock);
         stepping += started.elapsed();
+        stalled = stepper.stalled();
+        if stalled.is_some() {
+            state.copy_from(&before);
+            break;
+        }
         diverged = judge.observe(model, &before, &state, stepper.contacts(), clock.step_s);
         if let Some(sampler) = &mut sampler {
             let last = diverged.is_some() || state.step == clock.steps;
@@ -51,7 +56,13 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
             }
         }
     }
+    if let Some(sampler) = sampler.as_mut().filter(|sampler| stalled.is_some() && !sampler.is_due(state.step)) {
+        sampler.sample(model, &state, &[], clock.step_s);
+    }
     let mut measured = summarize(model, &state, &mut judge, &stepper, &clock, diverged, stepping);
+    if let Some(why) = stalled {
+        (measured.outcome, measured.criterion) = (Outcome::Stalled, Some(why.to_string()));
+    }
     if let Some(exact) = exact {
         measured.set_errors(&Errors::between(&state, &exact.state_at(state.time_s)));
     }

@@ -11,6 +11,9 @@ use crate::measure::divergence::Criterion;
 
 type Result = std::result::Result<(), ExperimentError>;
 
+/// Why a run stalls.
+const STALLED: &str = "not-converged";
+
 /// Columns of text: nothing to be compared with a number.
 const TEXTS: [&str; 5] = ["case", "outcome", "criterion", "build", "search_verdict"];
 
@@ -63,7 +66,7 @@ fn predicate(schema: &Schema, of: &Predicate, at: Path) -> Result {
     match of {
         Predicate::Outcome(_) => Ok(()),
         Predicate::Criterion(name) => {
-            let all = Criterion::ALL.map(Criterion::name);
+            let all: Vec<&str> = Criterion::ALL.map(Criterion::name).into_iter().chain([STALLED]).collect();
             let error = || ExperimentError::unknown_word(at.key("criterion").to_key_path(), name, &all);
             if all.contains(&name.as_str()) { Ok(()) } else { Err(error()) }
         }

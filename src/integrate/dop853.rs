@@ -50,8 +50,8 @@ impl Control {
     }
 }
 
-/// One step of the clock, of a body under a constant acceleration. A tolerance that no step reaches makes the state not
-/// a number, which ends the run as diverged.
+/// One step of the clock, of a body under a constant acceleration. False: no inner step reaches the tolerance, and the
+/// body is left on the way.
 pub fn step(
     body: &Body,
     at: &mut BodyState,
@@ -59,7 +59,7 @@ pub fn step(
     step_s: f64,
     control: &mut Control,
     work: &mut Work,
-) {
+) -> bool {
     let mut f = |y: &Phase| rate(body, acceleration, y, work);
     let (mut left_s, mut failed) = (step_s, false);
     let mut y = phase(at);
@@ -76,13 +76,13 @@ pub fn step(
             *at = state(&end);
             left_s -= tried_s;
             if left_s <= 0.0 {
-                return;
+                return true;
             }
             y = phase(at);
             first = f(&y);
         }
     }
-    at.q_WB.as_mut_unchecked().coords.fill(f64::NAN);
+    false
 }
 
 /// The end of a step, and its error over the tolerance.

@@ -14,6 +14,8 @@ pub struct Free {
     controls: Vec<dop853::Control>,
     /// From the start, for `exact`.
     motion: Option<FreeMotion>,
+    /// The tolerance is out of reach.
+    pub(super) stalled: bool,
     pub(super) work: Work,
 }
 
@@ -22,7 +24,7 @@ impl Free {
         let control = dop853::Control::new(settings.tolerance.unwrap_or(dop853::DEFAULT_TOLERANCE));
         let controls = vec![control; model.bodies.len()];
         let motion = (settings.integrator == Integrator::Exact).then(|| FreeMotion::new(model, start));
-        Free { integrator: settings.integrator, controls, motion, work: Work::default() }
+        Free { integrator: settings.integrator, controls, motion, stalled: false, work: Work::default() }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
@@ -39,7 +41,7 @@ impl Free {
                 Integrator::ImplicitMidpoint => implicit_midpoint::step(body, at, g, h, work),
                 Integrator::Rk4 => rk4::step(body, at, g, h, work),
                 Integrator::MoserVeselov => moser_veselov::step(body, at, g, h, work),
-                Integrator::Dop853 => dop853::step(body, at, g, h, control, work),
+                Integrator::Dop853 => self.stalled |= !dop853::step(body, at, g, h, control, work),
                 // Not a step from the state before, see above.
                 Integrator::Exact => {}
             }

@@ -86,6 +86,14 @@ impl Stepper {
         }
     }
 
+    /// The last step could not be made, and why; the state is then to be forgotten.
+    pub fn stalled(&self) -> Option<&'static str> {
+        match self {
+            Stepper::Free(method) if method.stalled => Some("not-converged"),
+            _ => None,
+        }
+    }
+
     /// Contacts of the last step.
     pub fn contacts(&self) -> &[SolvedContact] {
         match self {

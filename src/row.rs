@@ -141,6 +141,15 @@ impl Measured {
     }
 }
 
+/// Of a row, or a part of one, by the names of its columns.
+pub fn cells(row: &impl Serialize) -> Map<String, Value> {
+    match serde_json::to_value(row) {
+        Ok(Value::Object(cells)) => cells,
+        // Rows are structs of plain data.
+        _ => Map::new(),
+    }
+}
+
 /// Rows that ended so.
 pub fn count(rows: &[Row], outcome: Outcome) -> usize {
     rows.iter().filter(|row| row.measured.outcome == outcome).count()

@@ -34,35 +34,34 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     let exact = experiment.exact.map(|exact| Reference::new(exact, model, &start));
     let (mut before, mut state) = (start.clone(), start);
     let mut stepping = Duration::ZERO;
-    let (mut diverged, mut stalled) = (None, None);
+    let mut stopped = None;
     if let Some(sampler) = &mut sampler {
         sampler.sample(model, &state, &[], clock.step_s);
     }
-    while state.step < clock.steps && diverged.is_none() {
+    while state.step < clock.steps && stopped.is_none() {
         before.copy_from(&state);
         let started = Instant::now();
         stepper.step(model, &mut state, &clock);
         stepping += started.elapsed();
-        stalled = stepper.stalled();
-        if stalled.is_some() {
+        let stalled = stepper.stalled();
+        stopped = if stalled {
             state.copy_from(&before);
-            break;
-        }
-        diverged = judge.observe(model, &before, &state, stepper.contacts(), clock.step_s);
+            Some((Outcome::Stalled, Criterion::NotConverged))
+        } else {
+            let diverged = judge.observe(model, &before, &state, stepper.contacts(), clock.step_s);
+            diverged.map(|criterion| (Outcome::Diverged, criterion))
+        };
         if let Some(sampler) = &mut sampler {
-            let last = diverged.is_some() || state.step == clock.steps;
-            if last || sampler.is_due(state.step) {
+            let last = stopped.is_some() || state.step == clock.steps;
+            let due = sampler.is_due(state.step);
+            // A stalled run is back at a state that has been sampled if it was due.
+            let wanted = if stalled { !due } else { due || last };
+            if wanted {
                 sampler.sample(model, &state, stepper.contacts(), clock.step_s);
             }
         }
     }
-    if let Some(sampler) = sampler.as_mut().filter(|sampler| stalled.is_some() && !sampler.is_due(state.step)) {
-        sampler.sample(model, &state, &[], clock.step_s);
-    }
-    let mut measured = summarize(model, &state, &mut judge, &stepper, &clock, diverged, stepping);
-    if let Some(why) = stalled {
-        (measured.outcome, measured.criterion) = (Outcome::Stalled, Some(why.to_string()));
-    }
+    let mut measured = summarize(model, &state, &mut judge, &stepper, &clock, stopped, stepping);
     if let Some(exact) = exact {
         measured.set_errors(&Errors::between(&state, &exact.state_at(state.time_s)));
     }
@@ -85,13 +84,13 @@ fn summarize(
     judge: &mut Judge,
     stepper: &Stepper,
     clock: &Clock,
-    diverged: Option<Criterion>,
+    stopped: Option<(Outcome, Criterion)>,
     stepping: Duration,
 ) -> Measured {
     let penetration_end_m = judge.penetration_end_m(model, state);
     let mut measured = Measured {
-        outcome: diverged.map_or(Outcome::Finished, |_| Outcome::Diverged),
-        criterion: diverged.map(|criterion| criterion.name().to_string()),
+        outcome: stopped.map_or(Outcome::Finished, |(outcome, _)| outcome),
+        criterion: stopped.map(|(_, criterion)| criterion.name().to_string()),
         end_time_s: finite(state.time_s),
         steps: state.step,
         step_used_s: finite(clock.step_s),

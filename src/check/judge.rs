@@ -10,7 +10,6 @@ use crate::experiment::predicate::{Bounds, Column, Predicate, Quantity};
 use crate::measure::order;
 use serde::Serialize;
 use serde_json::Value;
-use std::collections::HashMap;
 
 /// An expectation and what became of it, in words.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -192,14 +191,10 @@ fn trend_of_numbers(
     // Along a column there are no cells: every row may have a level of its own.
     let others = if schema.axis(along).is_some() { schema.others(along) } else { Vec::new() };
     let levelled = levels.iter().enumerate().flat_map(|(level, rows)| rows.iter().map(move |row| (level, *row)));
-    let level_of: HashMap<*const Cells, usize> =
-        levelled.map(|(level, row)| (std::ptr::from_ref(row), level)).collect();
-    let rows: Vec<&Cells> = levels.iter().flatten().copied().collect();
-    let of_cell = |cell: Vec<&Cells>| {
-        let values = numbers(&cell, column)?;
-        Ok(cell.iter().zip(values).map(|(row, x)| (level_of[&std::ptr::from_ref(*row)], sign * x)).collect())
-    };
-    let cells = strata(&rows, &others).into_iter().map(of_cell).collect::<Result<Vec<_>, String>>()?;
+    let signed = |row: &Cells| number(column, row).map(|x| sign * x);
+    let of_cell = |cell: Vec<(usize, &Cells)>| cell.iter().map(|(level, row)| Ok((*level, signed(row)?))).collect();
+    let cells = strata(levelled, |(_, row)| row, &others);
+    let cells = cells.into_iter().map(of_cell).collect::<Result<Vec<_>, String>>()?;
     let means =
         levels.iter().map(|rows| Ok(short(mean(&numbers(rows, column)?)))).collect::<Result<Vec<_>, String>>()?;
     Ok((mann_kendall(&cells), arrows(&means)))
@@ -219,7 +214,7 @@ fn of_order(schema: &Schema, rows: &[&Cells], column: &Column, against: &str, bo
     let x = Column::new(if against == "time.step_s" { "step_used_s" } else { against });
     let others = if schema.axis(against).is_some() { schema.others(against) } else { Vec::new() };
     let mut orders = Vec::new();
-    for cell in strata(rows, &others) {
+    for cell in strata(rows.iter().copied(), |row| row, &others) {
         let points = numbers(&cell, &x).and_then(|x| Ok(x.into_iter().zip(numbers(&cell, column)?)));
         let points: Vec<_> = match points {
             Ok(points) => points.map(|(x, y)| (x, y.abs())).collect(),
@@ -246,7 +241,7 @@ fn of_order(schema: &Schema, rows: &[&Cells], column: &Column, against: &str, bo
 fn of_equal(schema: &Schema, rows: &[&Cells], column: &str, across: &str, within_rel: f64) -> Verdict {
     let mut largest = (0.0_f64, column.to_string());
     let mut compared = 0;
-    for cell in strata(rows, &schema.others(across)) {
+    for cell in strata(rows.iter().copied(), |row| row, &schema.others(across)) {
         if cell.len() < 2 {
             return Verdict::not(format!("a cell has a single row: nothing to compare across {across}"));
         }
@@ -294,7 +289,11 @@ fn count(rows: &[&Cells], of: &Predicate) -> Result<usize, String> {
 }
 
 fn numbers(rows: &[&Cells], column: &Column) -> Result<Vec<f64>, String> {
-    rows.iter().map(|row| column.value(|name| row.get(name)).ok_or_else(|| null(column, row))).collect()
+    rows.iter().map(|row| number(column, row)).collect()
+}
+
+fn number(column: &Column, row: &Cells) -> Result<f64, String> {
+    column.value(|name| row.get(name)).ok_or_else(|| null(column, row))
 }
 
 fn null(what: impl std::fmt::Display, row: &Cells) -> String {

@@ -11,9 +11,6 @@ use crate::measure::divergence::Criterion;
 
 type Result = std::result::Result<(), ExperimentError>;
 
-/// Why a run stalls.
-const STALLED: &str = "not-converged";
-
 /// Columns of text: nothing to be compared with a number.
 const TEXTS: [&str; 5] = ["case", "outcome", "criterion", "build", "search_verdict"];
 
@@ -65,11 +62,7 @@ fn quantity(schema: &Schema, quantity: &Quantity, at: Path) -> Result {
 fn predicate(schema: &Schema, of: &Predicate, at: Path) -> Result {
     match of {
         Predicate::Outcome(_) => Ok(()),
-        Predicate::Criterion(name) => {
-            let all: Vec<&str> = Criterion::ALL.map(Criterion::name).into_iter().chain([STALLED]).collect();
-            let error = || ExperimentError::unknown_word(at.key("criterion").to_key_path(), name, &all);
-            if all.contains(&name.as_str()) { Ok(()) } else { Err(error()) }
-        }
+        Predicate::Criterion(name) => one_of(Criterion::ALL.map(Criterion::name), name, at.key("criterion")),
         Predicate::Column { column, .. } => numbers(schema, column, at.key("column")),
     }
 }
@@ -87,19 +80,16 @@ fn numbers(schema: &Schema, column: &Column, at: Path) -> Result {
 }
 
 fn known(schema: &Schema, name: &str, at: Path) -> Result {
-    if schema.columns.iter().any(|column| column == name) {
-        return Ok(());
-    }
-    let known: Vec<&str> = schema.columns.iter().map(String::as_str).collect();
-    Err(ExperimentError::unknown_word(at.to_key_path(), name, &known))
+    one_of(schema.columns.iter().map(String::as_str), name, at)
 }
 
 fn axis(schema: &Schema, name: &str, at: Path) -> Result {
-    if schema.axis(name).is_some() {
-        return Ok(());
-    }
-    let known: Vec<&str> = schema.axes.iter().map(|(path, _)| path.as_str()).collect();
-    Err(ExperimentError::unknown_word(at.to_key_path(), name, &known))
+    one_of(schema.axes.iter().map(|(path, _)| path.as_str()), name, at)
+}
+
+fn one_of<'a>(known: impl IntoIterator<Item = &'a str>, name: &str, at: Path) -> Result {
+    let known: Vec<&str> = known.into_iter().collect();
+    if known.contains(&name) { Ok(()) } else { Err(ExperimentError::unknown_word(at.to_key_path(), name, &known)) }
 }
 
 fn filter(schema: &Schema, filter: &Filter, at: Path) -> Result {

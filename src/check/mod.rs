@@ -11,8 +11,10 @@ pub use known::refuse_unknown;
 
 use crate::experiment::axes::Axes;
 use crate::experiment::filter::{Filter, is_same};
-use crate::row::{Measured, Row};
+use crate::measure::more::STATE;
+use crate::row::{Measured, Row, cells};
 use serde_json::{Map, Value};
+use std::collections::HashMap;
 
 /// A row by the names of its columns.
 pub type Cells = Map<String, Value>;
@@ -65,14 +67,13 @@ impl Schema {
 
     /// A column, or all components of a vector (`cube.position_m`), or all vectors of all end states (`state`).
     fn vectors(&self, name: &str) -> Vec<Vec<&str>> {
-        const STATE: [&str; 4] = ["position_m", "orientation_xyzw", "velocity_m_s", "angular_velocity_rad_s"];
         if self.columns.iter().any(|column| column == name) {
             return vec![self.columns.iter().map(String::as_str).filter(|column| *column == name).collect()];
         }
         let mut vectors: Vec<(&str, Vec<&str>)> = Vec::new();
         for column in &self.columns {
             let Some((vector, "x" | "y" | "z" | "w")) = column.rsplit_once('.') else { continue };
-            let is_state = vector.rsplit_once('.').is_some_and(|(_, last)| STATE.contains(&last));
+            let is_state = vector.rsplit_once('.').is_some_and(|(_, last)| STATE.iter().any(|(name, _)| *name == last));
             if vector != name && !(name == "state" && is_state) {
                 continue;
             }
@@ -90,30 +91,22 @@ pub fn cells_of(rows: &[Row]) -> Vec<Cells> {
     rows.iter().map(cells).collect()
 }
 
-fn cells(row: &impl serde::Serialize) -> Cells {
-    match serde_json::to_value(row) {
-        Ok(Value::Object(cells)) => cells,
-        // Rows are structs of plain data.
-        _ => Cells::new(),
-    }
-}
-
 fn selected<'a>(rows: &[&'a Cells], filter: &Filter) -> Vec<&'a Cells> {
     rows.iter().copied().filter(|row| filter.takes(|name| row.get(name))).collect()
 }
 
-/// Rows that agree in all of these axes, in the order of their first rows.
-fn strata<'a>(rows: &[&'a Cells], axes: &[&str]) -> Vec<Vec<&'a Cells>> {
-    let mut strata: Vec<(String, Vec<&Cells>)> = Vec::new();
-    let mut places = std::collections::HashMap::new();
+/// Rows, or what comes with a row, that agree in all of these axes; in the order of their first rows.
+fn strata<T>(rows: impl IntoIterator<Item = T>, cells: impl Fn(&T) -> &Cells, axes: &[&str]) -> Vec<Vec<T>> {
+    let mut strata: Vec<Vec<T>> = Vec::new();
+    let mut places = HashMap::new();
     for row in rows {
-        let key = axes.iter().map(|axis| row.get(*axis).map_or_else(String::new, Value::to_string));
-        let key = key.collect::<Vec<_>>().join("\u{0}");
-        let place = *places.entry(key.clone()).or_insert_with(|| {
-            strata.push((key, Vec::new()));
-            strata.len() - 1
-        });
-        strata[place].1.push(row);
+        let key: Vec<String> =
+            axes.iter().map(|axis| cells(&row).get(*axis).map_or_else(String::new, Value::to_string)).collect();
+        let place = *places.entry(key).or_insert(strata.len());
+        if place == strata.len() {
+            strata.push(Vec::new());
+        }
+        strata[place].push(row);
     }
-    strata.into_iter().map(|(_, rows)| rows).collect()
+    strata
 }

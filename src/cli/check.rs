@@ -79,7 +79,8 @@ impl Command {
     }
 
     fn plan_one(&self, config: Config) -> Result<Option<(Planned, Schema)>, CliError> {
-        if self.sweep.load(&config)?.expect().is_empty() {
+        let file = self.sweep.load(&config)?;
+        if file.expect().is_empty() {
             let path = config.path.display();
             return match config.is_of_folder {
                 true => Ok(None),
@@ -87,7 +88,7 @@ impl Command {
             };
         }
         // Verdicts need rows alone; `--record` asks for more.
-        let planned = self.sweep.planned(config, Some(RecordTo::None))?;
+        let planned = self.sweep.planned(config, file, Some(RecordTo::None))?;
         let schema = schema(&planned);
         let file = &planned.file;
         refuse_unknown(&schema, file.expect(), file.search()).map_err(|error| file.placed(error))?;

@@ -38,7 +38,7 @@ impl Command {
         if !targets.is_empty() {
             std::fs::create_dir_all(&dir).map_err(|error| CliError::Machine(format!("{}: {error}", dir.display())))?;
         }
-        let (model, start) = build(&file, &[], &case)?;
+        let (model, start) = build(&file, &[], &case.experiment)?;
         if self.output.verbose {
             describe_plan(&Plan::new(&model, &case.experiment.method));
         }

@@ -21,7 +21,8 @@ impl Command {
         // Every case of every file is checked before the first run.
         let pool = self.sweep.run.pool()?;
         let configs = configs(std::slice::from_ref(&self.config))?.into_iter();
-        let planned = configs.map(|config| pool.install(|| self.sweep.planned(config, None)));
+        let plan = |config| self.sweep.load(&config).and_then(|file| self.sweep.planned(config, file, None));
+        let planned = configs.map(|config| pool.install(|| plan(config)));
         let planned = planned.collect::<Result<Vec<_>, _>>()?;
         let mut swept = Vec::with_capacity(planned.len());
         for planned in &planned {

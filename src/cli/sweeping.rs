@@ -66,13 +66,16 @@ impl SweepArgs {
         self.experiment.load(&config.path)
     }
 
-    /// All cases of a file, and what they are recorded into: `--record`, else what the file says or, if that is nothing,
-    /// `unsaid`.
-    pub fn planned(&self, config: Config, unsaid: Option<RecordTo>) -> Result<Planned, CliError> {
-        let file = self.load(&config)?;
+    /// All cases of a file, and what they are recorded into: `--record`, else `instead`, else what the file says.
+    pub fn planned(
+        &self,
+        config: Config,
+        file: ExperimentFile,
+        instead: Option<RecordTo>,
+    ) -> Result<Planned, CliError> {
         let cases = cases(&file)?;
         let said = cases.first().and_then(|case| case.experiment.record.to);
-        let targets = self.run.targets(unsaid.or(said))?;
+        let targets = self.run.targets(instead.or(said))?;
         Ok(Planned { config, file, cases, targets })
     }
 

@@ -1,7 +1,7 @@
 //! Bodies without contact or force but gravity: a parabola and a torque-free rotation each (L4, L5).
 
 use super::free_rotation::FreeRotation;
-use crate::model::Model;
+use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
@@ -12,8 +12,7 @@ pub struct FreeMotion {
 
 impl FreeMotion {
     pub fn new(model: &Model, start: &State) -> Self {
-        let rotation =
-            |(body, at): (&crate::model::Body, &BodyState)| (*at, FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB));
+        let rotation = |(body, at): (&Body, &BodyState)| (*at, FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB));
         FreeMotion {
             gravity_m_s2: model.gravity_m_s2,
             bodies: model.bodies.iter().zip(&start.bodies).map(rotation).collect(),

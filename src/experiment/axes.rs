@@ -237,7 +237,7 @@ fn check_lengths(g: usize, axes: &[Axis], group_of: &[Option<usize>]) -> Result<
     Err(ExperimentError::unexpected(together_path(g, None), "axes of the same length", &found.join(", ")))
 }
 
-fn find_axis(axes: &[Axis], name: &str, at: &KeyPath) -> Result<usize> {
+pub(super) fn find_axis(axes: &[Axis], name: &str, at: &KeyPath) -> Result<usize> {
     let known: Vec<&str> = axes.iter().map(|axis| axis.path.as_str()).collect();
     let found = known.iter().position(|path| *path == name);
     found.ok_or_else(|| ExperimentError::unknown_word(at.clone(), name, &known))
@@ -406,6 +406,6 @@ fn to_number(n: i128) -> Option<Number> {
 }
 
 /// A `Number` always converts; the reader of values has refused what is not finite.
-fn float(number: &Number) -> f64 {
+pub(crate) fn float(number: &Number) -> f64 {
     number.as_f64().unwrap_or(f64::NAN)
 }

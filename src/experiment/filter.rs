@@ -1,5 +1,6 @@
 //! `where`: which rows, by their axes and columns.
 
+use super::axes::AxisValue;
 use super::error::{ExperimentError, describe};
 use super::key_path::Path;
 use super::predicate::Bounds;
@@ -84,8 +85,7 @@ impl Condition {
             }
             Value::Sequence(items) => Ok(Condition::Is(items.iter().map(cell).collect())),
             Value::Mapping(mapping) if is_bounds(mapping) => {
-                let text: BoundsText = from_value(value, &at.to_key_path())?;
-                let bounds = Bounds { min: text.min, max: text.max, above: text.above, below: text.below };
+                let bounds: Bounds = from_value(value, &at.to_key_path())?;
                 bounds.check(at)?;
                 Ok(Condition::Bounds(bounds))
             }
@@ -142,14 +142,9 @@ impl fmt::Display for Filter {
     }
 }
 
-/// The value of an axis as rows show it: subtrees as compact JSON.
+/// A value as rows show it.
 fn cell(value: &Value) -> Cell {
-    match value {
-        Value::Mapping(_) | Value::Sequence(_) => {
-            Cell::String(serde_json::to_string(value).unwrap_or_else(|_| "null".to_string()))
-        }
-        scalar => serde_json::to_value(scalar).unwrap_or_default(),
-    }
+    AxisValue { label: None, value: value.clone() }.cell()
 }
 
 pub fn is_same(a: &Cell, b: &Cell) -> bool {
@@ -165,13 +160,4 @@ pub fn shown_cell(cell: &Cell) -> String {
 
 fn is_bounds(mapping: &Mapping) -> bool {
     mapping.keys().any(|key| key.as_str().is_some_and(|key| ["min", "max", "above", "below"].contains(&key)))
-}
-
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BoundsText {
-    min: Option<f64>,
-    max: Option<f64>,
-    above: Option<f64>,
-    below: Option<f64>,
 }

@@ -211,13 +211,13 @@ pub struct TimeStepping {
     /// 1e-12: what is left is below the rounding of a step.
     pub tolerance: f64,
     pub position_correction: PositionCorrection,
-    #[serde(skip_serializing_if = "Local::is_common")]
+    #[serde(skip_serializing_if = "is_default")]
     pub local: Local,
     /// Part of a contact's change that is made at its turn, between 0 and 2. Below 1 fewer impacts end in a limit cycle,
     /// and all take longer.
     #[serde(skip_serializing_if = "is_one")]
     pub relaxation: f64,
-    #[serde(skip_serializing_if = "Order::is_fixed")]
+    #[serde(skip_serializing_if = "is_default")]
     pub order: Order,
     /// So many contacts of a body on a face are solved, the deepest and those farthest from each other; the others get
     /// no impulse. Absent: all.
@@ -247,10 +247,11 @@ impl Default for TimeStepping {
 }
 
 /// What a contact does at its turn in a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Local {
     /// The normal row, then both tangents by one step length, then the disc.
+    #[default]
     Common,
     /// Every tangent row by its own diagonal (the common textbook form): it settles away from the solution.
     Rows,
@@ -258,26 +259,15 @@ pub enum Local {
     Exact,
 }
 
-impl Local {
-    fn is_common(&self) -> bool {
-        *self == Local::Common
-    }
-}
-
 /// In which order a sweep visits the contacts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Order {
     /// That of the contact test.
+    #[default]
     Fixed,
     /// Another one every sweep, the same in every step.
     Shuffled,
-}
-
-impl Order {
-    fn is_fixed(&self) -> bool {
-        *self == Order::Fixed
-    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

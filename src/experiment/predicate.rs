@@ -10,7 +10,8 @@ use serde_json::Value as Cell;
 use std::fmt;
 
 /// An interval; `min` and `max` belong to it, `above` and `below` do not.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Bounds {
     pub min: Option<f64>,
     pub max: Option<f64>,

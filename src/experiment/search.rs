@@ -1,7 +1,7 @@
 //! `sweep.search`: the critical value of one key in every cell of the other axes. How it is found is in
 //! `sweep/search.rs`.
 
-use super::axes::Axes;
+use super::axes::{Axes, find_axis, float};
 use super::error::{ExperimentError, Kind, number};
 use super::key_path::{KeyPath, Path};
 use super::overrides::split;
@@ -70,7 +70,7 @@ impl SearchText {
     }
 
     fn bracket(&self, at: Path) -> Result<[Number; 2]> {
-        let [low, high] = self.between.each_ref().map(|n| n.as_f64().unwrap_or(f64::NAN));
+        let [low, high] = self.between.each_ref().map(float);
         if low < high && low.is_finite() && high.is_finite() {
             return Ok(self.between.clone());
         }
@@ -104,9 +104,7 @@ impl SearchText {
 }
 
 fn over(name: &str, axes: &Axes, at: Path) -> Result<usize> {
-    let known: Vec<&str> = axes.axes.iter().map(|axis| axis.path.as_str()).collect();
-    let axis = known.iter().position(|path| *path == name);
-    let axis = axis.ok_or_else(|| ExperimentError::unknown_word(at.to_key_path(), name, &known))?;
+    let axis = find_axis(&axes.axes, name, &at.to_key_path())?;
     if axes.groups.iter().any(|group| group.contains(&axis) && group.len() > 1) {
         let found = format!("`{name}`, which advances together with another");
         return Err(ExperimentError::unexpected(at.to_key_path(), "an axis on its own", &found));

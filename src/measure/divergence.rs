@@ -1,4 +1,4 @@
-//! When a run counts as diverged. A diverged run stops and is a result.
+//! When a run counts as diverged, and why runs stop. A run that stops is a result.
 
 use super::energy::Energy;
 use crate::experiment::types::Diverge;
@@ -13,11 +13,19 @@ pub enum Criterion {
     Escape,
     Speed,
     Penetration,
+    /// A step could not be made to its tolerance: the run has stalled.
+    NotConverged,
 }
 
 impl Criterion {
-    pub const ALL: [Criterion; 5] =
-        [Criterion::NotFinite, Criterion::Energy, Criterion::Escape, Criterion::Speed, Criterion::Penetration];
+    pub const ALL: [Criterion; 6] = [
+        Criterion::NotFinite,
+        Criterion::Energy,
+        Criterion::Escape,
+        Criterion::Speed,
+        Criterion::Penetration,
+        Criterion::NotConverged,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -26,6 +34,7 @@ impl Criterion {
             Criterion::Escape => "escape",
             Criterion::Speed => "speed",
             Criterion::Penetration => "penetration",
+            Criterion::NotConverged => "not-converged",
         }
     }
 }

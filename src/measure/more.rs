@@ -65,7 +65,7 @@ pub fn names(experiment: &Experiment) -> Vec<String> {
 }
 
 /// The vectors of a state and their components.
-const STATE: [(&str, &[&str]); 4] = [
+pub const STATE: [(&str, &[&str]); 4] = [
     ("position_m", &["x", "y", "z"]),
     ("orientation_xyzw", &["x", "y", "z", "w"]),
     ("velocity_m_s", &["x", "y", "z"]),

@@ -1,7 +1,8 @@
 //! The lecture's iteration F^{i+1} = D⁻¹ (S F^i − b) and its correction (L20), in every literal variant.
 //!
 //! One implementation for all who iterate: `gauss-seidel` with `correction: per-contact` is projected Gauss–Seidel, the
-//! solver `pgs` of time-stepping. `after-sweep` is the slide to the letter. As printed the slide's formula is Jacobi; Gauss–Seidel uses the values already updated.
+//! solver `pgs` of time-stepping. `after-sweep` is the slide to the letter. As printed the slide's formula is Jacobi;
+//! Gauss–Seidel uses the values already updated.
 
 use super::problem::{Block, ContactProblem, Coupling, Memory};
 use super::{Impulse, corrected, exact_contact};

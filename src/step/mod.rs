@@ -86,12 +86,9 @@ impl Stepper {
         }
     }
 
-    /// The last step could not be made, and why; the state is then to be forgotten.
-    pub fn stalled(&self) -> Option<&'static str> {
-        match self {
-            Stepper::Free(method) if method.stalled => Some("not-converged"),
-            _ => None,
-        }
+    /// The last step could not be made: the state is to be forgotten.
+    pub fn stalled(&self) -> bool {
+        matches!(self, Stepper::Free(method) if method.stalled)
     }
 
     /// Contacts of the last step.

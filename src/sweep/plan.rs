@@ -4,6 +4,7 @@ use super::search;
 use crate::build_info::{BUILD, PROGRAM};
 use crate::case::{Case, hex};
 use crate::experiment::axes::Axes;
+use crate::experiment::types::Experiment;
 use crate::experiment::{ExperimentError, ExperimentFile};
 use crate::model::{self, BuildError, Model};
 use crate::state::State;
@@ -43,17 +44,21 @@ pub(super) fn columns(axes: &Axes, point: &[usize]) -> impl Iterator<Item = (Str
 }
 
 fn checked(file: &ExperimentFile, point: &[usize], case: Case) -> Result<Case, ExperimentError> {
-    build(file, point, &case)?;
+    build(file, point, &case.experiment)?;
     Ok(case)
 }
 
-/// The model and first state of the case at `point` (empty without axes).
+/// The model and first state of the experiment at `point` (empty without axes).
 ///
 /// # Errors
 /// What only geometry shows, with the place in the file.
-pub fn build(file: &ExperimentFile, point: &[usize], case: &Case) -> Result<(Model, State), ExperimentError> {
+pub fn build(
+    file: &ExperimentFile,
+    point: &[usize],
+    experiment: &Experiment,
+) -> Result<(Model, State), ExperimentError> {
     let placed = |e: BuildError| file.error_at(point, &e.path, &e.expected, &e.found);
-    model::build(&case.experiment).map_err(placed)
+    model::build(experiment).map_err(placed)
 }
 
 /// What `plan.json` says.

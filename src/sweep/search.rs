@@ -5,14 +5,13 @@
 //! halved: in the logarithm where both ends are positive, in whole numbers where the key wants them. What remains has one
 //! end of each kind. Over chaotic runs the share is noisy and need not be monotone: the result is one crossing.
 
-use super::plan::columns;
+use super::plan::{build, columns};
 use crate::case::Case;
-use crate::experiment::axes::decimal;
+use crate::experiment::axes::{decimal, float};
 use crate::experiment::predicate::Predicate;
 use crate::experiment::search::Search;
 use crate::experiment::types::Experiment;
 use crate::experiment::{ExperimentError, ExperimentFile};
-use crate::model;
 use crate::row::{Measured, Outcome};
 use crate::run;
 use rayon::prelude::*;
@@ -65,7 +64,7 @@ fn case(cell: Cell, first: &[usize]) -> Result<Case, ExperimentError> {
     for end in &search.between {
         for point in &cell.members {
             let experiment = file.searched_case(point, end)?;
-            model::build(&experiment).map_err(|e| file.error_at(point, &e.path, &e.expected, &e.found))?;
+            build(file, point, &experiment)?;
             ends.push(experiment);
         }
     }
@@ -144,8 +143,7 @@ impl Cell {
     }
 
     fn run(&self, experiment: &Experiment, point: &[usize]) -> Result<Measured, ExperimentError> {
-        let built = model::build(experiment);
-        let (model, start) = built.map_err(|e| self.file.error_at(point, &e.path, &e.expected, &e.found))?;
+        let (model, start) = build(&self.file, point, experiment)?;
         Ok(run::run(experiment, &model, start, None).measured)
     }
 
@@ -173,10 +171,6 @@ impl Trial {
     fn wall_s(&self) -> f64 {
         self.measured.wall_s.unwrap_or_default()
     }
-}
-
-fn float(number: &Number) -> f64 {
-    number.as_f64().unwrap_or(f64::NAN)
 }
 
 /// A number that is no longer there (a diverged run's energy) is beyond every bound.

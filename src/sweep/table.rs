@@ -1,7 +1,7 @@
 //! Rows as a table: CSV for spreadsheets, Parquet for everything columnar. Null is an empty cell.
 
 use super::plan::PlanAxis;
-use crate::row::{Measured, Row};
+use crate::row::{Measured, Row, cells};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, ZstdLevel};
@@ -28,7 +28,7 @@ impl Table {
     pub fn new(axes: &[PlanAxis], rows: &[Row]) -> Self {
         let mut columns = vec![("case".to_string(), Kind::Text)];
         columns.extend(axes.iter().map(|axis| (axis.path.clone(), kind_of(&axis.values))));
-        columns.extend(as_map(&Measured::nothing()).into_iter().map(|(name, value)| {
+        columns.extend(cells(&Measured::nothing()).into_iter().map(|(name, value)| {
             let kind = match name.as_str() {
                 "outcome" | "criterion" => Kind::Text,
                 _ if value.is_u64() => Kind::Integer,
@@ -36,7 +36,7 @@ impl Table {
             };
             (name, kind)
         }));
-        let rows: Vec<_> = rows.iter().map(|row| (as_map(row), &row.measured.more)).collect();
+        let rows: Vec<_> = rows.iter().map(|row| (cells(row), &row.measured.more)).collect();
         for name in rows.iter().flat_map(|(_, more)| more.keys()) {
             if !columns.iter().any(|(known, _)| known == name) {
                 let values: Vec<_> = rows.iter().filter_map(|(_, more)| more.get(name)).cloned().collect();
@@ -44,7 +44,7 @@ impl Table {
             }
         }
         columns.push(("build".to_string(), Kind::Text));
-        Table { columns, rows: rows.into_iter().map(|(cells, _)| cells).collect() }
+        Table { columns, rows: rows.into_iter().map(|(row, _)| row).collect() }
     }
 
     pub fn to_csv(&self) -> Result<Vec<u8>, csv::Error> {
@@ -87,14 +87,6 @@ fn kind_of(values: &[Value]) -> Kind {
         Kind::Number
     } else {
         Kind::Text
-    }
-}
-
-fn as_map(row: &impl serde::Serialize) -> Map<String, Value> {
-    match serde_json::to_value(row) {
-        Ok(Value::Object(map)) => map,
-        // Rows are structs of plain data.
-        _ => Map::new(),
     }
 }
 

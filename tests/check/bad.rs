@@ -87,14 +87,18 @@ const EXPECT: &[(&str, &str, &str)] = &[
     ("{ column: steps, fraction: { outcome: diverged }, max: 1 }", "expect.0.fraction", "only keys of `column`"),
 ];
 
-#[test]
-fn an_expectation_that_cannot_be_judged_is_refused() {
-    for (text, path, message) in EXPECT {
-        let error = error(&format!("expect:\n  - {text}\n"));
+fn all_are_refused(rows: &[(&str, &str, &str)], tail: impl Fn(&str) -> String) {
+    for (text, path, message) in rows {
+        let error = error(&tail(text));
         let (details, shown) = (error.details(), error.to_string());
         assert_eq!(details.path.to_string(), *path, "{text}: {shown}");
         assert!(shown.contains(message), "{text}: {shown}");
     }
+}
+
+#[test]
+fn an_expectation_that_cannot_be_judged_is_refused() {
+    all_are_refused(EXPECT, |text| format!("expect:\n  - {text}\n"));
 }
 
 const SEARCH: &[(&str, &str, &str)] = &[
@@ -152,12 +156,7 @@ const SEARCH: &[(&str, &str, &str)] = &[
 
 #[test]
 fn a_search_that_cannot_be_made_is_refused() {
-    for (text, path, message) in SEARCH {
-        let error = error(&format!("  search: {{ {text} }}\n"));
-        let (details, shown) = (error.details(), error.to_string());
-        assert_eq!(details.path.to_string(), *path, "{text}: {shown}");
-        assert!(shown.contains(message), "{text}: {shown}");
-    }
+    all_are_refused(SEARCH, |text| format!("  search: {{ {text} }}\n"));
 }
 
 #[test]

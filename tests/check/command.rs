@@ -1,9 +1,9 @@
 //! `gotai check` as a CI meets it.
 
+use crate::cli::run;
 use crate::scratch;
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
 
 const FALL: &str = "
 question: How far does a ball fall?
@@ -17,12 +17,6 @@ expect:
   - { column: ball.position_m.y, max: -4.9, why: semi-implicit Euler falls farther }
   - { equal: ball.position_m, across: scene.bodies.ball.mass_kg, why: Galilei }
 ";
-
-fn run(args: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_gotai")).args(args).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
 
 fn write(folder: &Path, name: &str, text: &str) -> String {
     let path = folder.join(name);

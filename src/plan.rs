@@ -30,7 +30,14 @@ impl Plan {
         let contact = contact(model, method);
         let friction = friction(model, method, contact.runs);
         let (has_contact, has_friction) = (contact.runs, friction.runs);
-        let stages = vec![contact, friction, gyroscopic(model, method), position_correction(method, has_contact)];
+        let stages = vec![
+            contact,
+            friction,
+            gyroscopic(model, method),
+            position_correction(method, has_contact),
+            loads(model),
+            pins(model),
+        ];
         let constraint = has_contact && !matches!(method, Method::Penalty(_));
         Plan { contact: has_contact, constraint, friction: has_friction, stages }
     }
@@ -99,5 +106,23 @@ fn position_correction(method: &Method, contact: bool) -> Stage {
         }
         Method::TimeStepping(_) => stage(name, false, "position_correction: none"),
         _ => stage(name, false, "the method has none"),
+    }
+}
+
+fn loads(model: &Model) -> Stage {
+    let name = "forces and air";
+    let dragged = model.bodies.iter().filter(|body| !body.drag.is_none()).count();
+    match (model.forces.len(), dragged) {
+        (0, 0) => stage(name, false, "gravity alone"),
+        (forces, 0) => stage(name, true, format!("{forces} applied")),
+        (forces, bodies) => stage(name, true, format!("{forces} applied; {bodies} bodies feel the air")),
+    }
+}
+
+fn pins(model: &Model) -> Stage {
+    let name = "pins";
+    match model.pins.len() {
+        0 => stage(name, false, "none: every body is on its own"),
+        pins => stage(name, true, format!("{pins}: {} equations, and a projection after every step", 3 * pins)),
     }
 }

@@ -63,6 +63,7 @@ pub struct Measured {
     pub angular_momentum_drift_rel: Option<f64>,
     pub penetration_max_m: Option<f64>,
     pub penetration_end_m: Option<f64>,
+    pub pin_gap_max_m: Option<f64>,
     pub residual_max: Option<f64>,
     pub contact_gain_max: Option<f64>,
     pub error_position_m: Option<f64>,
@@ -75,6 +76,8 @@ pub struct Measured {
     pub work_contact_solves: u64,
     pub work_sweeps: u64,
     pub work_gyroscopic: u64,
+    pub work_pin_solves: u64,
+    pub work_inner_steps: u64,
     pub wall_s: Option<f64>,
     /// Columns that only some experiments have: `measure:`, the bracket of a search.
     #[serde(flatten)]
@@ -103,6 +106,7 @@ impl Measured {
             angular_momentum_drift_rel: None,
             penetration_max_m: None,
             penetration_end_m: None,
+            pin_gap_max_m: None,
             residual_max: None,
             contact_gain_max: None,
             error_position_m: None,
@@ -115,6 +119,8 @@ impl Measured {
             work_contact_solves: 0,
             work_sweeps: 0,
             work_gyroscopic: 0,
+            work_pin_solves: 0,
+            work_inner_steps: 0,
             wall_s: None,
             more: Map::new(),
         }
@@ -133,6 +139,8 @@ impl Measured {
         self.work_contact_solves = work.contact_solves;
         self.work_sweeps = work.sweeps;
         self.work_gyroscopic = work.gyroscopic;
+        self.work_pin_solves = work.pin_solves;
+        self.work_inner_steps = work.inner_steps;
     }
 
     /// The same but for the time it took: what two runs of one case must agree in.

@@ -50,6 +50,9 @@ pub fn detect(model: &Model, state: &State, margin: f64, contacts: &mut Vec<Cont
     contacts.clear();
     let Some(container) = &model.container else { return };
     for (index, (body, at)) in model.bodies.iter().zip(&state.bodies).enumerate() {
+        if !body.touches() {
+            continue;
+        }
         for (f, face) in container.faces.iter().enumerate() {
             let centre_gap = face.gap_m(&at.p_WB);
             let limit = margin * body.bounding_radius_m;
@@ -80,6 +83,9 @@ pub fn detect(model: &Model, state: &State, margin: f64, contacts: &mut Vec<Cont
 /// Largest depth of any point of the body in any face; 0 if none is inside.
 pub fn deepest_m(model: &Model, body: &Body, at: &BodyState) -> f64 {
     let mut deepest = 0.0_f64;
+    if !body.touches() {
+        return deepest;
+    }
     for face in model.container.iter().flat_map(|c| &c.faces) {
         let centre_gap = face.gap_m(&at.p_WB);
         if centre_gap < body.bounding_radius_m {

@@ -5,9 +5,9 @@
 const LATER: &[(&str, &[&str])] = &[
     ("Experiment", &["bench", "reference", "limits"]),
     ("Sweep", &["where", "sample"]),
-    ("Scene", &["pairs", "pins", "forces", "air"]),
+    ("Scene", &["pairs"]),
     ("Container", &["mesh"]),
-    ("Body", &["copies", "fixed", "kinematic"]),
+    ("Body", &["copies"]),
     ("Shape", &["cylinder", "capsule", "ellipsoid", "convex", "mesh"]),
     ("Method", &["event-driven", "auto"]),
     ("Integrator", &["taylor"]),

@@ -20,6 +20,18 @@ impl Default for Method {
     }
 }
 
+impl Method {
+    /// Its word in the file.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Method::Free(_) => "free",
+            Method::Lecture(_) => "lecture",
+            Method::Penalty(_) => "penalty",
+            Method::TimeStepping(_) => "time-stepping",
+        }
+    }
+}
+
 /// Motion without contact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

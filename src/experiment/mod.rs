@@ -10,6 +10,7 @@ pub mod file;
 pub mod filter;
 pub mod key_path;
 mod later;
+mod loads;
 mod method;
 pub mod nearest;
 pub mod overrides;
@@ -20,6 +21,7 @@ mod source;
 pub mod types;
 mod validate;
 mod validate_body;
+mod validate_loads;
 pub mod value_de;
 
 pub use error::ExperimentError;

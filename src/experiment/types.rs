@@ -4,6 +4,7 @@
 //! is `validate.rs`; how a file, `--set` and a sweep axis become a value of them is `mod.rs`.
 //! SI units stand last in the key. Unknown keys are errors.
 
+pub use super::loads::*;
 pub use super::method::*;
 use super::search::SearchText;
 use serde::{Deserialize, Serialize};
@@ -55,6 +56,13 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub container: Option<Container>,
     pub bodies: Vec<Body>,
+    /// Ball joints.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pins: Vec<Pin>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub forces: Vec<Force>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub air: Option<Air>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub random: Option<Random>,
     /// A body may start inside a face.
@@ -140,6 +148,19 @@ pub struct Body {
     pub friction: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
+    /// It stays where it is.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub fixed: bool,
+    /// It moves as it is told.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinematic: Option<Kinematic>,
+}
+
+impl Body {
+    /// Nothing that acts on it changes its motion.
+    pub fn is_driven(&self) -> bool {
+        self.fixed || self.kinematic.is_some()
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -7,6 +7,7 @@ use super::types::{
     RecordCases, Scene, Shape, Time,
 };
 use super::validate_body::validate_body;
+use super::validate_loads::validate_loads;
 use crate::integrate::dop853::SMALLEST_TOLERANCE;
 
 pub(super) type Result<T> = std::result::Result<T, ExperimentError>;
@@ -21,6 +22,7 @@ pub fn validate(experiment: &Experiment) -> Result<()> {
     validate_scene(&experiment.scene, root.key("scene"))?;
     validate_method(&experiment.method, root.key("method"))?;
     validate_contact(experiment, root.key("scene"))?;
+    validate_loads(experiment, root.key("scene"))?;
     validate_exact(experiment, root.key("exact"))?;
     validate_time(&experiment.time, root.key("time"))?;
     validate_diverge(&experiment.diverge, root.key("diverge"))?;
@@ -164,7 +166,12 @@ fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
 fn validate_exact(experiment: &Experiment, at: Path) -> Result<()> {
     let scene = &experiment.scene;
     let touches = scene.container.is_some() && scene.bodies.iter().any(|body| body.shape != Shape::None);
+    let loaded = !scene.forces.is_empty() || scene.air.is_some() || !scene.pins.is_empty();
     match experiment.exact {
+        Some(Exact::FreeMotion) if loaded => {
+            let expected = "a scene in which nothing but gravity acts, as `free-motion` is the exact motion of such";
+            Err(unexpected(at, expected, "forces, air or pins"))
+        }
         Some(Exact::FreeMotion) if touches && !matches!(experiment.method, Method::Free(_)) => {
             let expected = "no exact motion, or the method `free`: a body may touch the container";
             Err(unexpected(at, expected, "`free-motion`"))

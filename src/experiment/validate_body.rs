@@ -4,6 +4,7 @@ use super::error::{ExperimentError, number};
 use super::key_path::Path;
 use super::types::{Body, BoxShape, Inertia, InertiaFrom, MeshSpec, NodesPerEdge, Orientation, Shape};
 use super::validate::{Result, a_part, direction, not_negative, positive, sizes, unexpected};
+use super::validate_loads::validate_driven;
 use nalgebra::Matrix3;
 
 /// Six levels make 40,962 surface nodes, seven 163,842: finer spheres only fill the memory.
@@ -23,6 +24,7 @@ pub fn validate_body(body: &Body, at: Path) -> Result<()> {
         validate_orientation(orientation, at.key("orientation"))?;
     }
     validate_spin(body, at)?;
+    validate_driven(body, at)?;
     body.friction.map_or(Ok(()), |friction| not_negative(friction, at.key("friction")))?;
     body.restitution.map_or(Ok(()), |restitution| a_part(restitution, at.key("restitution")))
 }

@@ -3,31 +3,52 @@
 //!
 //! It is conjugate to the midpoint rule: energy and momentum are kept by neither step, but come back.
 
+use super::implicit::Reached;
+use super::island::Drive;
 use super::newton;
 use super::phase::{fall, to_world};
+use super::rotation::gyroscopic_torque_B;
 use crate::measure::work::Work;
 use crate::model::Body;
 use crate::state::BodyState;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-/// One step of a body under a constant acceleration; its parabola is exact.
-pub fn step(body: &Body, at: &mut BodyState, acceleration: &Vector3<f64>, step_s: f64, work: &mut Work) {
-    fall(at, acceleration, step_s);
-    let old_B = at.q_WB.inverse_transform_vector(&at.w_WB);
-    let new_B = if body.isotropic { old_B } else { new_velocity_B(body, &old_B, step_s, work) };
+/// A step between the drives at its start and its end.
+pub fn driven(
+    body: &Body,
+    start: &BodyState,
+    [before, after]: &[Drive; 2],
+    h: f64,
+    work: &mut Work,
+) -> Option<Reached> {
+    let mut end = *start;
+    fall(&mut end, &((before.acceleration + after.acceleration) / 2.0), h);
+    let mean_torque_B = (before.torque_B + after.torque_B) / 2.0;
+    let old_B = start.q_WB.inverse_transform_vector(&start.w_WB);
+    let new_B = new_velocity_B(body, &old_B, &mean_torque_B, h, work)?;
     // q₁ − q₀ = h/4 (q₀ ω₀ + q₁ ω₁), solved for q₁; the inverse is the conjugate up to a length.
-    let quarter = |w_B: &Vector3<f64>| Quaternion::from_parts(1.0, w_B * (step_s / 4.0));
-    let q_WB = at.q_WB.into_inner() * quarter(&old_B) * quarter(&-new_B).conjugate();
-    at.q_WB = UnitQuaternion::new_normalize(q_WB);
-    at.w_WB = to_world(&at.q_WB, &new_B);
+    let quarter = |w_B: &Vector3<f64>| Quaternion::from_parts(1.0, w_B * (h / 4.0));
+    let q_WB = start.q_WB.into_inner() * quarter(&old_B) * quarter(&-new_B).conjugate();
+    end.q_WB = UnitQuaternion::new_normalize(q_WB);
+    end.w_WB = to_world(&end.q_WB, &new_B);
+    Some(Reached { end, seen: end })
 }
 
-/// I (ω₁ − ω₀) = h/2 (I ω₀ × ω₀ + I ω₁ × ω₁).
-fn new_velocity_B(body: &Body, old_B: &Vector3<f64>, step_s: f64, work: &mut Work) -> Vector3<f64> {
+/// I (ω₁ − ω₀) = h/2 (I ω₀ × ω₀ + I ω₁ × ω₁) + h τ.
+fn new_velocity_B(
+    body: &Body,
+    old_B: &Vector3<f64>,
+    torque_B: &Vector3<f64>,
+    h: f64,
+    work: &mut Work,
+) -> Option<Vector3<f64>> {
     let I = &body.I_B;
-    let half = step_s / 2.0;
+    if body.isotropic {
+        return Some(old_B + body.I_B_inverse * torque_B * h);
+    }
+    let half = h / 2.0;
     work.gyroscopic += 1;
-    let known = I * old_B + (I * old_B).cross(old_B) * half;
+    let known = I * old_B + gyroscopic_torque_B(body, old_B) * half + torque_B * h;
     newton::root(*old_B, |w| {
         work.gyroscopic += 1;
         let Iw = I * w;

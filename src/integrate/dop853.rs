@@ -3,11 +3,11 @@
 //! A parabola is exact.
 
 use super::dop853_tableau::{A, B, B3, E5};
-use super::phase::{Phase, phase, rate, state};
+use super::field::{Field, advanced, sum};
+use super::island::Island;
+use super::phase::{Phase, phase, state};
 use crate::measure::work::Work;
-use crate::model::Body;
-use crate::state::BodyState;
-use nalgebra::Vector3;
+use crate::model::Model;
 
 /// Error of one inner step, relative and absolute, in every part of the motion.
 pub const DEFAULT_TOLERANCE: f64 = 1e-9;
@@ -50,62 +50,83 @@ impl Control {
     }
 }
 
-/// One step of the clock, of a body under a constant acceleration. False: no inner step reaches the tolerance, and the
-/// body is left on the way.
+/// Phases of every body of an island: the start and the end of a try, a place on the way, and the slopes.
+#[derive(Debug)]
+pub struct Scratch {
+    y: Vec<Phase>,
+    end: Vec<Phase>,
+    k: [Vec<Phase>; 12],
+    /// c, the times of the slopes: sums of the rows of A.
+    nodes: [f64; 12],
+}
+
+impl Scratch {
+    pub fn new(island: &Island) -> Self {
+        let room = || vec![Phase::zeros(); island.at.len()];
+        let node = |i: usize| if i == 0 { 0.0 } else { A[i - 1].iter().sum() };
+        Scratch { y: room(), end: room(), k: std::array::from_fn(|_| room()), nodes: std::array::from_fn(node) }
+    }
+
+    fn start(&mut self, island: &mut Island, model: &Model, t_s: f64, work: &mut Work) {
+        self.y.iter_mut().zip(&island.at).for_each(|(y, at)| *y = phase(at));
+        Field { island, model, work }.at(t_s, &self.y, &mut self.k[0]);
+    }
+}
+
+/// One step of the clock. False: no inner step reaches the tolerance, and the island is left on the way.
 pub fn step(
-    body: &Body,
-    at: &mut BodyState,
-    acceleration: &Vector3<f64>,
-    step_s: f64,
+    island: &mut Island,
+    model: &Model,
+    [t_s, step_s]: [f64; 2],
     control: &mut Control,
+    scratch: &mut Scratch,
     work: &mut Work,
 ) -> bool {
-    let mut f = |y: &Phase| rate(body, acceleration, y, work);
     let (mut left_s, mut failed) = (step_s, false);
-    let mut y = phase(at);
-    let mut first = f(&y);
+    scratch.start(island, model, t_s, work);
     for _ in 0..MOST {
         // A hundredth more is no reason for another step.
         let tried_s = if left_s <= 1.01 * control.inner_s { left_s } else { control.inner_s };
-        let (end, error) = attempt(&mut f, &y, &first, tried_s, control.tolerance);
+        let now_s = t_s + (step_s - left_s);
+        let error = attempt(&mut Field { island, model, work }, [now_s, tried_s], control.tolerance, scratch);
         failed = !control.judge(error, tried_s, failed);
         if failed && control.inner_s <= 16.0 * f64::EPSILON * step_s {
             break;
         }
         if !failed {
-            *at = state(&end);
+            work.inner_steps += 1;
+            island.at.iter_mut().zip(&scratch.end).for_each(|(at, y)| *at = state(y));
             left_s -= tried_s;
             if left_s <= 0.0 {
                 return true;
             }
-            y = phase(at);
-            first = f(&y);
+            island.hold(model, now_s + tried_s, work);
+            scratch.start(island, model, now_s + tried_s, work);
         }
     }
     false
 }
 
-/// The end of a step, and its error over the tolerance.
-fn attempt(f: &mut impl FnMut(&Phase) -> Phase, y: &Phase, first: &Phase, h: f64, tolerance: f64) -> (Phase, f64) {
-    let mut k = [*first; 12];
+/// Puts the end of a try into the scratch; its error over the tolerance.
+fn attempt(f: &mut Field, [t_s, h]: [f64; 2], tolerance: f64, scratch: &mut Scratch) -> f64 {
+    let Scratch { y, end, k, nodes } = scratch;
     for (i, row) in A.iter().enumerate() {
-        k[i + 1] = f(&(y + sum(row, &k) * h));
+        advanced(y, row, k, h, end);
+        f.at(t_s + nodes[i + 1] * h, end, &mut k[i + 1]);
     }
-    let slope = sum(&B, &k);
-    let end = y + slope * h;
-    let scale = y.zip_map(&end, |a, b| tolerance + tolerance * a.abs().max(b.abs()));
-    let error5 = sum(&E5, &k).component_div(&scale).norm_squared();
-    let error3 = (slope - sum(&B3, &k)).component_div(&scale).norm_squared();
-    (end, combined(error5, error3, h, y.len()))
+    let (mut error5, mut error3) = (0.0, 0.0);
+    for (i, (y, end)) in y.iter().zip(end).enumerate() {
+        let slope = sum(&B, k, i);
+        *end = y + slope * h;
+        let scale = y.zip_map(end, |a, b| tolerance + tolerance * a.abs().max(b.abs()));
+        error5 += sum(&E5, k, i).component_div(&scale).norm_squared();
+        error3 += (slope - sum(&B3, k, i)).component_div(&scale).norm_squared();
+    }
+    combined(error5, error3, h, y.len() * y[0].len())
 }
 
 /// The estimate of order 5, made smaller where that of order 3 is much larger (II.10): of order 7 in h.
 fn combined(error5: f64, error3: f64, h: f64, components: usize) -> f64 {
     let both = error5 + 0.01 * error3;
     if both == 0.0 { 0.0 } else { h * error5 / (both * components as f64).sqrt() }
-}
-
-/// Σ aⱼ kⱼ.
-fn sum(weights: &[f64], k: &[Phase]) -> Phase {
-    weights.iter().zip(k).filter(|(a, _)| **a != 0.0).fold(Phase::zeros(), |sum, (a, k)| sum + k * *a)
 }

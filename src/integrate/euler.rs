@@ -1,36 +1,38 @@
 //! The lecture's two Euler methods (L5), order 1: the slide's formula moves with the old velocity (explicit), its C
 //! program with the new one (semi-implicit). Rotation in body axes, with the gyroscopic term.
 
-use super::rotation::{exponential, gyroscopic_acceleration_B};
+use super::island::{Drive, Island};
+use super::rotation::{exponential, gyroscopic_torque_B};
 use crate::experiment::types::Update;
 use crate::measure::work::Work;
-use crate::model::Body;
+use crate::model::{Body, Model};
 use crate::state::BodyState;
-use nalgebra::Vector3;
 
-/// One step of a body under a constant acceleration.
-pub fn step(
-    body: &Body,
-    at: &mut BodyState,
-    acceleration: &Vector3<f64>,
-    update: Update,
-    step_s: f64,
-    work: &mut Work,
-) {
+/// A step of `h` from `t_s`, by the drives at its start.
+pub fn step(update: Update, island: &mut Island, model: &Model, [t_s, h]: [f64; 2], work: &mut Work) {
+    island.drive(model, t_s, work);
+    for (body, at, drive) in island.each(model) {
+        advance(body, at, drive, update, h, work);
+    }
+}
+
+fn advance(body: &Body, at: &mut BodyState, drive: &Drive, update: Update, h: f64, work: &mut Work) {
     let old = *at;
-    at.v_WB += acceleration * step_s;
-    if !body.isotropic {
-        work.gyroscopic += 1;
+    at.v_WB += drive.acceleration * h;
+    let turns = drive.turns(body);
+    if turns {
+        work.gyroscopic += u64::from(!body.isotropic);
         let w_B = at.q_WB.inverse_transform_vector(&at.w_WB);
-        at.w_WB += at.q_WB * gyroscopic_acceleration_B(body, &w_B) * step_s;
+        let torque_B = gyroscopic_torque_B(body, &w_B) + drive.torque_B;
+        at.w_WB += at.q_WB * (body.I_B_inverse * torque_B) * h;
     }
     let moving = match update {
         Update::Explicit => &old,
         Update::SemiImplicit => &*at,
     };
-    let (dp, dq) = (moving.v_WB * step_s, exponential(&(moving.w_WB * step_s)));
+    let (dp, dq) = (moving.v_WB * h, exponential(&(moving.w_WB * h)));
     at.p_WB += dp;
-    if !body.isotropic {
+    if turns {
         // ω was advanced in body axes: it turns with them.
         at.w_WB = dq * at.w_WB;
     }

@@ -5,22 +5,28 @@
 //! include the energy: the body runs through the exact curve of Π at a rate that is wrong by O(h²). Beyond about
 //! h |ω| = 1 there is no F.
 
-use super::momentum::{half_turned, turn};
-use super::phase::fall;
+use super::implicit::Reached;
+use super::island::Drive;
+use super::momentum::{half_turned, kick_turn_kick};
 use crate::measure::work::Work;
 use crate::model::Body;
 use crate::state::BodyState;
 use nalgebra::{Matrix3, Vector3};
 
-/// One step of a body under a constant acceleration; the discrete Lagrangian of Störmer and Verlet makes its parabola
-/// exact.
-pub fn step(body: &Body, at: &mut BodyState, acceleration: &Vector3<f64>, step_s: f64, work: &mut Work) {
-    fall(at, acceleration, step_s);
-    turn(equation, body, at, step_s, work);
+/// Half of the drive at the start, the turn, half of that at the end: Störmer and Verlet's method.
+pub fn driven(
+    body: &Body,
+    start: &BodyState,
+    [before, after]: &[Drive; 2],
+    h: f64,
+    work: &mut Work,
+) -> Option<Reached> {
+    let [end, _] = kick_turn_kick(equation, body, start, [before, after], h, work)?;
+    Some(Reached { end, seen: end })
 }
 
 /// With F = cay(c): (1 + c²) g = 2 (I c + c × I c), or g + g × c + (g·c) c = 2 I c, where g = h Π.
-fn equation(g: &Vector3<f64>, I_B: &Matrix3<f64>, c: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+pub fn equation(g: &Vector3<f64>, I_B: &Matrix3<f64>, c: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let (left, derivative) = half_turned(g, c);
     (left - I_B * c * 2.0, derivative - I_B * 2.0)
 }

@@ -1,6 +1,7 @@
 //! A body's motion as one vector y with ẏ = f(y), for the methods that know nothing of rotations; and the parabola.
 
-use super::rotation::gyroscopic_acceleration_B;
+use super::island::Drive;
+use super::rotation::gyroscopic_torque_B;
 use crate::measure::work::Work;
 use crate::model::Body;
 use crate::state::BodyState;
@@ -32,14 +33,15 @@ pub fn to_world(q_WB: &UnitQuaternion<f64>, w_B: &Vector3<f64>) -> Vector3<f64> 
     w_WB + q_WB * (w_B - q_WB.inverse_transform_vector(&w_WB))
 }
 
-/// ṗ = v, v̇ = g, ω̇ = I⁻¹ (I ω × ω), q̇ = ½ q ω.
-pub fn rate(body: &Body, acceleration: &Vector3<f64>, y: &Phase, work: &mut Work) -> Phase {
+/// ṗ = v, v̇ = a, ω̇ = I⁻¹ (I ω × ω + τ), q̇ = ½ q ω.
+pub fn rate(body: &Body, drive: &Drive, y: &Phase, work: &mut Work) -> Phase {
     let mut rate = Phase::zeros();
     rate.fixed_rows_mut::<3>(0).copy_from(&y.fixed_rows::<3>(3));
-    rate.fixed_rows_mut::<3>(3).copy_from(acceleration);
-    if !body.isotropic {
-        work.gyroscopic += 1;
-        rate.fixed_rows_mut::<3>(6).copy_from(&gyroscopic_acceleration_B(body, &w_B(y)));
+    rate.fixed_rows_mut::<3>(3).copy_from(&drive.acceleration);
+    if drive.turns(body) {
+        work.gyroscopic += u64::from(!body.isotropic);
+        let torque_B = gyroscopic_torque_B(body, &w_B(y)) + drive.torque_B;
+        rate.fixed_rows_mut::<3>(6).copy_from(&(body.I_B_inverse * torque_B));
     }
     let turning = quaternion(y) * Quaternion::from_imag(w_B(y)) / 2.0;
     rate.fixed_rows_mut::<4>(9).copy_from(&turning.coords);

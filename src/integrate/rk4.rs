@@ -1,19 +1,39 @@
 //! The classical Runge–Kutta method, order 4 (Kutta 1901), on position, velocity, angular velocity in body axes and
 //! quaternion; the quaternion is made a unit one after the step. A parabola is exact.
 
-use super::phase::{Phase, phase, rate, state};
+use super::field::{Field, advanced};
+use super::island::Island;
+use super::phase::{Phase, phase, state};
 use crate::measure::work::Work;
-use crate::model::Body;
-use crate::state::BodyState;
-use nalgebra::Vector3;
+use crate::model::Model;
 
-/// One step of a body under a constant acceleration.
-pub fn step(body: &Body, at: &mut BodyState, acceleration: &Vector3<f64>, step_s: f64, work: &mut Work) {
-    let mut f = |y: &Phase| rate(body, acceleration, y, work);
-    let y = phase(at);
-    let k1 = f(&y);
-    let k2 = f(&(y + k1 * (step_s / 2.0)));
-    let k3 = f(&(y + k2 * (step_s / 2.0)));
-    let k4 = f(&(y + k3 * step_s));
-    *at = state(&(y + (k1 + k2 * 2.0 + k3 * 2.0 + k4) * (step_s / 6.0)));
+/// The start of a step, a place on the way, and the four slopes, of every body of an island.
+#[derive(Debug)]
+pub struct Scratch {
+    y: Vec<Phase>,
+    place: Vec<Phase>,
+    k: [Vec<Phase>; 4],
+}
+
+impl Scratch {
+    pub fn new(island: &Island) -> Self {
+        let room = || vec![Phase::zeros(); island.at.len()];
+        Scratch { y: room(), place: room(), k: std::array::from_fn(|_| room()) }
+    }
+}
+
+/// A step of `h` from `t_s`.
+pub fn step(island: &mut Island, model: &Model, [t_s, h]: [f64; 2], scratch: &mut Scratch, work: &mut Work) {
+    let Scratch { y, place, k } = scratch;
+    y.iter_mut().zip(&island.at).for_each(|(y, at)| *y = phase(at));
+    let mut f = Field { island, model, work };
+    f.at(t_s, y, &mut k[0]);
+    advanced(y, &[0.5], &k[0..1], h, place);
+    f.at(t_s + h / 2.0, place, &mut k[1]);
+    advanced(y, &[0.5], &k[1..2], h, place);
+    f.at(t_s + h / 2.0, place, &mut k[2]);
+    advanced(y, &[1.0], &k[2..3], h, place);
+    f.at(t_s + h, place, &mut k[3]);
+    advanced(y, &[1.0, 2.0, 2.0, 1.0], k, h / 6.0, place);
+    island.at.iter_mut().zip(place).for_each(|(at, y)| *at = state(y));
 }

@@ -60,7 +60,7 @@ pub fn w_from_momentum(body: &Body, at: &BodyState, L_W: &Vector3<f64>) -> Vecto
     body.I_W_inverse(at) * L_W
 }
 
-/// Torque-free Euler equation in body axes: ω̇ = I⁻¹ (I ω × ω).
-pub fn gyroscopic_acceleration_B(body: &Body, w_B: &Vector3<f64>) -> Vector3<f64> {
-    body.I_B_inverse * (body.I_B * w_B).cross(w_B)
+/// I ω × ω: what the rotation itself puts into Euler's equation I ω̇ = I ω × ω + τ in body axes.
+pub fn gyroscopic_torque_B(body: &Body, w_B: &Vector3<f64>) -> Vector3<f64> {
+    (body.I_B * w_B).cross(w_B)
 }

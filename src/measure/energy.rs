@@ -14,7 +14,7 @@ pub struct Energy {
 impl Energy {
     pub fn of(model: &Model, state: &State) -> Self {
         let mut energy = Energy { kinetic_j: 0.0, potential_j: 0.0 };
-        for (body, at) in model.bodies.iter().zip(&state.bodies) {
+        for (body, at) in model.bodies.iter().zip(&state.bodies).filter(|(body, _)| !body.driven) {
             let w_B = if body.isotropic { at.w_WB } else { at.q_WB.inverse_transform_vector(&at.w_WB) };
             energy.kinetic_j += 0.5 * body.mass_kg * at.v_WB.norm_squared() + 0.5 * w_B.dot(&(body.I_B * w_B));
             energy.potential_j += model.potential_j(body, &at.p_WB);
@@ -32,6 +32,9 @@ impl Energy {
 pub struct EnergyLedger {
     start: Energy,
     end: Energy,
+    /// Of applied forces, so far.
+    work_j: f64,
+    /// Least energy less the work done until then.
     lowest_j: f64,
     rise_max_j: f64,
     kinetic_max_j: f64,
@@ -47,6 +50,7 @@ impl EnergyLedger {
         EnergyLedger {
             start,
             end: start,
+            work_j: 0.0,
             lowest_j: start.total_j(),
             rise_max_j: 0.0,
             kinetic_max_j: start.kinetic_j,
@@ -56,8 +60,10 @@ impl EnergyLedger {
         }
     }
 
-    pub fn observe(&mut self, now: Energy) {
-        let total_j = now.total_j();
+    /// After a step in which applied forces did this work.
+    pub fn observe(&mut self, now: Energy, work_j: f64) {
+        self.work_j += work_j;
+        let total_j = now.total_j() - self.work_j;
         self.rise_max_j = self.rise_max_j.max(total_j - self.lowest_j);
         self.lowest_j = self.lowest_j.min(total_j);
         self.kinetic_max_j = self.kinetic_max_j.max(now.kinetic_j);
@@ -69,10 +75,13 @@ impl EnergyLedger {
     /// Energy that the contacts of one step took, and their gain. Before them the velocity is V[n] + M⁻¹ F_E Δt, after
     /// them that plus M⁻¹ times the impulses; both at the attitude before the step.
     pub fn observe_contacts(&mut self, model: &Model, before: &State, pushes: &[Push], step_s: f64) {
-        let gained_v = model.gravity_m_s2 * step_s;
         let (mut kinetic_j, mut added_j) = (0.0, 0.0);
-        for ((body, at), push) in model.bodies.iter().zip(&before.bodies).zip(pushes) {
-            let (v, w) = (at.v_WB + gained_v, at.w_WB);
+        for (i, ((body, at), push)) in model.bodies.iter().zip(&before.bodies).zip(pushes).enumerate() {
+            if body.driven {
+                continue;
+            }
+            let (gained_v, gained_w) = model.gained(i, before.time_s, at, step_s);
+            let (v, w) = (at.v_WB + gained_v, at.w_WB + gained_w);
             let (dv, dw) = (push.linear / body.mass_kg, body.I_W_inverse(at) * push.angular);
             kinetic_j += 0.5 * body.mass_kg * v.norm_squared() + 0.5 * w.dot(&(body.I_W(at) * w));
             added_j += push.linear.dot(&(v + dv / 2.0)) + push.angular.dot(&(w + dw / 2.0));
@@ -94,12 +103,12 @@ impl EnergyLedger {
         self.end.total_j()
     }
 
-    /// (end − start + dissipation) / scale.
+    /// (end − start − work of applied forces + dissipation) / scale.
     pub fn drift_rel(&self) -> f64 {
-        relative(self.end_j() - self.start_j() + self.dissipated_j, self.scale_j())
+        relative(self.end_j() - self.start_j() - self.work_j + self.dissipated_j, self.scale_j())
     }
 
-    /// Largest E(t) − min over s < t of E(s), / scale.
+    /// Largest E(t) − min over s < t of E(s), less the work of applied forces between, / scale.
     pub fn rise_max_rel(&self) -> f64 {
         relative(self.rise_max_j, self.scale_j())
     }

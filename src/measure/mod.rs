@@ -9,6 +9,7 @@ pub mod divergence;
 pub mod energy;
 pub mod error;
 mod kept;
+mod loads;
 pub mod momentum;
 pub mod more;
 pub mod order;
@@ -46,6 +47,8 @@ pub struct Judge {
     /// None: the method never looks for contacts.
     pub penetration_max_m: Option<f64>,
     pub contacts_max: u64,
+    /// None: there is no pin.
+    pub pin_gap_max_m: Option<f64>,
     pub watched: Watched,
     divergence: Divergence,
     pushes: Vec<Push>,
@@ -60,6 +63,7 @@ impl Judge {
             residual: ResidualLedger::new(plan.constraint, model),
             penetration_max_m: plan.contact.then_some(0.0),
             contacts_max: 0,
+            pin_gap_max_m: model.pin_gap_m(&start.bodies),
             watched: Watched::default(),
             divergence: Divergence::new(rules, &energy),
             pushes: vec![Push::NONE; model.bodies.len()],
@@ -82,8 +86,12 @@ impl Judge {
             self.watched.observe(before, contacts);
         }
         self.residual.observe(model, before, contacts, &self.pushes, step_s);
-        self.energy.observe(energy);
-        self.momentum.observe(model, before, after, &self.pushes, !contacts.is_empty(), step_s);
+        let done = loads::done(model, before, after, &self.momentum.pivot_m(model, before), step_s);
+        self.energy.observe(energy, done.work_j);
+        let pushes = (!contacts.is_empty()).then_some(&self.pushes[..]);
+        self.momentum.observe(model, [before, after], pushes, &done, step_s);
+        let gap_m = model.pin_gap_m(&after.bodies);
+        self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
         let depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max);
         self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
         self.contacts_max = self.contacts_max.max(contacts.len() as u64);

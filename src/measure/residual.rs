@@ -46,9 +46,9 @@ struct Moved {
 }
 
 impl Moved {
-    fn new(body: &Body, at: &BodyState, push: &Push, gained_v: Vector3<f64>) -> Self {
+    fn new(body: &Body, at: &BodyState, push: &Push, (gained_v, gained_w): (Vector3<f64>, Vector3<f64>)) -> Self {
         let before = Motion { v: at.v_WB, w: at.w_WB };
-        let free = Motion { v: at.v_WB + gained_v, w: at.w_WB };
+        let free = Motion { v: at.v_WB + gained_v, w: at.w_WB + gained_w };
         let I_W_inverse = body.I_W_inverse(at);
         let after = Motion { v: free.v + push.linear / body.mass_kg, w: free.w + I_W_inverse * push.angular };
         let mass_kg = body.mass_kg;
@@ -121,10 +121,12 @@ impl ResidualLedger {
         if !self.judged || contacts.is_empty() {
             return;
         }
-        let gained_v = model.gravity_m_s2 * step_s;
-        let bodies = model.bodies.iter().zip(&before.bodies).zip(pushes);
+        let bodies = model.bodies.iter().zip(&before.bodies).zip(pushes).enumerate();
         self.moved.clear();
-        self.moved.extend(bodies.map(|((body, at), push)| Moved::new(body, at, push, gained_v)));
+        self.moved.extend(
+            bodies
+                .map(|(i, ((body, at), push))| Moved::new(body, at, push, model.gained(i, before.time_s, at, step_s))),
+        );
         for SolvedContact { contact, impulse_W } in contacts {
             self.moved[contact.body].weigh(contact, impulse_W);
         }

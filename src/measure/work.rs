@@ -13,4 +13,8 @@ pub struct Work {
     pub sweeps: u64,
     /// Evaluations of the gyroscopic term, or of the momentum-conserving rotation in its place.
     pub gyroscopic: u64,
+    /// Systems of all pins of an island that were solved.
+    pub pin_solves: u64,
+    /// Steps that an error-controlled integrator made, of any island.
+    pub inner_steps: u64,
 }

@@ -1,8 +1,10 @@
 //! From one resolved experiment to its constant `Model` and first `State`.
 
 use super::container::{Container, Face};
+use super::loads::{AppliedForce, Drag};
 use super::mass::{MassProperties, Moments, box_moments, exact, lumped, sphere_moments};
 use super::mesh::{TetMesh, box_counts, box_mesh, sphere_mesh};
+use super::pins::build_pins;
 use super::place::{Landing, MOST_DRAWS};
 use super::random::Draws;
 use super::{Body, Geometry, Model};
@@ -35,9 +37,11 @@ pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError
         depths_m.push(depth_m);
         bodies.push(body);
     }
+    let forces = scene.forces.iter().map(|force| build_force(force, &bodies)).collect();
+    let pins = build_pins(scene, &bodies, &mut states)?;
     let gravity_m_s2 = Vector3::from(scene.gravity_m_s2);
-    let potential_zero_m = potential_zero(&gravity_m_s2, container.as_ref(), &states);
-    let model = Model { gravity_m_s2, bodies, container, potential_zero_m };
+    let potential_zero_m = potential_zero(&gravity_m_s2, container.as_ref(), &bodies, &states);
+    let model = Model { gravity_m_s2, bodies, container, forces, pins, potential_zero_m };
     let state = State { step: 0, time_s: 0.0, bodies: states };
     if !matches!(experiment.method, file::Method::Free(_)) && !scene.allow_overlap {
         refuse_overlap(&model, &state, &depths_m)?;
@@ -54,6 +58,37 @@ fn build_container(container: &file::Container) -> Container {
         file::Container::Box(b) => Container::new_box(b.size_m, b.center_m.unwrap_or([0.0, b.size_m[1] / 2.0, 0.0])),
         file::Container::Plane(plane) => Container { faces: vec![face(plane)] },
         file::Container::Planes(planes) => Container { faces: planes.iter().map(face).collect() },
+    }
+}
+
+fn build_force(force: &file::Force, bodies: &[Body]) -> AppliedForce {
+    let body = bodies.iter().position(|body| body.name == force.body).unwrap_or_default();
+    let vector = |given: Option<[f64; 3]>| given.map_or_else(Vector3::zeros, Vector3::from);
+    AppliedForce {
+        body,
+        force_n: vector(force.force_n),
+        torque_n_m: vector(force.torque_n_m),
+        r_B: force.at_m.map_or_else(Vector3::zeros, |at| Vector3::from(at) - bodies[body].p_BoBcm),
+        frame: force.frame,
+        cosine: match force.course {
+            file::Course::Constant => None,
+            file::Course::Cosine(cosine) => Some((cosine.frequency_rad_s, cosine.phase_rad)),
+        },
+    }
+}
+
+fn build_drag(air: &file::Air, shape: &file::Shape) -> Drag {
+    let surface_m2 = match shape {
+        file::Shape::Sphere(s) => 4.0 * std::f64::consts::PI * s.radius_m * s.radius_m,
+        file::Shape::Box(b) => {
+            let [x, y, z] = b.size_m;
+            2.0 * (x * y + y * z + z * x)
+        }
+        file::Shape::None => 0.0,
+    };
+    Drag {
+        linear_n_s_m: air.linear_drag_n_s_m,
+        quadratic_n_s2_m2: 0.5 * air.density_kg_m3 * air.drag_coefficient * surface_m2 / 4.0,
     }
 }
 
@@ -80,6 +115,8 @@ fn build_body(described: &file::Body, scene: &file::Scene) -> Body {
         bounding_radius_m,
         friction: pair(described.friction, scene.friction),
         restitution: pair(described.restitution, scene.restitution),
+        drag: scene.air.map_or_else(Drag::default, |air| build_drag(&air, &described.shape)),
+        driven: described.is_driven(),
     }
 }
 
@@ -160,7 +197,8 @@ fn first_state(
         state.p_WB = Vector3::from(described.position_m) + state.q_WB * body.p_BoBcm;
         state
     };
-    let Some(random) = &experiment.scene.random else { return Ok((placed(given), 0.0)) };
+    let random = experiment.scene.random.as_ref().filter(|_| !body.driven);
+    let Some(random) = random else { return Ok((placed(given), 0.0)) };
     let mut draws = Draws::new(experiment.seed, &described.name);
     let mut draw = || {
         let mut state = given;
@@ -185,6 +223,10 @@ fn given_state(described: &file::Body) -> BodyState {
         v_WB: described.velocity_m_s.map_or_else(Vector3::zeros, Vector3::from),
         w_WB: described.angular_velocity_rad_s.map_or_else(Vector3::zeros, Vector3::from),
     };
+    if let Some(kinematic) = described.kinematic {
+        state.v_WB = Vector3::from(kinematic.velocity_m_s);
+        state.w_WB = Vector3::from(kinematic.angular_velocity_rad_s);
+    }
     if let Some(w_B) = described.angular_velocity_body_rad_s {
         state.w_WB = state.q_WB * Vector3::from(w_B);
     }
@@ -207,12 +249,18 @@ fn attitude(orientation: &file::Orientation) -> UnitQuaternion<f64> {
 }
 
 /// The container's lowest point; without a closed one below, the lowest start position.
-fn potential_zero(gravity: &Vector3<f64>, container: Option<&Container>, states: &[BodyState]) -> Vector3<f64> {
+fn potential_zero(
+    gravity: &Vector3<f64>,
+    container: Option<&Container>,
+    bodies: &[Body],
+    states: &[BodyState],
+) -> Vector3<f64> {
     let Some(down) = gravity.try_normalize(0.0) else {
         return Vector3::zeros();
     };
     let up = -down;
-    let lowest_start = states.iter().map(|s| up.dot(&s.p_WB)).fold(f64::INFINITY, f64::min);
+    let moving = bodies.iter().zip(states).filter(|(body, _)| !body.driven);
+    let lowest_start = moving.map(|(_, s)| up.dot(&s.p_WB)).reduce(f64::min).unwrap_or_default();
     let height = container.and_then(|c| c.lowest_m(&up)).unwrap_or(lowest_start);
     up * height
 }

@@ -1,12 +1,15 @@
-//! What is constant during a run: bodies, their mass properties and contact geometry, the container, gravity.
+//! What is constant during a run: bodies, their mass properties and contact geometry, the container, gravity, applied
+//! forces, pins.
 //!
 //! Frames (L7): W is the world (the lecture's Σ), B the body's axes with the centre of mass as origin (ᴳΣ in body axes);
 //! Bo is the origin of the body frame as the experiment file places it (ᴼΣ).
 
 mod build;
 pub mod container;
+pub mod loads;
 pub mod mass;
 pub mod mesh;
+pub mod pins;
 mod place;
 pub mod random;
 
@@ -14,14 +17,18 @@ pub use build::{BuildError, build};
 
 use crate::state::BodyState;
 use container::Container;
+use loads::{AppliedForce, Drag};
 use mesh::TetMesh;
 use nalgebra::{Matrix3, Vector3};
+use pins::Pin;
 
 #[derive(Clone, Debug)]
 pub struct Model {
     pub gravity_m_s2: Vector3<f64>,
     pub bodies: Vec<Body>,
     pub container: Option<Container>,
+    pub forces: Vec<AppliedForce>,
+    pub pins: Vec<Pin>,
     /// A point at height zero of the potential energy.
     pub potential_zero_m: Vector3<f64>,
 }
@@ -50,6 +57,9 @@ pub struct Body {
     /// Of the pair with the container.
     pub friction: f64,
     pub restitution: f64,
+    pub drag: Drag,
+    /// It moves with its start velocities, whatever acts on it.
+    pub driven: bool,
 }
 
 /// What touches, relative to the centre of mass, in body axes.
@@ -104,8 +114,9 @@ impl Body {
         state.p_WB - state.q_WB * self.p_BoBcm
     }
 
+    /// A body that moves as it is told does not feel the container.
     pub fn touches(&self) -> bool {
-        !matches!(self.geometry, Geometry::None)
+        !matches!(self.geometry, Geometry::None) && !self.driven
     }
 
     /// Triangles for a picture, relative to the centre of mass, in body axes.

@@ -1,51 +1,110 @@
-//! Motion without contact (L4, L5).
+//! Motion without contact (L4, L5): every island of bodies that pins join on its own.
 
 use super::Clock;
 use crate::exact::free_motion::FreeMotion;
 use crate::experiment::types::{Free as Settings, Integrator, Update};
-use crate::integrate::{crank_nicolson, dop853, euler, implicit_midpoint, moser_veselov, rk4};
+use crate::integrate::island::Island;
+use crate::integrate::{crank_nicolson, dop853, euler, implicit, implicit_midpoint, momentum, moser_veselov, rk4};
 use crate::measure::work::Work;
 use crate::model::Model;
 use crate::state::State;
+use nalgebra::Vector3;
+
+/// An integrator with its scratch, of one island.
+enum Method {
+    Euler(Update),
+    CrankNicolson(implicit::Scratch),
+    /// The method's equation; when a torque acts, the step around it and where in the step it sees the drive.
+    Momentum {
+        equation: momentum::Equation,
+        driven: implicit::Kernel,
+        seen: f64,
+        momenta: Vec<Vector3<f64>>,
+        scratch: implicit::Scratch,
+    },
+    Rk4(rk4::Scratch),
+    Dop853(dop853::Control, dop853::Scratch),
+}
 
 pub struct Free {
-    integrator: Integrator,
-    /// Of every body, for `dop853`.
-    controls: Vec<dop853::Control>,
+    islands: Vec<(Island, Method)>,
     /// From the start, for `exact`.
     motion: Option<FreeMotion>,
-    /// The tolerance is out of reach.
+    /// A step has no solution, or the tolerance is out of reach.
     pub(super) stalled: bool,
     pub(super) work: Work,
 }
 
 impl Free {
     pub fn new(settings: &Settings, model: &Model, start: &State) -> Self {
-        let control = dop853::Control::new(settings.tolerance.unwrap_or(dop853::DEFAULT_TOLERANCE));
-        let controls = vec![control; model.bodies.len()];
         let motion = (settings.integrator == Integrator::Exact).then(|| FreeMotion::new(model, start));
-        Free { integrator: settings.integrator, controls, motion, stalled: false, work: Work::default() }
+        let islands = Island::all(model, start).into_iter();
+        let islands = islands.filter_map(|island| Method::new(settings, &island, model).map(|method| (island, method)));
+        Free { islands: islands.collect(), motion, stalled: false, work: Work::default() }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
-        if let Some(motion) = &self.motion {
-            clock.advance(state);
-            return motion.write(state);
-        }
-        let (g, h, work) = (&model.gravity_m_s2, clock.step_s, &mut self.work);
-        for ((body, at), control) in model.bodies.iter().zip(&mut state.bodies).zip(&mut self.controls) {
-            match self.integrator {
-                Integrator::ExplicitEuler => euler::step(body, at, g, Update::Explicit, h, work),
-                Integrator::SemiImplicitEuler => euler::step(body, at, g, Update::SemiImplicit, h, work),
-                Integrator::CrankNicolson => crank_nicolson::step(body, at, g, h, work),
-                Integrator::ImplicitMidpoint => implicit_midpoint::step(body, at, g, h, work),
-                Integrator::Rk4 => rk4::step(body, at, g, h, work),
-                Integrator::MoserVeselov => moser_veselov::step(body, at, g, h, work),
-                Integrator::Dop853 => self.stalled |= !dop853::step(body, at, g, h, control, work),
-                // Not a step from the state before, see above.
-                Integrator::Exact => {}
-            }
+        let span = [state.time_s, clock.step_s];
+        for (island, method) in &mut self.islands {
+            island.take(state);
+            self.stalled |= !method.step(island, model, span, &mut self.work);
+            island.hold(model, span[0] + span[1], &mut self.work);
+            island.give(state);
         }
         clock.advance(state);
+        if let Some(motion) = &self.motion {
+            motion.write(state);
+        }
+    }
+}
+
+impl Method {
+    /// None: the closed form, which is not a step from the state before.
+    fn new(settings: &Settings, island: &Island, model: &Model) -> Option<Self> {
+        let implicit = || implicit::Scratch::new(island);
+        Some(match settings.integrator {
+            Integrator::ExplicitEuler => Method::Euler(Update::Explicit),
+            Integrator::SemiImplicitEuler => Method::Euler(Update::SemiImplicit),
+            Integrator::CrankNicolson => Method::CrankNicolson(implicit()),
+            Integrator::ImplicitMidpoint => Method::Momentum {
+                equation: implicit_midpoint::equation,
+                driven: implicit_midpoint::driven,
+                seen: 0.5,
+                momenta: momentum::momenta(island, model),
+                scratch: implicit(),
+            },
+            Integrator::Rk4 => Method::Rk4(rk4::Scratch::new(island)),
+            Integrator::MoserVeselov => Method::Momentum {
+                equation: moser_veselov::equation,
+                driven: moser_veselov::driven,
+                seen: 1.0,
+                momenta: momentum::momenta(island, model),
+                scratch: implicit(),
+            },
+            Integrator::Dop853 => {
+                let tolerance = settings.tolerance.unwrap_or(dop853::DEFAULT_TOLERANCE);
+                Method::Dop853(dop853::Control::new(tolerance), dop853::Scratch::new(island))
+            }
+            Integrator::Exact => return None,
+        })
+    }
+
+    /// From the time `span[0]`, `span[1]` long. False: there is no solution.
+    fn step(&mut self, island: &mut Island, model: &Model, span: [f64; 2], work: &mut Work) -> bool {
+        match self {
+            Method::Euler(update) => euler::step(*update, island, model, span, work),
+            Method::Rk4(scratch) => rk4::step(island, model, span, scratch, work),
+            Method::CrankNicolson(scratch) => {
+                return implicit::step(crank_nicolson::driven, 1.0, island, model, span, scratch, work);
+            }
+            Method::Momentum { equation, momenta, .. } if island.is_free() => {
+                return momentum::step_free(*equation, island, model, span[1], momenta, work);
+            }
+            Method::Momentum { driven, seen, scratch, .. } => {
+                return implicit::step(*driven, *seen, island, model, span, scratch, work);
+            }
+            Method::Dop853(control, scratch) => return dop853::step(island, model, span, control, scratch, work),
+        }
+        true
     }
 }

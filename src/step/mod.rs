@@ -9,8 +9,8 @@ mod penalty;
 mod time_stepping;
 
 use crate::collide::{Contact, SolvedContact};
-use crate::experiment::types::{Method, Rotation, Update};
-use crate::integrate::rotation::{turn_at_momentum, turn_literally, w_from_momentum};
+use crate::experiment::types::{Method as Settings, Rotation, Update};
+use crate::integrate::rotation::{exponential, turn_at_momentum, turn_literally, w_from_momentum};
 use crate::measure::work::Work;
 use crate::model::{Body, Model};
 use crate::plan::Plan;
@@ -56,57 +56,77 @@ struct Scratch {
     work: Work,
 }
 
+/// A method, and the bodies that move as they are told.
+pub struct Stepper {
+    method: Method,
+    driven: Vec<Driven>,
+}
+
 /// A method and its scratch.
-pub enum Stepper {
+enum Method {
     Free(free::Free),
     Lecture(lecture::Lecture),
     Penalty(penalty::Penalty),
     TimeStepping(time_stepping::TimeStepping),
 }
 
+/// A body at constant velocities, by its index, from its start.
+struct Driven(usize, BodyState);
+
+impl Driven {
+    fn write(&self, state: &mut State) {
+        let BodyState { p_WB, q_WB, v_WB, w_WB } = self.1;
+        let (p_WB, q_WB) = (p_WB + v_WB * state.time_s, exponential(&(w_WB * state.time_s)) * q_WB);
+        state.bodies[self.0] = BodyState { p_WB, q_WB, v_WB, w_WB };
+    }
+}
+
 impl Stepper {
-    pub fn new(method: &Method, plan: &Plan, model: &Model, start: &State) -> Self {
-        let scratch = Scratch::new(model, plan);
-        match method {
-            Method::Free(settings) => Stepper::Free(free::Free::new(settings, model, start)),
-            Method::Lecture(settings) => Stepper::Lecture(lecture::Lecture::new(settings, scratch)),
-            Method::Penalty(settings) => Stepper::Penalty(penalty::Penalty::new(settings, scratch)),
-            Method::TimeStepping(settings) => {
-                Stepper::TimeStepping(time_stepping::TimeStepping::new(settings, plan.friction, scratch))
+    pub fn new(method: &Settings, plan: &Plan, model: &Model, start: &State) -> Self {
+        let scratch = || Scratch::new(model, plan);
+        let method = match method {
+            Settings::Free(settings) => Method::Free(free::Free::new(settings, model, start)),
+            Settings::Lecture(settings) => Method::Lecture(lecture::Lecture::new(settings, scratch())),
+            Settings::Penalty(settings) => Method::Penalty(penalty::Penalty::new(settings, scratch())),
+            Settings::TimeStepping(settings) => {
+                Method::TimeStepping(time_stepping::TimeStepping::new(settings, plan.friction, scratch()))
             }
-        }
+        };
+        let driven = model.bodies.iter().zip(&start.bodies).enumerate().filter(|(_, (body, _))| body.driven);
+        Stepper { method, driven: driven.map(|(i, (_, at))| Driven(i, *at)).collect() }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
-        match self {
-            Stepper::Free(method) => method.step(model, state, clock),
-            Stepper::Lecture(method) => method.step(model, state, clock),
-            Stepper::Penalty(method) => method.step(model, state, clock),
-            Stepper::TimeStepping(method) => method.step(model, state, clock),
+        match &mut self.method {
+            Method::Free(method) => method.step(model, state, clock),
+            Method::Lecture(method) => method.step(model, state, clock),
+            Method::Penalty(method) => method.step(model, state, clock),
+            Method::TimeStepping(method) => method.step(model, state, clock),
         }
+        self.driven.iter().for_each(|driven| driven.write(state));
     }
 
     /// The last step could not be made: the state is to be forgotten.
     pub fn stalled(&self) -> bool {
-        matches!(self, Stepper::Free(method) if method.stalled)
+        matches!(&self.method, Method::Free(method) if method.stalled)
     }
 
     /// Contacts of the last step.
     pub fn contacts(&self) -> &[SolvedContact] {
-        match self {
-            Stepper::Free(_) => &[],
-            Stepper::Lecture(method) => &method.scratch.solved,
-            Stepper::Penalty(method) => &method.scratch.solved,
-            Stepper::TimeStepping(method) => &method.scratch.solved,
+        match &self.method {
+            Method::Free(_) => &[],
+            Method::Lecture(method) => &method.scratch.solved,
+            Method::Penalty(method) => &method.scratch.solved,
+            Method::TimeStepping(method) => &method.scratch.solved,
         }
     }
 
     pub fn work(&self) -> &Work {
-        match self {
-            Stepper::Free(method) => &method.work,
-            Stepper::Lecture(method) => &method.scratch.work,
-            Stepper::Penalty(method) => &method.scratch.work,
-            Stepper::TimeStepping(method) => &method.scratch.work,
+        match &self.method {
+            Method::Free(method) => &method.work,
+            Method::Lecture(method) => &method.scratch.work,
+            Method::Penalty(method) => &method.scratch.work,
+            Method::TimeStepping(method) => &method.scratch.work,
         }
     }
 }
@@ -137,11 +157,13 @@ impl Scratch {
         self.found.capacity()
     }
 
-    /// V + M⁻¹ F_E Δt with gravity as the only external force (L14).
+    /// V + M⁻¹ F_E Δt (L14).
     fn free_velocities(&mut self, model: &Model, state: &State, step_s: f64) {
         self.free.clear();
-        let gained = model.gravity_m_s2 * step_s;
-        self.free.extend(state.bodies.iter().map(|at| Twist { v: at.v_WB + gained, w: at.w_WB }));
+        self.free.extend(state.bodies.iter().enumerate().map(|(i, at)| {
+            let (v, w) = model.gained(i, state.time_s, at, step_s);
+            Twist { v: at.v_WB + v, w: at.w_WB + w }
+        }));
     }
 
     /// Contacts of this step with their impulses in world axes, and the response M⁻¹ Jᵀ p to just these.

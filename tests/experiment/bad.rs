@@ -24,8 +24,8 @@ const ROWS: &[Row] = &[
     ("a key twice", "seed: 7\n", "seed: 7\nseed: 8\n", 16, "seed", "this key is already there, on line 15"),
     ("a key twice, nested", CUBE, "      mass_kg: 1\n      name: cuboid\n", 11, "scene.bodies.0.name", "already there, on line 7"),
     ("a later key", "seed: 7\n", "seed: 7\nlimits: {}\n", 16, "limits", "not available in this version"),
-    ("a later key of the scene", "  friction: 0.3\n", "  pins: []\n", 2, "scene.pins", "not available in this version"),
-    ("a later key of a body", CUBE, "      fixed: true\n", 10, "scene.bodies.cube.fixed", "not available in this version"),
+    ("a later key of the scene", "  friction: 0.3\n", "  pairs: []\n", 2, "scene.pairs", "not available in this version"),
+    ("a later key of a body", CUBE, "      copies: {}\n", 10, "scene.bodies.cube.copies", "not available in this version"),
     ("a later key of a sweep", "seed: 7\n", "sweep: { where: [] }\n", 15, "sweep.where", "not available in this version"),
     // Words.
     ("an unknown word", LECTURE, "method: lectur\n", 16, "method", "expected one of free, lecture, penalty, time-stepping, found `lectur`; did you mean `lecture`?"),

@@ -64,5 +64,6 @@ fn a_scene_without_container_does_no_contact_work() {
     assert!(
         stages(FREE_BAR, &[]).iter().any(|s| s.name == "contact test" && !s.runs && s.why.contains("no container"))
     );
-    assert!(stages(CUBE_IN_BOX, &[]).iter().all(|s| s.runs || s.name == "gyroscopic term"));
+    let skipped: Vec<&str> = stages(CUBE_IN_BOX, &[]).iter().filter(|s| !s.runs).map(|s| s.name).collect();
+    assert_eq!(skipped, ["forces and air", "pins"]);
 }

@@ -1,0 +1,59 @@
+//! Broyden's method for a fixed point z = G(z) of a few unknowns: like the plain iteration where that contracts, and
+//! beyond (C. G. Broyden, Math. Comp. 19 (1965) 577; the form with the steps alone: C. T. Kelley, Solving Nonlinear
+//! Equations with Newton's Method, SIAM 2003, 4.3).
+
+/// Kept from one solve to the next, so that none allocates.
+#[derive(Debug, Default)]
+pub struct Broyden {
+    /// Steps made, one after the other, each as long as z.
+    steps: Vec<f64>,
+}
+
+/// Smooth equations of a step take 2 to 12.
+const MOST: usize = 60;
+
+impl Broyden {
+    pub fn with_unknowns(unknowns: usize) -> Self {
+        Broyden { steps: Vec::with_capacity(MOST * unknowns) }
+    }
+
+    /// From the guess in `z`. `residual(z, out)` puts G(z) − z into `out` and says whether that is small enough; None
+    /// from it, like no end of the iteration, is failure.
+    pub fn solve(
+        &mut self,
+        z: &mut [f64],
+        step: &mut [f64],
+        mut residual: impl FnMut(&[f64], &mut [f64]) -> Option<bool>,
+    ) -> bool {
+        let n = z.len();
+        self.steps.clear();
+        for _ in 0..MOST {
+            match residual(z, step) {
+                None => return false,
+                Some(true) => return true,
+                Some(false) => {}
+            }
+            self.correct(step);
+            z.iter_mut().zip(step.iter()).for_each(|(z, s)| *z += s);
+            self.steps.extend_from_slice(&step[..n]);
+        }
+        false
+    }
+
+    /// From −B₀⁻¹F, with B₀ = −1, to −B⁻¹F by all updates so far.
+    fn correct(&self, step: &mut [f64]) {
+        let n = step.len();
+        let mut made = self.steps.chunks_exact(n).peekable();
+        while let Some(s) = made.next() {
+            let part = dot(s, step) / dot(s, s);
+            match made.peek() {
+                Some(next) => step.iter_mut().zip(*next).for_each(|(x, next)| *x += next * part),
+                None => step.iter_mut().for_each(|x| *x /= 1.0 - part),
+            }
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,106 @@
+//! What acts on bodies beside gravity, contact and pins: applied forces and the resistance of the air.
+
+use super::Model;
+use crate::experiment::types::Frame;
+use crate::state::BodyState;
+use nalgebra::Vector3;
+
+/// A force, and the torque about the body's centre of mass, world axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench {
+    pub force: Vector3<f64>,
+    pub torque: Vector3<f64>,
+}
+
+impl Wrench {
+    pub const ZERO: Wrench = Wrench { force: Vector3::new(0.0, 0.0, 0.0), torque: Vector3::new(0.0, 0.0, 0.0) };
+}
+
+/// One of `scene.forces`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AppliedForce {
+    pub body: usize,
+    pub force_n: Vector3<f64>,
+    pub torque_n_m: Vector3<f64>,
+    /// From the centre of mass to where the force acts, body axes.
+    pub r_B: Vector3<f64>,
+    /// Whose axes `force_n` and `torque_n_m` are in.
+    pub frame: Frame,
+    /// ω and φ of cos(ωt + φ).
+    pub cosine: Option<(f64, f64)>,
+}
+
+impl AppliedForce {
+    /// F and its torque at a time.
+    pub fn wrench(&self, t_s: f64, at: &BodyState) -> Wrench {
+        let part = self.cosine.map_or(1.0, |(w, phase)| libm::cos(w * t_s + phase));
+        let (mut force, mut torque) = (self.force_n * part, self.torque_n_m * part);
+        if self.frame == Frame::Body {
+            (force, torque) = (at.q_WB * force, at.q_WB * torque);
+        }
+        if self.r_B != Vector3::zeros() {
+            torque += (at.q_WB * self.r_B).cross(&force);
+        }
+        Wrench { force, torque }
+    }
+
+    /// A force of the world that never changes: its work is F·Δ(point), whatever the way there.
+    pub fn is_weight_like(&self) -> bool {
+        self.frame == Frame::World && self.cosine.is_none() && self.torque_n_m == Vector3::zeros()
+    }
+}
+
+/// Resistance of the air to one body: −(c + k|v|) v at its centre of mass.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drag {
+    /// c.
+    pub linear_n_s_m: f64,
+    /// k = ½ ρ C A.
+    pub quadratic_n_s2_m2: f64,
+}
+
+impl Drag {
+    pub fn is_none(&self) -> bool {
+        *self == Drag::default()
+    }
+
+    pub fn force(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        -v * (self.linear_n_s_m + self.quadratic_n_s2_m2 * v.norm())
+    }
+}
+
+impl Model {
+    /// Whether anything but gravity, contact and pins acts on a body.
+    pub fn has_loads(&self) -> bool {
+        !self.forces.is_empty() || self.bodies.iter().any(|body| !body.drag.is_none())
+    }
+
+    /// All that acts on one body beside gravity, contact and pins.
+    pub fn load(&self, index: usize, t_s: f64, at: &BodyState) -> Wrench {
+        let drag = &self.bodies[index].drag;
+        let mut sum = Wrench::ZERO;
+        if !drag.is_none() {
+            sum.force = drag.force(&at.v_WB);
+        }
+        for applied in self.forces.iter().filter(|applied| applied.body == index) {
+            let wrench = applied.wrench(t_s, at);
+            sum.force += wrench.force;
+            sum.torque += wrench.torque;
+        }
+        sum
+    }
+
+    /// M⁻¹ F_E h of one body (L14): what gravity and loads add to v and ω in a step, at the state before it.
+    pub fn gained(&self, index: usize, t_s: f64, at: &BodyState, step_s: f64) -> (Vector3<f64>, Vector3<f64>) {
+        let body = &self.bodies[index];
+        if body.driven {
+            return (Vector3::zeros(), Vector3::zeros());
+        }
+        let gravity = self.gravity_m_s2 * step_s;
+        if !self.has_loads() {
+            return (gravity, Vector3::zeros());
+        }
+        let load = self.load(index, t_s, at);
+        (gravity + load.force * (step_s / body.mass_kg), body.I_W_inverse(at) * load.torque * step_s)
+    }
+}

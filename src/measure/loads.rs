@@ -4,7 +4,7 @@
 //!
 //! The work of a constant force of the world is F·Δ(its point), exactly.
 
-use crate::model::loads::{AppliedForce, Wrench};
+use crate::model::loads::Wrench;
 use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -14,47 +14,56 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 pub struct Done {
     pub work_j: f64,
     pub impulse: Vector3<f64>,
-    /// About a point given.
+    /// About the pivot given, which may move.
     pub angular_impulse: Vector3<f64>,
 }
 
-/// Angular impulses are about `origin`, the point that the ledger of momentum uses.
-pub fn done(model: &Model, before: &State, after: &State, origin: &Vector3<f64>, h: f64) -> Done {
+/// With the state in the middle of the step, which is kept only for its memory.
+pub fn done(
+    model: &Model,
+    [before, after]: [&State; 2],
+    middle: &mut State,
+    pivot: impl Fn(&State) -> Vector3<f64>,
+    h: f64,
+) -> Done {
     let mut done = Done { work_j: 0.0, impulse: Vector3::zeros(), angular_impulse: Vector3::zeros() };
     if !model.has_loads() {
         return done;
     }
-    let middle_s = before.time_s + h / 2.0;
-    for (i, body) in model.bodies.iter().enumerate().filter(|(_, body)| !body.driven) {
-        let (a, b) = (&before.bodies[i], &after.bodies[i]);
-        let m = middle(a, b, h);
-        for (at, t_s, weight) in [(a, before.time_s, 1.0), (&m, middle_s, 4.0), (b, before.time_s + h, 1.0)] {
-            let part = weight * h / 6.0;
+    for ((m, a), b) in middle.bodies.iter_mut().zip(&before.bodies).zip(&after.bodies) {
+        *m = half_way(a, b, h);
+    }
+    for (part, state) in [(0.0, before), (0.5, middle), (1.0, after)] {
+        let (t_s, weight) = (before.time_s + part * h, if part == 0.5 { 4.0 } else { 1.0 } * h / 6.0);
+        let pivot = pivot(state);
+        for (i, (_, at)) in moving(model, state) {
             let Wrench { force, torque } = model.load(i, t_s, at);
-            done.impulse += force * part;
-            done.angular_impulse += (torque + (at.p_WB - origin).cross(&force)) * part;
-            done.work_j += varying_power(model, i, body, t_s, at) * part;
+            done.impulse += force * weight;
+            done.angular_impulse += (torque + (at.p_WB - pivot).cross(&force)) * weight;
+            done.work_j += varying_power(model, i, t_s, at) * weight;
         }
-        let steady = model.forces.iter().filter(|applied| applied.body == i && applied.is_weight_like());
-        done.work_j += steady.map(|applied| applied.force_n.dot(&(point(applied, b) - point(applied, a)))).sum::<f64>();
+    }
+    for applied in model.forces.iter().filter(|applied| applied.is_weight_like()) {
+        let point = |state: &State| state.bodies[applied.body].p_WB + state.bodies[applied.body].q_WB * applied.r_B;
+        done.work_j += applied.force_n.dot(&(point(after) - point(before)));
     }
     done
 }
 
+fn moving<'a>(model: &'a Model, state: &'a State) -> impl Iterator<Item = (usize, (&'a Body, &'a BodyState))> {
+    model.bodies.iter().zip(&state.bodies).enumerate().filter(|(_, (body, _))| !body.driven)
+}
+
 /// F·v + τ·ω of all but the constant forces of the world.
-fn varying_power(model: &Model, index: usize, body: &Body, t_s: f64, at: &BodyState) -> f64 {
-    let drag = if body.drag.is_none() { 0.0 } else { body.drag.force(&at.v_WB).dot(&at.v_WB) };
+fn varying_power(model: &Model, index: usize, t_s: f64, at: &BodyState) -> f64 {
+    let drag = model.bodies[index].drag.force(&at.v_WB).dot(&at.v_WB);
     let varying = model.forces.iter().filter(|applied| applied.body == index && !applied.is_weight_like());
     let power = |wrench: Wrench| wrench.force.dot(&at.v_WB) + wrench.torque.dot(&at.w_WB);
     drag + varying.map(|applied| power(applied.wrench(t_s, at))).sum::<f64>()
 }
 
-fn point(applied: &AppliedForce, at: &BodyState) -> Vector3<f64> {
-    at.p_WB + at.q_WB * applied.r_B
-}
-
 /// Half-way between two states that are h apart.
-fn middle(a: &BodyState, b: &BodyState, h: f64) -> BodyState {
+fn half_way(a: &BodyState, b: &BodyState, h: f64) -> BodyState {
     let (qa, mut qb) = (a.q_WB.into_inner(), b.q_WB.into_inner());
     if qa.dot(&qb) < 0.0 {
         // The same attitude, on the side of the other.

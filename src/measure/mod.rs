@@ -51,6 +51,8 @@ pub struct Judge {
     pub pin_gap_max_m: Option<f64>,
     pub watched: Watched,
     divergence: Divergence,
+    /// Between two steps.
+    middle: State,
     pushes: Vec<Push>,
 }
 
@@ -66,6 +68,7 @@ impl Judge {
             pin_gap_max_m: model.pin_gap_m(&start.bodies),
             watched: Watched::default(),
             divergence: Divergence::new(rules, &energy),
+            middle: start.clone(),
             pushes: vec![Push::NONE; model.bodies.len()],
         }
     }
@@ -86,7 +89,8 @@ impl Judge {
             self.watched.observe(before, contacts);
         }
         self.residual.observe(model, before, contacts, &self.pushes, step_s);
-        let done = loads::done(model, before, after, &self.momentum.pivot_m(model, before), step_s);
+        let pivot = |state: &State| self.momentum.pivot_m(model, state);
+        let done = loads::done(model, [before, after], &mut self.middle, pivot, step_s);
         self.energy.observe(energy, done.work_j);
         let pushes = (!contacts.is_empty()).then_some(&self.pushes[..]);
         self.momentum.observe(model, [before, after], pushes, &done, step_s);

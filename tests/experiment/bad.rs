@@ -9,6 +9,7 @@ use std::path::Path;
 type Row = (&'static str, &'static str, &'static str, usize, &'static str, &'static str);
 
 const CUBE: &str = "      mass_kg: 1.0\n";
+const FRICTION: &str = "  friction: 0.3\n";
 const LECTURE: &str = "method: lecture\n";
 const END: &str = "  end_s: 1.0\n";
 
@@ -122,6 +123,21 @@ const ROWS: &[Row] = &[
     ("a closed form where bodies touch", END, "  end_s: 1\nexact: free-motion\n", 20, "exact", "a body may touch the container, found `free-motion`"),
     ("an unknown measure", END, "  end_s: 1\nmeasure: [contact-matrx]\n", 20, "measure.0", "did you mean `contact-matrix`?"),
     ("an unknown cone", LECTURE, "method: { lecture: { cone: disk } }\n", 16, "method.lecture.cone", "did you mean `disc`?"),
+    // Forces, air, pins. (Item 0 is `cube`, item 1 `point`, without inertia.)
+    ("a force on nobody", FRICTION, "  forces: [{ body: cub, force_n: [1, 0, 0] }]\n", 2, "scene.forces.0.body", "did you mean `cube`?"),
+    ("a force without force", FRICTION, "  forces: [{ body: cube }]\n", 2, "scene.forces.0.force_n", "give `force_n` or `torque_n_m`"),
+    ("a place without force", FRICTION, "  forces: [{ body: cube, torque_n_m: [1, 0, 0], at_m: [1, 0, 0] }]\n", 2, "scene.forces.0.at_m", "a `force_n` that acts there"),
+    ("a torque on a point", FRICTION, "  forces: [{ body: point, torque_n_m: [1, 0, 0] }]\n", 2, "scene.forces.0.torque_n_m", "a point without `inertia_kg_m2`"),
+    ("an unknown course", FRICTION, "  forces: [{ body: cube, force_n: [1, 0, 0], as: sine }]\n", 2, "scene.forces.0.as", "expected one of constant, cosine"),
+    ("a negative frequency", FRICTION, "  forces: [{ body: cube, force_n: [1, 0, 0], as: { cosine: { frequency_rad_s: -1 } } }]\n", 2, "scene.forces.0.as.cosine.frequency_rad_s", "at least 0"),
+    ("air without a coefficient", FRICTION, "  air: { density_kg_m3: 1.2 }\n", 2, "scene.air.drag_coefficient", "`density_kg_m3` needs a coefficient"),
+    ("air that is nothing", FRICTION, "  air: {}\n", 2, "scene.air.density_kg_m3", "does nothing"),
+    ("the drag of a point", FRICTION, "  air: { density_kg_m3: 1.2, drag_coefficient: 1 }\n", 2, "scene.air.drag_coefficient", "bodies with a surface"),
+    ("a pin with a contact method", FRICTION, "  pins: [{ body: cube, point_m: [0, 0, 0] }]\n", 2, "scene.pins", "a pin with the method `lecture`"),
+    ("a pin on itself", FRICTION, "  pins: [{ body: cube, point_m: [0, 0, 0], with: cube }]\n", 2, "scene.pins.0.with", "another body"),
+    ("a pin beside a point", FRICTION, "  pins: [{ body: point, point_m: [1, 0, 0] }]\n", 2, "scene.pins.0.point_m", "a point without `inertia_kg_m2`"),
+    ("fixed and told to move", CUBE, "      mass_kg: 1.0\n      fixed: true\n      kinematic: {}\n", 12, "scene.bodies.cube.kinematic", "either `fixed` or `kinematic`"),
+    ("fixed with a velocity", CUBE, "      mass_kg: 1.0\n      fixed: true\n      velocity_m_s: [1, 0, 0]\n", 12, "scene.bodies.cube.velocity_m_s", "the body is `fixed`"),
     // The text.
     ("a bracket left open", "[0, 2, 0]", "[0, 2, 0", 12, "", "not valid YAML"),
     ("a tab", "seed: 7", "\tseed: 7", 15, "", "not valid YAML"),
@@ -159,6 +175,31 @@ fn penalty_refuses_restitution_wherever_it_is_written() {
         assert_eq!(error.details().path.to_string(), path);
         assert!(error.to_string().contains("`penalty` has no restitution"), "{error}");
     }
+}
+
+#[test]
+fn a_pin_needs_an_end_that_moves_and_velocities_that_agree() {
+    let free = BASE.replace("method: lecture", "method: free");
+    let refused = |sets: &[&str], path: &str, fragment: &str| {
+        let error = experiment(&free, sets).and_then(|experiment| {
+            let error = gotai::model::build(&experiment).unwrap_err();
+            assert_eq!(error.path, path);
+            assert!(error.to_string().contains(fragment), "{error}");
+            Ok(())
+        });
+        if let Err(error) = error {
+            assert_eq!(error.details().path.to_string(), path);
+            assert!(error.to_string().contains(fragment), "{error}");
+        }
+    };
+    let pin = "scene.pins=[{ body: cube, point_m: [0, 1, 0] }]";
+    refused(&[pin, "scene.bodies.cube.fixed=true"], "scene.pins.0", "two fixed ends (`cube` and the world)");
+    let other = "scene.pins=[{ body: cube, point_m: [0, 1, 0], with: point }]";
+    let told = "scene.bodies.point.kinematic={ velocity_m_s: [1, 0, 0] }";
+    refused(&[other, told, "scene.bodies.cube.fixed=true"], "scene.pins.0", "two fixed ends (`cube` and `point`)");
+    let off = "scene.bodies.cube.velocity_m_s=[0, 0.001, 0]";
+    refused(&[pin, off], "scene.pins.0", "`cube` and the world parting with 1.000e-3 m/s");
+    refused(&[pin, off], "scene.pins.0", "without `scene.bodies.cube.velocity_m_s` it follows from the pin");
 }
 
 #[test]

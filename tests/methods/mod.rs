@@ -6,6 +6,7 @@ mod cycles;
 mod divergence;
 mod free;
 mod lecture;
+mod loads;
 mod orders;
 mod penalty;
 mod residual;

@@ -4,7 +4,10 @@ mod dd;
 pub mod free_motion;
 pub mod free_rotation;
 pub mod jacobi;
+pub mod linear_drag;
+pub mod point_motion;
 mod principal;
+pub mod quadratic_drag;
 
 use crate::experiment::types::Exact;
 use crate::model::Model;

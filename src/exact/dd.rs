@@ -23,6 +23,14 @@ impl Dd {
         if self.hi < 0.0 { -self } else { self }
     }
 
+    pub fn max(self, other: Dd) -> Dd {
+        if self < other { other } else { self }
+    }
+
+    pub fn min(self, other: Dd) -> Dd {
+        if other < self { other } else { self }
+    }
+
     pub fn squared(self) -> Dd {
         self * self
     }
@@ -111,4 +119,27 @@ impl Div for Dd {
 
 pub fn dot(a: &[Dd; 3], b: &[Dd; 3]) -> Dd {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Both by their power series, of an angle within ±π.
+pub fn sin_cos(angle: Dd) -> (Dd, Dd) {
+    /// xⁿ/n! is below 10⁻³² for x < 0.4.
+    const LAST: u32 = 20;
+    let x = angle * Dd::from(0.125);
+    // sin x and 1 − cos x.
+    let (mut sin, mut versine, mut term) = (Dd::ZERO, Dd::ZERO, Dd::ONE);
+    for n in 1..=LAST {
+        term = term * x / Dd::from(f64::from(n));
+        match n % 4 {
+            0 => versine = versine - term,
+            1 => sin = sin + term,
+            2 => versine = versine + term,
+            _ => sin = sin - term,
+        }
+    }
+    let two = Dd::from(2.0);
+    for _ in 0..3 {
+        (sin, versine) = (two * sin * (Dd::ONE - versine), two * sin.squared());
+    }
+    (sin, Dd::ONE - versine)
 }

@@ -17,7 +17,7 @@
 //! Known limits: beyond 10¹⁵ half periods their count is not exact; spin within 10⁻¹⁴⁰ of the middle axis stays there.
 
 use super::dd::{Dd, dot};
-use super::jacobi::{Jacobi, carlson_rf, carlson_rj, cel};
+use super::jacobi::{Jacobi, ThirdKind, carlson_rf, cel};
 use super::principal::{Principal, body_axes, cross, principal};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
@@ -257,35 +257,8 @@ fn half_period(kc: Dd, c: Dd, weight: Dd) -> (Option<Dd>, Dd) {
     (Some(two * cel(kc, Dd::ONE, Dd::ONE, Dd::ONE)), two * weight * J + Dd::PI)
 }
 
-/// J(x) = ∫ c sn²/(cn² + c sn²) dx.
-#[derive(Clone, Debug)]
-struct ThirdKind {
-    c: f64,
-}
-
-impl ThirdKind {
-    fn at(&self, x: f64, functions: [f64; 3], jacobi: &Jacobi) -> f64 {
-        /// cn² < 4 exp(−2x): from here on the integrand is one.
-        const FLAT: f64 = 20.0;
-        if x.abs() > FLAT {
-            let flat = libm::copysign(FLAT, x);
-            return self.of_functions(jacobi.at(flat)) + (x - flat);
-        }
-        self.of_functions(functions)
-    }
-
-    fn of_functions(&self, [sn, cn, dn]: [f64; 3]) -> f64 {
-        let c = self.c;
-        let (ss, cc, dd) = (sn * sn, cn * cn, dn * dn);
-        let p = cc + c * ss;
-        // (p − cn²)(p − dn²)(p − 1), where dn² = cn² + k′² sn².
-        let delta = (c * ss) * (c * ss - (dd - cc)) * ((c - 1.0) * ss);
-        c / 3.0 * sn * ss * carlson_rj(cc, dd, 1.0, p, delta.max(0.0))
-    }
-}
-
 /// Near the number, so that scaling by it neither rounds nor leaves squares out of range.
-fn power_of_two(x: f64) -> f64 {
+pub(super) fn power_of_two(x: f64) -> f64 {
     libm::ldexp(1.0, libm::frexp(x).1)
 }
 
@@ -298,7 +271,7 @@ fn shortest(u: &Vector3<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(Quaternion::new(1.0 + u.z, -u.y, u.x, 0.0))
 }
 
-fn turn(axis: &Vector3<f64>, angle: Dd) -> UnitQuaternion<f64> {
+pub(super) fn turn(axis: &Vector3<f64>, angle: Dd) -> UnitQuaternion<f64> {
     let (_, angle) = angle.reduce(Dd::PI * Dd::from(4.0));
     let half = angle / 2.0;
     UnitQuaternion::new_normalize(Quaternion::from_parts(libm::cos(half), axis * libm::sin(half)))

@@ -129,3 +129,30 @@ pub fn carlson_rj(mut x: f64, mut y: f64, mut z: f64, mut p: f64, delta: f64) ->
     }
     f64::NAN
 }
+
+/// J(x) = ∫ c sn²/(cn² + c sn²) dx.
+#[derive(Clone, Debug)]
+pub(super) struct ThirdKind {
+    pub c: f64,
+}
+
+impl ThirdKind {
+    pub fn at(&self, x: f64, functions: [f64; 3], jacobi: &Jacobi) -> f64 {
+        /// cn² < 4 exp(−2x): from here on the integrand is one.
+        const FLAT: f64 = 20.0;
+        if x.abs() > FLAT {
+            let flat = libm::copysign(FLAT, x);
+            return self.of_functions(jacobi.at(flat)) + (x - flat);
+        }
+        self.of_functions(functions)
+    }
+
+    fn of_functions(&self, [sn, cn, dn]: [f64; 3]) -> f64 {
+        let c = self.c;
+        let (ss, cc, dd) = (sn * sn, cn * cn, dn * dn);
+        let p = cc + c * ss;
+        // (p − cn²)(p − dn²)(p − 1), where dn² = cn² + k′² sn².
+        let delta = (c * ss) * (c * ss - (dd - cc)) * ((c - 1.0) * ss);
+        c / 3.0 * sn * ss * carlson_rj(cc, dd, 1.0, p, delta.max(0.0))
+    }
+}

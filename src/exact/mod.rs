@@ -3,8 +3,16 @@
 mod dd;
 pub mod free_motion;
 pub mod free_rotation;
+pub mod heavy_top;
 pub mod jacobi;
+pub mod linear_drag;
+pub mod pendulum;
+pub mod point_motion;
 mod principal;
+pub mod quadratic_drag;
+pub mod symmetric_body;
+mod top_phase;
+mod top_roots;
 
 use crate::experiment::types::Exact;
 use crate::model::Model;

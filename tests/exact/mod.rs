@@ -1,3 +1,7 @@
 //! Closed forms against references of more digits.
 
 mod free_rotation;
+mod heavy_top;
+mod pendulum;
+mod point;
+mod symmetric_body;

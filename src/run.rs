@@ -31,7 +31,8 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     let mut stepper = Stepper::new(&experiment.method, &plan, model, &start);
     let mut judge = Judge::new(model, &start, &experiment.diverge, &plan);
     judge.watched = Watched::new(&experiment.measure);
-    let exact = experiment.exact.map(|exact| Reference::new(exact, model, &start));
+    // The plan has seen to it that the scene is one of the closed form's.
+    let exact = experiment.exact.and_then(|exact| Reference::new(exact, model, &start).ok());
     let (mut before, mut state) = (start.clone(), start);
     let mut stepping = Duration::ZERO;
     let mut stopped = None;

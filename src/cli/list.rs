@@ -1,7 +1,7 @@
 //! `gotai list`: what can be written, one line each.
 
 use super::{CliError, OutputArgs, print, print_json};
-use crate::experiment::types::Integrator;
+use crate::experiment::types::{Exact, Integrator};
 use crate::integrate::claims::{Claim, Kept, claim};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -67,14 +67,47 @@ const SHAPES: [Line; 3] = [
     ("none", "", "a point with mass and inertia, without contact", ""),
 ];
 
-const EXACT: [Line; 1] = [(
-    "free-motion",
-    "",
-    "parabola and torque-free rotation of any body, by Jacobi elliptic functions; without contact",
-    "van Zon & Schofield, JCP 225 (2007) 145",
-)];
+/// The settings column says of which scenes.
+const EXACT: [Line; 6] = [
+    (
+        Exact::FreeMotion.word(),
+        "gravity, and constant or cosine forces of the world at the centre of mass; no air, no pins, no contact",
+        "parabola and torque-free rotation of any body, by Jacobi elliptic functions",
+        "van Zon & Schofield, JCP 225 (2007) 145",
+    ),
+    (
+        Exact::SymmetricBody.word(),
+        "the same, every body with two equal moments of inertia",
+        "parabola and torque-free rotation, by elementary functions",
+        "Kane, Likins & Levinson 1983, 3.1",
+    ),
+    (
+        Exact::LinearDrag.word(),
+        "gravity, constant forces of the world at the centre of mass, air with linear_drag_n_s_m",
+        "Stokes' drag, exp(-c t/m), and torque-free rotation",
+        "lecture L2; Stokes 1851",
+    ),
+    (
+        Exact::QuadraticDrag.word(),
+        "the same, air with a drag_coefficient; velocity along the line of the forces, or no forces",
+        "Newton's drag, tanh and ln cosh, and torque-free rotation",
+        "Parker, Am. J. Phys. 45 (1977) 606",
+    ),
+    (
+        Exact::HeavyTop.word(),
+        "gravity; every body one of revolution, on one pin to the world on its axis",
+        "precession and nutation, sleeping top, spherical pendulum, by elliptic functions and integrals",
+        "Whittaker, Analytical Dynamics, 71-75",
+    ),
+    (
+        Exact::Pendulum.word(),
+        "gravity; every body on one pin to the world, turning about a horizontal principal axis of the pin",
+        "the compound plane pendulum at any amplitude, by elliptic functions",
+        "Whittaker, Analytical Dynamics, 44",
+    ),
+];
 
-const MEASURES: [Line; 4] = [
+const MEASURES: [Line; 5] = [
     (
         "state",
         "<body>.position_m.x, .orientation_xyzw.x, .velocity_m_s.x, .angular_velocity_rad_s.x, …",
@@ -98,6 +131,12 @@ const MEASURES: [Line; 4] = [
         "normal_lambda_max_1_kg, critical_step_s",
         "largest eigenvalue of Jn M⁻¹ Jnᵀ at the first contact, and the longest stable step of `penalty` by linear theory",
         "lecture L15",
+    ),
+    (
+        "difference-quotients",
+        "difference_forward_m_s, difference_backward_m_s, difference_central_m_s",
+        "quotients of the positions of a run against its velocities, the largest difference",
+        "lecture L1",
     ),
 ];
 

@@ -1,7 +1,6 @@
-//! Closed forms and references: `state_at(t)`, one case a file, cited.
+//! Closed forms and references: `state_at(t)`, one case a file, cited; `scene` says which scenes they are the motion of.
 
 mod dd;
-pub mod free_motion;
 pub mod free_rotation;
 pub mod heavy_top;
 pub mod jacobi;
@@ -10,31 +9,48 @@ pub mod pendulum;
 pub mod point_motion;
 mod principal;
 pub mod quadratic_drag;
+mod scene;
 pub mod symmetric_body;
 mod top_phase;
 mod top_roots;
 
-use crate::experiment::types::Exact;
+use crate::experiment::types::{Exact, Experiment, Integrator, Method};
 use crate::model::Model;
 use crate::state::State;
-use free_motion::FreeMotion;
+use scene::{Lacks, Motion};
 
 /// The exact motion from a given start.
-pub enum Reference {
-    FreeMotion(FreeMotion),
+pub struct Reference {
+    bodies: Vec<Motion>,
 }
 
 impl Reference {
-    pub fn new(which: Exact, model: &Model, start: &State) -> Self {
-        match which {
-            Exact::FreeMotion => Reference::FreeMotion(FreeMotion::new(model, start)),
-        }
+    /// # Errors
+    /// What the scene should have, if it is not one of the closed form's.
+    pub fn new(which: Exact, model: &Model, start: &State) -> Result<Self, Lacks> {
+        let bodies = start.bodies.iter().enumerate().map(|(i, at)| scene::motion(which, model, i, at));
+        Ok(Reference { bodies: bodies.collect::<Result<_, _>>()? })
     }
 
     /// The exact state at a time after the start.
     pub fn state_at(&self, t_s: f64) -> State {
-        match self {
-            Reference::FreeMotion(motion) => motion.state_at(t_s),
-        }
+        State { step: 0, time_s: t_s, bodies: self.bodies.iter().map(|motion| motion.at(t_s)).collect() }
     }
+
+    /// Puts the bodies where they are at the state's time.
+    pub fn write(&self, state: &mut State) {
+        let t_s = state.time_s;
+        self.bodies.iter().zip(&mut state.bodies).for_each(|(motion, at)| *at = motion.at(t_s));
+    }
+}
+
+/// The closed forms that an experiment names, and where.
+pub fn named(experiment: &Experiment) -> Vec<(&'static str, Exact)> {
+    let mut named: Vec<_> = experiment.exact.iter().map(|exact| ("exact", *exact)).collect();
+    if let Method::Free(free) = &experiment.method
+        && free.integrator == Integrator::Exact
+    {
+        named.push(("method.free.integrator", Exact::FreeMotion));
+    }
+    named
 }

@@ -358,12 +358,46 @@ impl Stream {
     pub const ALL: [Stream; 4] = [Stream::Bodies, Stream::Contacts, Stream::Forces, Stream::Energy];
 }
 
-/// Closed forms, by name; what each is stands in `exact/`.
+/// Closed forms, by name; of which scenes: `exact/scene.rs`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Exact {
-    /// Parabola and torque-free rotation of every body.
+    /// Parabola, with constant and harmonic forces, and torque-free rotation of every body.
     FreeMotion,
+    /// The same without forces, of bodies of revolution, by elementary functions.
+    SymmetricBody,
+    /// Gravity and linear drag.
+    LinearDrag,
+    /// Gravity and quadratic drag along one line.
+    QuadraticDrag,
+    /// A body of revolution on a pin.
+    HeavyTop,
+    /// A body on a pin that swings in a plane.
+    Pendulum,
+}
+
+impl Exact {
+    /// All of them, as written above; a test holds this against the parser's own list.
+    pub const ALL: [Exact; 6] = [
+        Exact::FreeMotion,
+        Exact::SymmetricBody,
+        Exact::LinearDrag,
+        Exact::QuadraticDrag,
+        Exact::HeavyTop,
+        Exact::Pendulum,
+    ];
+
+    /// Its word in the file.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Exact::FreeMotion => "free-motion",
+            Exact::SymmetricBody => "symmetric-body",
+            Exact::LinearDrag => "linear-drag",
+            Exact::QuadraticDrag => "quadratic-drag",
+            Exact::HeavyTop => "heavy-top",
+            Exact::Pendulum => "pendulum",
+        }
+    }
 }
 
 /// What is measured only when asked for.
@@ -378,6 +412,8 @@ pub enum Measure {
     ContactMatrix,
     /// The penalty method's, of the first step with a contact.
     CriticalStep,
+    /// Forward, backward and central quotients of the positions against the velocities.
+    DifferenceQuotients,
 }
 
 /// The axes of a sweep, still as written; `axes.rs` and `search.rs` read them.

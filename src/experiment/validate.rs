@@ -3,8 +3,8 @@
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::types::{
-    Container, Diverge, Exact, Experiment, Free, Integrator, Measure, Method, Penalty, Plane, Random, Record,
-    RecordCases, Scene, Shape, Time,
+    Container, Diverge, Experiment, Free, Integrator, Measure, Method, Penalty, Plane, Random, Record, RecordCases,
+    Scene, Shape, Time,
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
@@ -166,15 +166,10 @@ fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
 fn validate_exact(experiment: &Experiment, at: Path) -> Result<()> {
     let scene = &experiment.scene;
     let touches = scene.container.is_some() && scene.bodies.iter().any(|body| body.shape != Shape::None);
-    let loaded = !scene.forces.is_empty() || scene.air.is_some() || !scene.pins.is_empty();
     match experiment.exact {
-        Some(Exact::FreeMotion) if loaded => {
-            let expected = "a scene in which nothing but gravity acts, as `free-motion` is the exact motion of such";
-            Err(unexpected(at, expected, "forces, air or pins"))
-        }
-        Some(Exact::FreeMotion) if touches && !matches!(experiment.method, Method::Free(_)) => {
+        Some(exact) if touches && !matches!(experiment.method, Method::Free(_)) => {
             let expected = "no exact motion, or the method `free`: a body may touch the container";
-            Err(unexpected(at, expected, "`free-motion`"))
+            Err(unexpected(at, expected, &format!("`{}`", exact.word())))
         }
         _ => Ok(()),
     }

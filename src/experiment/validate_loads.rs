@@ -2,7 +2,7 @@
 
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
-use super::method::{Integrator, Method};
+use super::method::Method;
 use super::types::{Air, Body, Course, Experiment, Force, Pin, Scene, Shape};
 use super::validate::{Result, not_negative, unexpected};
 
@@ -13,23 +13,12 @@ pub fn validate_loads(experiment: &Experiment, at: Path) -> Result<()> {
     scene.air.as_ref().map_or(Ok(()), |air| validate_air(air, scene, at.key("air")))?;
     scene.pins.iter().enumerate().try_for_each(|(i, pin)| validate_pin(pin, scene, pins.item(i, None)))?;
     match &experiment.method {
-        Method::Free(free) if free.integrator == Integrator::Exact => no_loads(scene, at),
         Method::Free(_) => Ok(()),
         _ if scene.pins.is_empty() => Ok(()),
         method => {
             let feature = format!("a pin with the method `{}` (the method `free` has pins)", method.word());
             Err(ExperimentError::feature_not_available(pins.to_key_path(), &feature))
         }
-    }
-}
-
-/// The closed form is that of a body on which nothing acts but gravity.
-fn no_loads(scene: &Scene, at: Path) -> Result<()> {
-    let given = [("forces", !scene.forces.is_empty()), ("air", scene.air.is_some()), ("pins", !scene.pins.is_empty())];
-    let expected = "nothing but gravity, as the integrator `exact` is the closed form of free motion";
-    match given.iter().find(|(_, given)| *given) {
-        Some((key, _)) => Err(unexpected(at.key(key), expected, &format!("`{key}`"))),
-        None => Ok(()),
     }
 }
 

@@ -5,6 +5,7 @@
 
 pub mod contact_matrix;
 pub mod critical_step;
+mod difference;
 pub mod divergence;
 pub mod energy;
 pub mod error;
@@ -88,6 +89,7 @@ impl Judge {
             self.energy.observe_contacts(model, before, &self.pushes, step_s);
             self.watched.observe(before, contacts);
         }
+        self.watched.observe_step(before, after, step_s);
         self.residual.observe(model, before, contacts, &self.pushes, step_s);
         let pivot = |state: &State| self.momentum.pivot_m(model, state);
         let done = loads::done(model, [before, after], &mut self.middle, pivot, step_s);

@@ -2,6 +2,7 @@
 
 use super::contact_matrix::{self, ContactMatrix};
 use super::critical_step::{self, CriticalStep};
+use super::difference::{self, Differences};
 use crate::collide::SolvedContact;
 use crate::experiment::types::{self as file, Experiment, Measure, Method};
 use crate::model::{Body, Model};
@@ -13,6 +14,7 @@ use serde_json::{Map, Value, json};
 pub struct Watched {
     pub contact_matrix: Option<ContactMatrix>,
     pub critical_step: Option<CriticalStep>,
+    pub differences: Option<Differences>,
 }
 
 impl Watched {
@@ -21,9 +23,18 @@ impl Watched {
         Watched {
             contact_matrix: asked(Measure::ContactMatrix).then(ContactMatrix::default),
             critical_step: asked(Measure::CriticalStep).then(CriticalStep::default),
+            differences: asked(Measure::DifferenceQuotients).then(Differences::default),
         }
     }
 
+    /// Of every step.
+    pub fn observe_step(&mut self, before: &State, after: &State, step_s: f64) {
+        if let Some(watch) = &mut self.differences {
+            watch.observe(before, after, step_s);
+        }
+    }
+
+    /// Of a step with contacts.
     pub fn observe(&mut self, before: &State, contacts: &[SolvedContact]) {
         if let Some(watch) = &mut self.contact_matrix {
             watch.observe(before, contacts);
@@ -45,6 +56,7 @@ pub fn columns(experiment: &Experiment, model: &Model, end: &State, watched: &Wa
                 let settings = penalty(&experiment.method);
                 watched.critical_step.iter().flat_map(|watch| watch.columns(model, settings)).collect()
             }
+            Measure::DifferenceQuotients => watched.differences.iter().flat_map(Differences::columns).collect(),
         }
     };
     names(experiment).into_iter().zip(experiment.measure.iter().flat_map(of)).collect()
@@ -60,6 +72,7 @@ pub fn names(experiment: &Experiment) -> Vec<String> {
         Measure::Inertia => each_body(&INERTIA),
         Measure::ContactMatrix => contact_matrix::NAMES.map(str::to_string).to_vec(),
         Measure::CriticalStep => critical_step::NAMES.map(str::to_string).to_vec(),
+        Measure::DifferenceQuotients => difference::NAMES.map(str::to_string).to_vec(),
     };
     experiment.measure.iter().flat_map(of).collect()
 }

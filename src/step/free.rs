@@ -1,8 +1,8 @@
 //! Motion without contact (L4, L5): every island of bodies that pins join on its own.
 
 use super::Clock;
-use crate::exact::free_motion::FreeMotion;
-use crate::experiment::types::{Free as Settings, Integrator, Update};
+use crate::exact::Reference;
+use crate::experiment::types::{Exact, Free as Settings, Integrator, Update};
 use crate::integrate::island::Island;
 use crate::integrate::{crank_nicolson, dop853, euler, implicit, implicit_midpoint, momentum, moser_veselov, rk4};
 use crate::measure::work::Work;
@@ -29,7 +29,7 @@ enum Method {
 pub struct Free {
     islands: Vec<(Island, Method)>,
     /// From the start, for `exact`.
-    motion: Option<FreeMotion>,
+    motion: Option<Reference>,
     /// A step has no solution, or the tolerance is out of reach.
     pub(super) stalled: bool,
     pub(super) work: Work,
@@ -37,7 +37,8 @@ pub struct Free {
 
 impl Free {
     pub fn new(settings: &Settings, model: &Model, start: &State) -> Self {
-        let motion = (settings.integrator == Integrator::Exact).then(|| FreeMotion::new(model, start));
+        let exact = || Reference::new(Exact::FreeMotion, model, start).ok();
+        let motion = (settings.integrator == Integrator::Exact).then(exact).flatten();
         let islands = Island::all(model, start).into_iter();
         let islands = islands.filter_map(|island| Method::new(settings, &island, model).map(|method| (island, method)));
         Free { islands: islands.collect(), motion, stalled: false, work: Work::default() }

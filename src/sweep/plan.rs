@@ -3,6 +3,7 @@
 use super::search;
 use crate::build_info::{BUILD, PROGRAM};
 use crate::case::{Case, hex};
+use crate::exact::{self, Reference};
 use crate::experiment::axes::Axes;
 use crate::experiment::types::Experiment;
 use crate::experiment::{ExperimentError, ExperimentFile};
@@ -58,7 +59,13 @@ pub fn build(
     experiment: &Experiment,
 ) -> Result<(Model, State), ExperimentError> {
     let placed = |e: BuildError| file.error_at(point, &e.path, &e.expected, &e.found);
-    model::build(experiment).map_err(placed)
+    let (model, start) = model::build(experiment).map_err(placed)?;
+    for (path, exact) in exact::named(experiment) {
+        let lacking =
+            |lacks| file.error_at(point, path, &format!("a scene with {lacks}"), &format!("`{}`", exact.word()));
+        Reference::new(exact, &model, &start).map_err(lacking)?;
+    }
+    Ok((model, start))
 }
 
 /// What `plan.json` says.

@@ -1,0 +1,280 @@
+//! From a scene to the closed form that is its motion: every body's way and turning, or what a pin leaves of them.
+
+use super::free_rotation::FreeRotation;
+use super::heavy_top::{HeavyTop, Top};
+use super::linear_drag::LinearDrag;
+use super::pendulum::Pendulum;
+use super::point_motion::{Harmonic, PointMotion};
+use super::quadratic_drag::QuadraticDrag;
+use super::symmetric_body::SymmetricBody;
+use crate::experiment::types::Exact;
+use crate::model::loads::AppliedForce;
+use crate::model::pins::Anchor;
+use crate::model::{Body, Model};
+use crate::state::BodyState;
+use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
+
+/// The exact motion of one body.
+#[derive(Clone, Debug)]
+pub enum Motion {
+    Free(Way, Turning),
+    /// A body on a pin: attitude, from which the position follows.
+    Top {
+        top: HeavyTop,
+        pin_W: Vector3<f64>,
+        r_B: Vector3<f64>,
+    },
+    Pendulum(Swing),
+}
+
+/// Of the centre of mass.
+#[derive(Clone, Debug)]
+pub enum Way {
+    Point(PointMotion),
+    Linear(LinearDrag),
+    Quadratic(QuadraticDrag),
+}
+
+#[derive(Clone, Debug)]
+pub enum Turning {
+    Free(FreeRotation),
+    Symmetric(SymmetricBody),
+}
+
+/// A body that turns about a horizontal axis through its pin.
+#[derive(Clone, Debug)]
+pub struct Swing {
+    pendulum: Pendulum,
+    start: BodyState,
+    angle: f64,
+    axis_W: Vector3<f64>,
+    pin_W: Vector3<f64>,
+}
+
+impl Motion {
+    pub fn at(&self, t_s: f64) -> BodyState {
+        match self {
+            Motion::Free(way, turning) => {
+                let (p_WB, v_WB) = match way {
+                    Way::Point(point) => point.at(t_s),
+                    Way::Linear(drag) => drag.at(t_s),
+                    Way::Quadratic(drag) => drag.at(t_s),
+                };
+                let (q_WB, w_WB) = match turning {
+                    Turning::Free(rotation) => rotation.at(t_s),
+                    Turning::Symmetric(rotation) => rotation.at(t_s),
+                };
+                BodyState { p_WB, q_WB, v_WB, w_WB }
+            }
+            Motion::Top { top, pin_W, r_B } => {
+                let (q_WB, w_WB) = top.at(t_s);
+                let r_W = q_WB * r_B;
+                BodyState { p_WB: pin_W - r_W, q_WB, v_WB: -w_WB.cross(&r_W), w_WB }
+            }
+            Motion::Pendulum(swing) => swing.at(t_s),
+        }
+    }
+}
+
+impl Swing {
+    fn at(&self, t_s: f64) -> BodyState {
+        let (angle, rate) = self.pendulum.at(t_s);
+        let turn = UnitQuaternion::from_scaled_axis(self.axis_W * (angle - self.angle));
+        let (r_W, w_WB) = (turn * (self.start.p_WB - self.pin_W), self.axis_W * rate);
+        BodyState { p_WB: self.pin_W + r_W, q_WB: turn * self.start.q_WB, v_WB: w_WB.cross(&r_W), w_WB }
+    }
+}
+
+/// What the scene lacks to be the closed form's.
+pub type Lacks = String;
+
+/// The motion of one of the model's bodies from its start.
+pub fn motion(which: Exact, model: &Model, index: usize, at: &BodyState) -> Result<Motion, Lacks> {
+    let body = &model.bodies[index];
+    if body.driven {
+        return Ok(driven(at));
+    }
+    match which {
+        Exact::HeavyTop => heavy_top(model, index, at),
+        Exact::Pendulum => pendulum(model, index, at),
+        Exact::FreeMotion => Ok(Motion::Free(Way::Point(point(model, index, at)?), free_turning(body, at))),
+        Exact::LinearDrag => Ok(Motion::Free(Way::Linear(linear(model, index, at)?), free_turning(body, at))),
+        Exact::QuadraticDrag => Ok(Motion::Free(Way::Quadratic(quadratic(model, index, at)?), free_turning(body, at))),
+        Exact::SymmetricBody => {
+            let (transverse, axial, axis) = of_revolution(&body.I_B)
+                .ok_or_else(|| format!("`{}` a body of revolution, with two equal moments of inertia", body.name))?;
+            let turning = SymmetricBody::new(transverse, axial, &axis, &at.q_WB, &at.w_WB);
+            Ok(Motion::Free(Way::Point(point(model, index, at)?), Turning::Symmetric(turning)))
+        }
+    }
+}
+
+/// Even motion.
+fn driven(at: &BodyState) -> Motion {
+    let still = Vector3::zeros();
+    let way = PointMotion { position_m: at.p_WB, velocity_m_s: at.v_WB, constant_m_s2: still, harmonics: Vec::new() };
+    Motion::Free(Way::Point(way), Turning::Free(FreeRotation::new(&Matrix3::identity(), &at.q_WB, &at.w_WB)))
+}
+
+fn free_turning(body: &Body, at: &BodyState) -> Turning {
+    Turning::Free(FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB))
+}
+
+/// Gravity, and forces of the world at the centre of mass.
+fn point(model: &Model, index: usize, at: &BodyState) -> Result<PointMotion, Lacks> {
+    let body = unpinned(model, index)?;
+    if !body.drag.is_none() {
+        return Err("no `air`".into());
+    }
+    let mut way = PointMotion {
+        position_m: at.p_WB,
+        velocity_m_s: at.v_WB,
+        constant_m_s2: model.gravity_m_s2,
+        harmonics: Vec::new(),
+    };
+    for force in central_forces(model, index)? {
+        let amplitude_m_s2 = force.force_n / body.mass_kg;
+        match force.cosine {
+            None => way.constant_m_s2 += amplitude_m_s2,
+            Some((rate_rad_s, phase_rad)) => way.harmonics.push(Harmonic { amplitude_m_s2, rate_rad_s, phase_rad }),
+        }
+    }
+    Ok(way)
+}
+
+fn linear(model: &Model, index: usize, at: &BodyState) -> Result<LinearDrag, Lacks> {
+    let body = unpinned(model, index)?;
+    if body.drag.quadratic_n_s2_m2 != 0.0 {
+        return Err("no quadratic drag of the `air`".into());
+    }
+    Ok(LinearDrag {
+        position_m: at.p_WB,
+        velocity_m_s: at.v_WB,
+        acceleration_m_s2: constant_acceleration(model, index)?,
+        rate_per_s: body.drag.linear_n_s_m / body.mass_kg,
+    })
+}
+
+fn quadratic(model: &Model, index: usize, at: &BodyState) -> Result<QuadraticDrag, Lacks> {
+    let body = unpinned(model, index)?;
+    if body.drag.linear_n_s_m != 0.0 {
+        return Err("no linear drag of the `air`".into());
+    }
+    let drag_per_m = body.drag.quadratic_n_s2_m2 / body.mass_kg;
+    QuadraticDrag::new(at.p_WB, at.v_WB, constant_acceleration(model, index)?, drag_per_m)
+        .ok_or_else(|| format!("`{}` moving along the line of its weight, or without one", body.name))
+}
+
+fn constant_acceleration(model: &Model, index: usize) -> Result<Vector3<f64>, Lacks> {
+    let mut acceleration = model.gravity_m_s2;
+    for force in central_forces(model, index)? {
+        if force.cosine.is_some() {
+            return Err("forces that are constant".into());
+        }
+        acceleration += force.force_n / model.bodies[index].mass_kg;
+    }
+    Ok(acceleration)
+}
+
+fn unpinned(model: &Model, index: usize) -> Result<&Body, Lacks> {
+    let holds = |pin: &crate::model::pins::Pin| {
+        pin.body == index || matches!(pin.anchor, Anchor::Body(other, _) if other == index)
+    };
+    if model.pins.iter().any(holds) { Err("no `pins`".into()) } else { Ok(&model.bodies[index]) }
+}
+
+/// Forces that do not turn the body.
+fn central_forces(model: &Model, index: usize) -> Result<Vec<&AppliedForce>, Lacks> {
+    let forces: Vec<&AppliedForce> = model.forces.iter().filter(|force| force.body == index).collect();
+    let is_central = |force: &&AppliedForce| {
+        let in_world = force.frame == crate::experiment::types::Frame::World || force.force_n == Vector3::zeros();
+        force.torque_n_m == Vector3::zeros() && force.r_B == Vector3::zeros() && in_world
+    };
+    if forces.iter().all(is_central) {
+        Ok(forces)
+    } else {
+        Err("`forces` of the world's frame at the centre of mass".into())
+    }
+}
+
+/// The one pin of a body to the world, and nothing else that acts on it but gravity.
+fn only_pin(model: &Model, index: usize) -> Result<(Vector3<f64>, Vector3<f64>), Lacks> {
+    let body = &model.bodies[index];
+    if !body.drag.is_none() || model.forces.iter().any(|force| force.body == index) {
+        return Err("no `forces` and no `air`".into());
+    }
+    let held = || model.pins.iter().filter(|pin| pin.body == index);
+    let shared = model.pins.iter().any(|pin| matches!(pin.anchor, Anchor::Body(other, _) if other == index));
+    match (held().next(), held().count()) {
+        (Some(pin), 1) if !shared => match pin.anchor {
+            Anchor::World(p_W) => Ok((p_W, pin.r_B)),
+            Anchor::Body(..) => Err(format!("`{}` pinned to the world", body.name)),
+        },
+        _ => Err(format!("`{}` on one pin, to the world", body.name)),
+    }
+}
+
+fn heavy_top(model: &Model, index: usize, at: &BodyState) -> Result<Motion, Lacks> {
+    let (pin_W, r_B) = only_pin(model, index)?;
+    let body = &model.bodies[index];
+    let lacks = || format!("`{}` a body of revolution, pinned on its axis", body.name);
+    let (transverse, axial, axis_B) = of_revolution(&about(body, &r_B)).ok_or_else(lacks)?;
+    // A ball may turn about any line through its pin.
+    let axis_B = if transverse == axial && r_B != Vector3::zeros() { -r_B.normalize() } else { axis_B };
+    let along = -r_B.dot(&axis_B);
+    if (r_B + axis_B * along).norm() > SAME * r_B.norm() {
+        return Err(lacks());
+    }
+    let top = Top {
+        transverse_kg_m2: transverse,
+        axial_kg_m2: axial,
+        axis_B,
+        first_moment_kg_m: body.mass_kg * along,
+        gravity_m_s2: model.gravity_m_s2,
+    };
+    let top = HeavyTop::new(&top, &at.q_WB, &at.w_WB).ok_or_else(lacks)?;
+    Ok(Motion::Top { top, pin_W, r_B })
+}
+
+fn pendulum(model: &Model, index: usize, at: &BodyState) -> Result<Motion, Lacks> {
+    let (pin_W, r_B) = only_pin(model, index)?;
+    let body = &model.bodies[index];
+    let lacks = || format!("`{}` swinging about a horizontal principal axis of its pin, under gravity", body.name);
+    let down = model.gravity_m_s2.try_normalize(0.0).ok_or_else(lacks)?;
+    let r_W = -(at.q_WB * r_B);
+    let (length, sine) = (r_W.norm(), down.cross(&r_W));
+    // About which it swings: its spin, or at rest what gravity turns it about.
+    let axis_W = at.w_WB.try_normalize(0.0).or_else(|| sine.try_normalize(SAME * length)).ok_or_else(lacks)?;
+    let I_axis = at.q_WB * (about(body, &r_B) * at.q_WB.inverse_transform_vector(&axis_W));
+    let inertia = axis_W.dot(&I_axis);
+    let tilted = axis_W.dot(&down).abs().max(axis_W.dot(&r_W).abs() / length);
+    if length == 0.0 || tilted > SAME || (I_axis - axis_W * inertia).norm() > SAME * inertia {
+        return Err(lacks());
+    }
+    let angle = libm::atan2(sine.dot(&axis_W), down.dot(&r_W));
+    let moment = body.mass_kg * model.gravity_m_s2.norm() * length;
+    let pendulum = Pendulum::new(moment, inertia, angle, at.w_WB.dot(&axis_W));
+    Ok(Motion::Pendulum(Swing { pendulum, start: *at, angle, axis_W, pin_W }))
+}
+
+/// Moments, directions and lengths that differ by less, relative, are the same: what is written with ten digits is.
+const SAME: f64 = 1e-10;
+
+/// Inertia about a point at `r_B` from the centre of mass.
+fn about(body: &Body, r_B: &Vector3<f64>) -> Matrix3<f64> {
+    body.I_B + (Matrix3::identity() * r_B.norm_squared() - r_B * r_B.transpose()) * body.mass_kg
+}
+
+/// Moments across and along the axis of revolution, and the axis.
+fn of_revolution(I_B: &Matrix3<f64>) -> Option<(f64, f64, Vector3<f64>)> {
+    let eigen = SymmetricEigen::new(*I_B);
+    let moments = eigen.eigenvalues;
+    let pairs = [(0, 1, 2), (1, 2, 0), (2, 0, 1)];
+    let nearest = pairs.into_iter().min_by(|a, b| {
+        let apart = |(i, j, _): &(usize, usize, usize)| (moments[*i] - moments[*j]).abs();
+        apart(a).total_cmp(&apart(b))
+    })?;
+    let (i, j, axis) = nearest;
+    let same = (moments[i] - moments[j]).abs() <= SAME * moments.amax();
+    same.then(|| ((moments[i] + moments[j]) / 2.0, moments[axis], eigen.eigenvectors.column(axis).into_owned()))
+}

@@ -53,7 +53,7 @@ impl QuadraticDrag {
     /// Position and velocity at t ≥ 0.
     pub fn at(&self, t_s: f64) -> (Vector3<f64>, Vector3<f64>) {
         let (s, v) = match self.terminal_speed_m_s() {
-            Some(terminal) => self.to_terminal(terminal, t_s),
+            Some(terminal) => self.with_terminal(terminal, t_s),
             None => self.without_terminal(t_s),
         };
         (self.position_m + self.direction * s, self.direction * v)
@@ -66,7 +66,7 @@ impl QuadraticDrag {
         (v_0 * t_s * slowing + g * t_s / 2.0 * t_s, v_0 / (1.0 + x) + g * t_s)
     }
 
-    fn to_terminal(&self, terminal: f64, t_s: f64) -> (f64, f64) {
+    fn with_terminal(&self, terminal: f64, t_s: f64) -> (f64, f64) {
         let (tau, W) = ((self.gravity_m_s2 * self.drag_per_m).sqrt() * t_s, self.speed_m_s / terminal);
         let turn = libm::atan(-W);
         let (ks, v) = if W >= 0.0 {

@@ -75,6 +75,7 @@ pub struct Measured {
     pub work_contact_solves: u64,
     pub work_sweeps: u64,
     pub work_gyroscopic: u64,
+    pub work_inner_steps: u64,
     pub wall_s: Option<f64>,
     /// Columns that only some experiments have: `measure:`, the bracket of a search.
     #[serde(flatten)]
@@ -115,6 +116,7 @@ impl Measured {
             work_contact_solves: 0,
             work_sweeps: 0,
             work_gyroscopic: 0,
+            work_inner_steps: 0,
             wall_s: None,
             more: Map::new(),
         }
@@ -133,6 +135,7 @@ impl Measured {
         self.work_contact_solves = work.contact_solves;
         self.work_sweeps = work.sweeps;
         self.work_gyroscopic = work.gyroscopic;
+        self.work_inner_steps = work.inner_steps;
     }
 
     /// The same but for the time it took: what two runs of one case must agree in.

@@ -61,7 +61,7 @@ pub fn step(
     work: &mut Work,
 ) -> bool {
     let mut f = |y: &Phase| rate(body, acceleration, y, work);
-    let (mut left_s, mut failed) = (step_s, false);
+    let (mut left_s, mut failed, mut made) = (step_s, false, 0);
     let mut y = phase(at);
     let mut first = f(&y);
     for _ in 0..MOST {
@@ -75,14 +75,16 @@ pub fn step(
         if !failed {
             *at = state(&end);
             left_s -= tried_s;
+            made += 1;
             if left_s <= 0.0 {
-                return true;
+                break;
             }
             y = phase(at);
             first = f(&y);
         }
     }
-    false
+    work.inner_steps += made;
+    left_s <= 0.0
 }
 
 /// The end of a step, and its error over the tolerance.

@@ -13,4 +13,6 @@ pub struct Work {
     pub sweeps: u64,
     /// Evaluations of the gyroscopic term, or of the momentum-conserving rotation in its place.
     pub gyroscopic: u64,
+    /// Steps inside those of the clock, summed over bodies; tries that were given up are not among them.
+    pub inner_steps: u64,
 }

@@ -129,7 +129,7 @@ fn shown(config: &Path, rows: &[Row], dir: &Path) -> String {
     let column = rows.first().map_or("error", |row| row.error_kind.as_str());
     let header = ["front", "method", "step_s", "tolerance", "steps", column, "wall_s", "wall_median_s", "outcome"];
     let mut table = table(&header);
-    table.remove_style(TableComponent::HorizontalLines);
+    table.remove_style(TableComponent::HorizontalLines).remove_style(TableComponent::MiddleIntersections);
     let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.3e}"));
     let given = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:e}"));
     for (row, on_front) in rows.iter().zip(pareto(rows)) {

@@ -165,7 +165,7 @@ impl Diagram {
             }
             for (n, line) in wrapped(label, 36).into_iter().enumerate() {
                 y += if n > 0 { 26 } else { 0 };
-                area.draw(&Text::new(line, (66, y - 12), (FONT, 21)))?;
+                area.draw(&Text::new(line, (66, y - 9), (FONT, 21)))?;
             }
             y += LINE;
         }

@@ -58,13 +58,13 @@ fn every_method_has_a_row_at_each_of_its_steps_or_tolerances() {
 fn the_fitted_orders_are_those_that_are_claimed() {
     let rows = rows(SPIN, &[]);
     let slope = |method| order(&rows, method).unwrap().slope;
-    // measured: 1.0, 4.0
+    // measured: 0.98, 4.00
     assert!((slope("free explicit-euler") - 1.0).abs() < 0.1, "{}", slope("free explicit-euler"));
     assert!((slope("free rk4") - 4.0).abs() < 0.1, "{}", slope("free rk4"));
-    // In its own mean step. measured: see the assertion's bound
+    // In its own mean step, from two tolerances. measured: 7.02
     assert!((6.0..10.0).contains(&slope("free dop853")), "{}", slope("free dop853"));
     assert!(order(&rows, "closed form").is_none());
-    // measured: 2.8e-17
+    // The same closed form, once a step. measured: 8.2e-18
     assert!(rows.last().unwrap().error.unwrap() < 1e-15, "{:?}", rows.last());
 }
 

@@ -51,6 +51,10 @@ pub mod record;
 
 pub mod check;
 
+pub mod bench;
+
+pub mod report;
+
 pub mod cli;
 
 pub mod build_info;

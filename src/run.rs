@@ -73,7 +73,7 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     Ended { measured, contacts: stepper.contacts().to_vec(), state, step_s: clock.step_s }
 }
 
-/// Validation has seen to it that there is a step.
+/// Without a step: one to the end, of a method that needs none.
 pub fn clock(experiment: &Experiment) -> Clock {
     let end_s = experiment.time.end_s;
     Clock::new(experiment.time.step_s.unwrap_or(end_s), end_s)

@@ -9,6 +9,7 @@ fn the_work_of_a_run_is_known() {
         [m.work_contact_tests, m.work_contacts, m.work_contact_solves, m.work_sweeps, m.work_gyroscopic]
     };
     assert_eq!(counters(&["method=free"]), [0, 0, 0, 0, 200]);
+    assert_eq!(counters(&["method=free", "method.free.integrator=rk4"]), [0, 0, 0, 0, 800]);
     assert_eq!(counters(&["method=lecture"]), [7371, 179, 80, 2448, 0]);
     assert_eq!(counters(&["method=time-stepping"]), [11151, 1201, 157, 2474, 200]);
 }

@@ -10,6 +10,7 @@
 //! - `record/`: recordings, read back from their files
 //! - `cli/`: the program as a user meets it: output, exit codes
 //! - `check/`: expectations, their statistics, searches, `gotai check`
+//! - `bench/`: run time against error: rows, orders, diagrams, bad inputs
 //! - `configs`: every file under configs/ runs
 //! - `allocation`: no step allocates
 //! - `counters`: how much work a run is
@@ -18,6 +19,7 @@
 #![allow(non_snake_case)]
 
 mod allocation;
+mod bench;
 mod check;
 mod cli;
 mod configs;

@@ -97,6 +97,8 @@ fn the_readme_names_every_config_method_row_and_folder() {
         "measure",
         "record",
         "check",
+        "bench",
+        "report",
     ] {
         assert!(root().join("src").join(folder).is_dir() && readme.contains(&format!("{folder}/")), "{folder}");
     }

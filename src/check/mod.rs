@@ -7,7 +7,7 @@ mod known;
 pub mod trend;
 
 pub use judge::{Judged, judge};
-pub use known::refuse_unknown;
+pub use known::{numbers as refuse_no_numbers, refuse_unknown};
 
 use crate::experiment::axes::Axes;
 use crate::experiment::filter::{Filter, is_same};

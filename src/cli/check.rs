@@ -1,15 +1,14 @@
 //! `gotai check`: runs experiments and judges their `expect:`. The command of a CI.
 
 use super::sweeping::{Config, Planned, SweepArgs, Swept, configs};
+use super::table::table;
 use super::{CliError, junit, print, print_json};
 use crate::check::{Judged, Schema, cells_of, judge, refuse_unknown};
 use crate::experiment::types::RecordTo;
 use crate::measure::more;
 use crate::sweep::search;
 use clap::Args;
-use comfy_table::{ContentArrangement, Table, presets};
 use serde_json::{Value, json};
-use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -113,17 +112,9 @@ fn verdict(met: bool) -> &'static str {
     if met { "met" } else { "NOT MET" }
 }
 
-/// Of a table in a file or a CI's log.
-const WIDTH: u16 = 140;
-
 /// The table of one experiment.
 fn shown(checked: &Checked) -> String {
-    let mut table = Table::new();
-    table.load_preset(presets::UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic);
-    if !std::io::stdout().is_terminal() {
-        table.set_width(WIDTH);
-    }
-    table.set_header(["verdict", "expectation", "bound", "measured", "why"]);
+    let mut table = table(&["verdict", "expectation", "bound", "measured", "why"]);
     for judged in &checked.judged {
         let why = judged.why.clone().unwrap_or_default();
         let cells = [&judged.expectation, &judged.bound, &judged.measured, &why];

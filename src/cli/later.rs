@@ -3,7 +3,7 @@
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
-const COMMANDS: [&str; 7] = ["merge", "submit", "bench", "report", "view", "schema", "completions"];
+const COMMANDS: [&str; 6] = ["merge", "submit", "report", "view", "schema", "completions"];
 const FLAGS: [&str; 1] = ["--shard"];
 
 /// Prints a parser's message (or help) and gives the exit code.

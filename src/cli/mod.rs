@@ -1,5 +1,6 @@
 //! The command line: one file per command. No default of the physics lives here.
 
+mod bench;
 mod check;
 mod explain;
 mod junit;
@@ -10,6 +11,7 @@ mod run;
 mod status;
 mod sweep;
 mod sweeping;
+mod table;
 
 use crate::experiment::types::RecordTo;
 use crate::experiment::{ExperimentError, ExperimentFile};
@@ -42,6 +44,8 @@ enum Command {
     Sweep(sweep::Command),
     /// Run experiments and judge what they expect (`expect:`); exit code 1 if one expectation is not met
     Check(check::Command),
+    /// Run time against error: the methods, steps and tolerances of `bench:`, on one core
+    Bench(bench::Command),
     /// How much of a sweep is done, missing, failed
     Status(status::Command),
     /// What this scene needs, what is skipped and why; number of cases, steps, estimated time and bytes
@@ -56,6 +60,7 @@ impl Cli {
             Command::Run(command) => command.run(),
             Command::Sweep(command) => command.run(),
             Command::Check(command) => command.run(),
+            Command::Bench(command) => command.run(),
             Command::Status(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::List(command) => command.run(),

@@ -1,7 +1,7 @@
 //! What `sweep` and `check` share: files of a folder, their cases, running what is missing.
 
 use super::progress::Bar;
-use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, below_configs};
+use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, below_configs, default_out};
 use crate::case::Case;
 use crate::experiment::ExperimentFile;
 use crate::experiment::types::RecordTo;
@@ -81,7 +81,7 @@ impl SweepArgs {
 
     pub fn sweep(&self, planned: &Planned) -> Result<Swept, CliError> {
         let Planned { config, cases, targets, .. } = planned;
-        let dir = self.out(config);
+        let dir = config.out(self.run.out.as_deref());
         let store = Arc::new(Mutex::new(Store::open(&dir, PlanFile::new(cases), self.keep)?));
         keep_rows_when_interrupted(&store, &dir)?;
         if self.output.verbose {
@@ -94,12 +94,14 @@ impl SweepArgs {
         let rows = lock(&store).rows();
         Ok(Swept { config: config.path.clone(), dir, ran, planned: cases.len(), rows })
     }
+}
 
+impl Config {
     /// Of several files every one has a folder of its own, also below `--out`.
-    fn out(&self, config: &Config) -> PathBuf {
-        match &self.run.out {
-            Some(out) => out.join(&config.below),
-            None => self.run.out(&config.path),
+    pub fn out(&self, given: Option<&Path>) -> PathBuf {
+        match given {
+            Some(out) => out.join(&self.below),
+            None => default_out(&self.path),
         }
     }
 }

@@ -157,7 +157,7 @@ fn read_axis(key: &str, spec: &Value) -> Result<Axis> {
     Ok(Axis { path: key.to_string(), segments, values })
 }
 
-fn read_list(items: &[Value], at: &KeyPath) -> Result<Vec<AxisValue>> {
+pub(super) fn read_list(items: &[Value], at: &KeyPath) -> Result<Vec<AxisValue>> {
     let base = Path::Base(at);
     items.iter().enumerate().map(|(i, item)| read_item(item, base.item(i, None))).collect()
 }

@@ -1,6 +1,7 @@
 //! An experiment file with its `--set`s: from text to resolved `Experiment`s, and from errors back to lines.
 
 use super::axes::{Axes, axis_path, value_path};
+use super::bench::{self, Bench};
 use super::error::{ExperimentError, Kind};
 use super::expect::{self, Expectation};
 use super::key_path::KeyPath;
@@ -22,7 +23,7 @@ pub struct ExperimentFile {
     path: PathBuf,
     /// What was read, for the lines of errors.
     text: String,
-    /// Everything but `sweep` and `expect`.
+    /// Everything but `sweep`, `expect` and `bench`.
     tree: Value,
     axes: Axes,
     /// What changes from case to case, shorter paths first, so that `method.lecture.sweeps` changes what `method` has
@@ -30,7 +31,17 @@ pub struct ExperimentFile {
     order: Vec<Varied>,
     search: Option<Search>,
     expect: Vec<Expectation>,
+    bench: Option<Bench>,
     sets: Vec<Applied>,
+}
+
+/// A value for another place than the file's own.
+#[derive(Clone, Debug)]
+pub struct Change {
+    pub path: Vec<String>,
+    pub value: Value,
+    /// Where it is written; None: nowhere.
+    pub written: Option<KeyPath>,
 }
 
 /// What changes from case to case.
@@ -82,12 +93,13 @@ impl ExperimentFile {
             order: Vec::new(),
             search: None,
             expect: Vec::new(),
+            bench: None,
             sets: Vec::new(),
         };
         for set in sets {
             file.apply(set).map_err(|error| by_set(error, set).named(path))?;
         }
-        let read = file.expand_axes().and_then(|()| file.read_expectations());
+        let read = file.expand_axes().and_then(|()| file.read_expectations()).and_then(|()| file.read_bench());
         read.map_err(|error| file.placed(error))?;
         file.refuse_overwritten_sets()?;
         Ok(file)
@@ -110,15 +122,48 @@ impl ExperimentFile {
         &self.expect
     }
 
+    pub fn bench(&self) -> Option<&Bench> {
+        self.bench.as_ref()
+    }
+
     /// The one experiment of a file without axes.
     ///
     /// # Errors
     /// Axes are left, or the experiment is wrong.
     pub fn experiment(&self) -> Result<Experiment> {
-        let searched = self.search.iter().map(|search| search.critical.as_str());
-        let left: Vec<&str> = self.axes.axes.iter().map(|axis| axis.path.as_str()).chain(searched).collect();
+        self.refuse_axes(|_| false)?;
+        self.case(&[])
+    }
+
+    /// The one experiment of a file without axes but those that are ignored, with some values changed.
+    ///
+    /// # Errors
+    /// Axes are left, or the experiment is wrong; the message names the place where a change is written.
+    pub fn changed(&self, changes: &[Change], is_ignored: impl Fn(&[String]) -> bool) -> Result<Experiment> {
+        self.refuse_axes(is_ignored)?;
+        let mut tree = self.tree.clone();
+        for change in changes {
+            assign(&mut tree, &change.path, change.value.clone()).map_err(|error| self.placed(error))?;
+        }
+        resolved(&tree).map_err(|error| {
+            let path = &error.details().path;
+            let keys = |change: &Change| KeyPath::of_keys(&change.path.iter().map(String::as_str).collect::<Vec<_>>());
+            match changes.iter().rev().find(|change| path.starts_with(&keys(change))) {
+                Some(Change { written: Some(written), path: above, .. }) => {
+                    let at = written.clone().join(path.below(above.len()));
+                    self.placed(error.at(at))
+                }
+                _ => self.placed(error),
+            }
+        })
+    }
+
+    fn refuse_axes(&self, is_ignored: impl Fn(&[String]) -> bool) -> Result<()> {
+        let searched = self.search.iter().map(|search| (&search.critical, &search.segments));
+        let axes = self.axes.axes.iter().map(|axis| (&axis.path, &axis.segments)).chain(searched);
+        let left: Vec<&str> = axes.filter(|(_, at)| !is_ignored(at)).map(|(path, _)| path.as_str()).collect();
         if left.is_empty() {
-            return self.case(&[]);
+            return Ok(());
         }
         let message = format!("axes are left: {}; fix each of them with --set PATH=VALUE", left.join(", "));
         let mut error = ExperimentError::new(Kind::AxesLeft, KeyPath::of_keys(&["sweep", "axes"]), message);
@@ -241,6 +286,13 @@ impl ExperimentFile {
     fn read_expectations(&mut self) -> Result<()> {
         let written = self.tree.as_mapping_mut().and_then(|mapping| mapping.shift_remove("expect"));
         self.expect = written.map_or(Ok(Vec::new()), |value| expect::read(&value))?;
+        Ok(())
+    }
+
+    fn read_bench(&mut self) -> Result<()> {
+        let written = self.tree.as_mapping_mut().and_then(|mapping| mapping.shift_remove("bench"));
+        let own = self.tree.get("method");
+        self.bench = written.map(|value| bench::read(&value, own)).transpose()?;
         Ok(())
     }
 

@@ -67,6 +67,11 @@ impl KeyPath {
         self.0.is_empty()
     }
 
+    /// What is left of this path below one that is `above` segments long.
+    pub fn below(&self, above: usize) -> KeyPath {
+        KeyPath(self.0.iter().skip(above).cloned().collect())
+    }
+
     /// This path, then the other.
     pub fn join(mut self, below: KeyPath) -> Self {
         self.0.extend(below.0);

@@ -2,7 +2,9 @@
 //!
 //! `ExperimentFile::load` reads a file with its `--set`s; `experiment` and `case` give resolved `Experiment`s.
 
+mod accuracy;
 pub mod axes;
+pub mod bench;
 mod either;
 pub mod error;
 pub mod expect;

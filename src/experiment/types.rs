@@ -4,6 +4,7 @@
 //! is `validate.rs`; how a file, `--set` and a sweep axis become a value of them is `mod.rs`.
 //! SI units stand last in the key. Unknown keys are errors.
 
+pub use super::accuracy::Accuracy;
 pub use super::loads::*;
 pub use super::method::*;
 use super::search::SearchText;
@@ -39,6 +40,9 @@ pub struct Experiment {
     /// What the rows should say, read by `expect.rs`; absent in a resolved case.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub expect: Vec<serde_yaml::Value>,
+    /// What is compared by run time and error, read by `bench.rs`; absent in a resolved case.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bench: Option<serde_yaml::Value>,
 }
 
 /// Everything that exists, at rest or in motion, at t = 0.

@@ -3,7 +3,7 @@
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::types::{
-    Container, Diverge, Experiment, Free, Integrator, Measure, Method, Penalty, Plane, Random, Record, RecordCases,
+    Accuracy, Container, Diverge, Experiment, Free, Measure, Method, Penalty, Plane, Random, Record, RecordCases,
     Scene, Shape, Time,
 };
 use super::validate_body::validate_body;
@@ -24,7 +24,7 @@ pub fn validate(experiment: &Experiment) -> Result<()> {
     validate_contact(experiment, root.key("scene"))?;
     validate_loads(experiment, root.key("scene"))?;
     validate_exact(experiment, root.key("exact"))?;
-    validate_time(&experiment.time, root.key("time"))?;
+    validate_time(&experiment.time, &experiment.method, root.key("time"))?;
     validate_diverge(&experiment.diverge, root.key("diverge"))?;
     validate_record(&experiment.record, root.key("record"))?;
     validate_measure(experiment, root.key("measure"))
@@ -127,7 +127,7 @@ fn validate_method(method: &Method, at: Path) -> Result<()> {
 fn validate_free(free: &Free, at: Path) -> Result<()> {
     let Some(tolerance) = free.tolerance else { return Ok(()) };
     let at = at.key("tolerance");
-    if free.integrator != Integrator::Dop853 {
+    if !matches!(free.integrator.accuracy(), Accuracy::Tolerance(_)) {
         let expected =
             format!("no tolerance, as `{}` does not control its error (`dop853` does)", free.integrator.word());
         return Err(unexpected(at, &expected, &number(tolerance)));
@@ -215,12 +215,16 @@ fn one_shape(scene: &Scene, at: Path) -> Result<()> {
     }
 }
 
-/// Every method of this version advances by a given step.
-fn validate_time(time: &Time, at: Path) -> Result<()> {
+/// Whoever needs no step makes one of the whole time if none is given.
+fn validate_time(time: &Time, method: &Method, at: Path) -> Result<()> {
     positive(time.end_s, at.key("end_s"))?;
     let step = at.key("step_s");
-    let Some(step_s) = time.step_s else {
-        return Err(ExperimentError::missing(step.to_key_path(), "the length of a step, in seconds"));
+    let step_s = match (time.step_s, method.accuracy()) {
+        (Some(step_s), _) => step_s,
+        (None, Accuracy::Step) => {
+            return Err(ExperimentError::missing(step.to_key_path(), "the length of a step, in seconds"));
+        }
+        (None, _) => return Ok(()),
     };
     positive(step_s, step)?;
     let steps = time.end_s / step_s;

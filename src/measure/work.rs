@@ -15,6 +15,6 @@ pub struct Work {
     pub gyroscopic: u64,
     /// Systems of all pins of an island that were solved.
     pub pin_solves: u64,
-    /// Steps that an error-controlled integrator made, of any island.
+    /// Steps inside those of the clock, summed over islands; tries that were given up are not among them.
     pub inner_steps: u64,
 }

@@ -76,7 +76,7 @@ fn wrong_input_is_exit_code_2_and_one_clear_line() {
         (&["sweep", demo, "--jobs", "0"], "--jobs: expected at least 1, found 0"),
         (&["status", folder.path().to_str().unwrap()], "found no plan.json in it"),
         (&["check", demo], "expect: missing: nothing to check"),
-        (&["bench", demo], "`bench` is not available in this version"),
+        (&["bench", demo], "bench: missing: nothing to compare"),
         (&["sweep", demo, "--shard", "0/2"], "`--shard` is not available in this version"),
     ];
     for (args, message) in cases {

@@ -1,0 +1,156 @@
+//! Run time against error: every method of `bench:` at each of its steps or tolerances.
+//!
+//! `plan` resolves all trials before the first run, `run` makes a row of one: the error from a judged run, the time from
+//! a loop that only steps (`timing.rs`), both of which must end in the same bits. `table.rs` is what the rows say
+//! together.
+
+pub mod table;
+pub mod timing;
+
+use crate::check::{Schema, refuse_no_numbers};
+use crate::experiment::bench::{Bench, Listed, bench_path};
+use crate::experiment::file::Change;
+use crate::experiment::key_path::{KeyPath, Path, Segment};
+use crate::experiment::predicate::Column;
+use crate::experiment::types::{Accuracy, Experiment};
+use crate::experiment::{ExperimentError, ExperimentFile};
+use crate::measure::more;
+use crate::model::Model;
+use crate::panics;
+use crate::row::{Measured, Outcome, cells, finite};
+use crate::run;
+use crate::state::State;
+use crate::sweep::plan::build;
+use serde_yaml::Value;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use table::Row;
+
+type Result<T> = std::result::Result<T, ExperimentError>;
+
+/// One method at one step or tolerance.
+pub struct Trial {
+    pub method: String,
+    /// Made by the method itself where it controls its error, and of no meaning to a closed form.
+    pub step_s: Option<f64>,
+    pub tolerance: Option<f64>,
+    pub experiment: Experiment,
+    pub model: Model,
+    pub start: State,
+}
+
+/// The program failed: timed and judged run of a trial end in different states.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}: the timed run ends in another state than the judged one; please report this")]
+pub struct NotDeterministic(String);
+
+/// All trials of a file, in the order written.
+///
+/// # Errors
+/// Axes are left that are neither the method's nor the step; a trial is wrong; the error is no number of a row, or there
+/// is nothing to measure it against.
+pub fn plan(file: &ExperimentFile, bench: &Bench) -> Result<Vec<Trial>> {
+    let mut trials = Vec::new();
+    for listed in &bench.methods {
+        let (key, values) = match listed.method.accuracy() {
+            Accuracy::Step => ("steps_s", &bench.steps_s),
+            Accuracy::Tolerance(_) => ("tolerances", &bench.tolerances),
+            Accuracy::Closed => ("", &Vec::new()),
+        };
+        if values.is_empty() {
+            trials.push(trial(file, listed, None)?);
+        }
+        for (i, value) in values.iter().enumerate() {
+            let mut written = bench_path(key);
+            written.push(Segment::Item { index: i, name: None });
+            trials.push(trial(file, listed, Some((*value, written)))?);
+        }
+    }
+    for trial in &trials {
+        check_error(&trial.experiment, bench).map_err(|error| file.placed(error))?;
+    }
+    Ok(trials)
+}
+
+fn trial(file: &ExperimentFile, listed: &Listed, value: Option<(f64, KeyPath)>) -> Result<Trial> {
+    let accuracy = listed.method.accuracy();
+    let change = |path: &[&str], value: Value, written: Option<KeyPath>| Change {
+        path: path.iter().map(|key| key.to_string()).collect(),
+        value,
+        written,
+    };
+    let own = listed.written.iter().map(|(method, at)| change(&["method"], method.clone(), Some(at.clone())));
+    let mut changes: Vec<Change> = own.collect();
+    if accuracy != Accuracy::Step {
+        // One step of the clock, to the end.
+        changes.push(change(&["time", "step_s"], Value::Null, None));
+    }
+    if let Some((x, written)) = value {
+        let path = match accuracy {
+            Accuracy::Tolerance(path) => path,
+            _ => &["time", "step_s"],
+        };
+        changes.push(change(path, x.into(), Some(written)));
+    }
+    let experiment = file.changed(&changes, is_set_by_bench)?;
+    let (model, start) = build(file, &[], &experiment)?;
+    let by_step = (accuracy == Accuracy::Step).then(|| run::clock(&experiment).step_s);
+    let tolerance = experiment.method.tolerance();
+    Ok(Trial { method: listed.label.clone(), step_s: by_step, tolerance, experiment, model, start })
+}
+
+/// Axes that mean nothing here.
+fn is_set_by_bench(path: &[String]) -> bool {
+    path[0] == "method" || path == ["time", "step_s"]
+}
+
+fn check_error(experiment: &Experiment, bench: &Bench) -> Result<()> {
+    let base = bench_path("error");
+    let schema = Schema::new(&Default::default(), None, &more::names(experiment));
+    refuse_no_numbers(&schema, &Column { name: bench.error.clone(), divided_by: None }, Path::Base(&base))?;
+    if bench.error.starts_with("error_") && experiment.exact.is_none() {
+        let expected = "`exact:` in the experiment, the closed form that errors are measured against";
+        return Err(ExperimentError::unexpected(base, expected, &format!("`{}` without it", bench.error)));
+    }
+    Ok(())
+}
+
+/// Runs a trial: once judged, then as often as its time needs.
+///
+/// # Errors
+/// The two end in different states.
+pub fn run(trial: &Trial, bench: &Bench, scene: &str) -> std::result::Result<Row, NotDeterministic> {
+    let Trial { experiment, model, start, .. } = trial;
+    let judged = catch_unwind(AssertUnwindSafe(|| run::run(experiment, model, start.clone(), None)));
+    let (measured, end) = match judged {
+        Ok(ended) => (ended.measured, Some(ended.state)),
+        Err(panic) => (Measured::failed(panics::message(panic.as_ref()).to_string()), None),
+    };
+    let steps = match experiment.method.accuracy() {
+        Accuracy::Tolerance(_) => measured.work_inner_steps,
+        _ => measured.steps,
+    };
+    let mut row = Row {
+        scene: scene.to_string(),
+        engine: "gotai".to_string(),
+        method: trial.method.clone(),
+        step_s: trial.step_s,
+        tolerance: trial.tolerance,
+        steps,
+        error: None,
+        error_kind: bench.error.clone(),
+        wall_s: None,
+        wall_median_s: None,
+        outcome: measured.outcome.name().to_string(),
+        criterion: measured.criterion.clone(),
+    };
+    // Neither the error nor the time of half a motion can be compared.
+    if measured.outcome == Outcome::Finished {
+        let timed = timing::time(experiment, model, start, bench.repeats);
+        if end.is_none_or(|end| end != timed.end) {
+            return Err(NotDeterministic(format!("{scene}, {}", trial.method)));
+        }
+        row.error = cells(&measured).get(&bench.error).and_then(|x| x.as_f64()).map(f64::abs);
+        (row.wall_s, row.wall_median_s) = (finite(timed.best_s), finite(timed.median_s));
+    }
+    Ok(row)
+}

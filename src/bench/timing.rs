@@ -1,0 +1,73 @@
+//! How long the steps of a run take, and nothing but the steps: no judge, no recorder, no allocation.
+
+use crate::experiment::types::Experiment;
+use crate::model::Model;
+use crate::plan::Plan;
+use crate::run::clock;
+use crate::state::State;
+use crate::step::{Clock, Stepper};
+use std::time::{Duration, Instant};
+
+/// Of one run.
+pub struct Timed {
+    pub best_s: f64,
+    pub median_s: f64,
+    pub end: State,
+}
+
+/// Repeats go on for so long, if ten times those asked for do not take as much.
+const ENOUGH: Duration = Duration::from_millis(50);
+/// Runs are timed together until they take this: thousands of times the clock's resolution.
+const READABLE: Duration = Duration::from_micros(200);
+const MOST_TOGETHER: usize = 1 << 12;
+
+/// Times a run that reaches its end.
+pub fn time(experiment: &Experiment, model: &Model, start: &State, repeats: u32) -> Timed {
+    let clock = clock(experiment);
+    let plan = Plan::new(model, &experiment.method);
+    let fresh = || (Stepper::new(&experiment.method, &plan, model, start), start.clone());
+    let together = |n: usize| {
+        let mut runs: Vec<_> = (0..n).map(|_| fresh()).collect();
+        (all_steps(&mut runs, model, &clock), runs)
+    };
+    // The first ones also warm the caches and are not counted.
+    let mut batch = 1;
+    let (mut took, mut runs) = together(batch);
+    while took < READABLE && batch < MOST_TOGETHER {
+        batch *= 2;
+        (took, runs) = together(batch);
+    }
+    let (mut samples, mut spent) = (Vec::new(), Duration::ZERO);
+    let (least, most) = (repeats as usize, 10 * repeats as usize);
+    while samples.len() < least || (spent < ENOUGH && samples.len() < most) {
+        (took, runs) = together(batch);
+        spent += took;
+        samples.push(took.as_secs_f64() / batch as f64);
+    }
+    samples.sort_by(f64::total_cmp);
+    let (_, end) = runs.swap_remove(0);
+    Timed { best_s: samples[0], median_s: median(&samples), end }
+}
+
+/// From the start to the end, run after run.
+fn all_steps(runs: &mut [(Stepper, State)], model: &Model, clock: &Clock) -> Duration {
+    let started = Instant::now();
+    for (stepper, state) in runs {
+        while state.step < clock.steps {
+            stepper.step(model, state, clock);
+        }
+    }
+    started.elapsed()
+}
+
+/// Of sorted numbers, at least one.
+fn median(sorted: &[f64]) -> f64 {
+    let middle = sorted.len() / 2;
+    if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
+}
+
+/// Keeps this thread on one core, the last that it may use. False: the system does not let it.
+pub fn pin() -> bool {
+    let core = core_affinity::get_core_ids().and_then(|cores| cores.last().copied());
+    core.is_some_and(core_affinity::set_for_current)
+}

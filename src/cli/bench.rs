@@ -1,0 +1,169 @@
+//! `gotai bench`: run time against error, as a table, files and a diagram.
+
+use super::progress::Bar;
+use super::sweeping::{Config, configs};
+use super::table::table;
+use super::{CliError, ExperimentArgs, OutputArgs, print, print_json};
+use crate::bench::table::{Row, methods, order, pareto, to_csv};
+use crate::bench::{self, Trial, timing};
+use crate::experiment::ExperimentFile;
+use crate::experiment::bench::Bench;
+use crate::report;
+use crate::sweep::runner::Progress;
+use clap::Args;
+use comfy_table::TableComponent;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+#[derive(Args)]
+pub struct Command {
+    /// An experiment file (YAML), or a folder of them; in a folder, files without `bench:` are left out
+    config: PathBuf,
+    /// Folder for the results [default: recordings/<path of the config below configs/, without .yaml>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    experiment: ExperimentArgs,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// A file whose trials have all been checked.
+struct Planned {
+    config: Config,
+    file: ExperimentFile,
+    bench: Bench,
+    trials: Vec<Trial>,
+}
+
+impl Command {
+    pub fn run(self) -> Result<ExitCode, CliError> {
+        // Every trial of every file is checked before the first run.
+        let planned = self.planned()?;
+        let mut all = Vec::new();
+        for planned in &planned {
+            let rows = self.on_one_core(planned)?;
+            let dir = planned.config.out(self.out.as_deref());
+            write(&dir, &title(planned), &rows)?;
+            if !self.output.json {
+                print(shown(&planned.config.path, &rows, &dir));
+            }
+            all.extend(rows);
+        }
+        if self.output.json {
+            print_json(&all);
+        }
+        Ok(ExitCode::from(u8::from(all.iter().any(|row| row.outcome == "failed"))))
+    }
+
+    fn planned(&self) -> Result<Vec<Planned>, CliError> {
+        let given = self.config.display();
+        let mut planned = Vec::new();
+        for config in configs(std::slice::from_ref(&self.config))? {
+            let file = self.experiment.load(&config.path)?;
+            match file.bench().cloned() {
+                Some(bench) => {
+                    let trials = bench::plan(&file, &bench)?;
+                    planned.push(Planned { config, file, bench, trials });
+                }
+                None if config.is_of_folder => {}
+                None => return Err(CliError::Input(format!("{given}: bench: missing: nothing to compare"))),
+            }
+        }
+        if planned.is_empty() {
+            return Err(CliError::Input(format!("{given}: no file in it has a `bench:`")));
+        }
+        Ok(planned)
+    }
+
+    /// All trials of a file, on a thread that stays where it is.
+    fn on_one_core(&self, planned: &Planned) -> Result<Vec<Row>, CliError> {
+        let work = || {
+            if !timing::pin() && !self.output.quiet {
+                eprintln!("gotai: this system does not let a thread stay on one core: times may scatter more");
+            }
+            let scene = planned.config.path.with_extension("").display().to_string();
+            let bar = Bar::new(self.output.quiet);
+            bar.begin("trials", planned.trials.len());
+            let rows = planned.trials.iter().map(|trial| {
+                let row = bench::run(trial, &planned.bench, &scene);
+                bar.one_done();
+                row
+            });
+            let rows = rows.collect::<Result<Vec<_>, _>>();
+            bar.end();
+            rows.map_err(|error| CliError::Machine(error.to_string()))
+        };
+        if self.output.verbose {
+            let path = planned.config.path.display();
+            eprintln!("{path}: {} trials, each at least {} times", planned.trials.len(), planned.bench.repeats);
+        }
+        std::thread::scope(|scope| scope.spawn(work).join())
+            .unwrap_or_else(|_| Err(CliError::Machine("the thread of the bench has failed".into())))
+    }
+}
+
+/// The question, else the file's name.
+fn title(planned: &Planned) -> String {
+    let question = planned.trials.iter().find_map(|trial| trial.experiment.question.clone());
+    question.unwrap_or_else(|| planned.file.path().display().to_string())
+}
+
+/// `bench.json`, `.csv`, `.svg`, `.png`.
+fn write(dir: &Path, title: &str, rows: &[Row]) -> Result<(), CliError> {
+    let diagram = report::bench::diagram(title, rows);
+    let failed = |error: &dyn std::fmt::Display| CliError::Machine(format!("{}: {error}", dir.display()));
+    let mut json = serde_json::to_vec(rows).map_err(|error| failed(&error))?;
+    json.push(b'\n');
+    let files = [
+        ("bench.json", json),
+        ("bench.csv", to_csv(rows).map_err(|error| failed(&error))?),
+        ("bench.svg", diagram.svg().map_err(|error| failed(&error))?.into_bytes()),
+        ("bench.png", diagram.png().map_err(|error| failed(&error))?),
+    ];
+    std::fs::create_dir_all(dir).map_err(|error| failed(&error))?;
+    files.iter().try_for_each(|(name, content)| std::fs::write(dir.join(name), content)).map_err(|error| failed(&error))
+}
+
+fn shown(config: &Path, rows: &[Row], dir: &Path) -> String {
+    let column = rows.first().map_or("error", |row| row.error_kind.as_str());
+    let header = ["front", "method", "step_s", "tolerance", "steps", column, "wall_s", "wall_median_s", "outcome"];
+    let mut table = table(&header);
+    table.remove_style(TableComponent::HorizontalLines).remove_style(TableComponent::MiddleIntersections);
+    let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.3e}"));
+    let given = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:e}"));
+    for (row, on_front) in rows.iter().zip(pareto(rows)) {
+        let outcome = match &row.criterion {
+            Some(criterion) => format!("{} ({criterion})", row.outcome),
+            None => row.outcome.clone(),
+        };
+        table.add_row([
+            if on_front { "◆" } else { "" }.to_string(),
+            row.method.clone(),
+            given(row.step_s),
+            given(row.tolerance),
+            row.steps.to_string(),
+            number(row.error),
+            number(row.wall_s),
+            number(row.wall_median_s),
+            outcome,
+        ]);
+    }
+    let mut text = format!("{}: {} rows; ◆ is on the Pareto front\n{table}\n", config.display(), rows.len());
+    for line in methods(rows).into_iter().filter_map(|method| order_line(rows, method)) {
+        text += &format!("{line}\n");
+    }
+    text + &format!("  diagram: {}", dir.join("bench.svg").display())
+}
+
+fn order_line(rows: &[Row], method: &str) -> Option<String> {
+    let order = order(rows, method)?;
+    let pairwise: Vec<String> = order.pairwise.iter().map(|slope| format!("{slope:.2}")).collect();
+    let own_steps = rows.iter().any(|row| row.method == method && row.step_s.is_none());
+    let against = if own_steps { " in its own mean step" } else { "" };
+    let floor = match order.left_out {
+        0 => String::new(),
+        n => format!("; {n} in the rounding floor left out"),
+    };
+    Some(format!("  order {:.2}{against}: {method} ({}{floor})", order.slope, pairwise.join(", ")))
+}

@@ -1,0 +1,47 @@
+//! What makes a method more accurate: the one place that says which method takes a step, which a tolerance.
+
+use super::method::{Integrator, Method};
+use crate::integrate::dop853::DEFAULT_TOLERANCE;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accuracy {
+    /// A shorter `time.step_s`.
+    Step,
+    /// A smaller tolerance, which is at this path; the method finds its own steps inside those of the clock.
+    Tolerance(&'static [&'static str]),
+    /// Nothing: it is a closed form.
+    Closed,
+}
+
+impl Method {
+    pub fn accuracy(&self) -> Accuracy {
+        match self {
+            Method::Free(free) => free.integrator.accuracy(),
+            // The tolerance of `time-stepping` is its solver's, not the motion's.
+            Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => Accuracy::Step,
+        }
+    }
+
+    /// What it controls its error by.
+    pub fn tolerance(&self) -> Option<f64> {
+        match (self, self.accuracy()) {
+            (Method::Free(free), Accuracy::Tolerance(_)) => Some(free.tolerance.unwrap_or(DEFAULT_TOLERANCE)),
+            _ => None,
+        }
+    }
+}
+
+impl Integrator {
+    pub fn accuracy(self) -> Accuracy {
+        match self {
+            Integrator::Dop853 => Accuracy::Tolerance(&["method", "free", "tolerance"]),
+            Integrator::Exact => Accuracy::Closed,
+            Integrator::ExplicitEuler
+            | Integrator::SemiImplicitEuler
+            | Integrator::CrankNicolson
+            | Integrator::ImplicitMidpoint
+            | Integrator::Rk4
+            | Integrator::MoserVeselov => Accuracy::Step,
+        }
+    }
+}

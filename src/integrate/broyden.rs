@@ -45,7 +45,7 @@ impl Broyden {
         let n = step.len();
         let mut made = self.steps.chunks_exact(n).peekable();
         while let Some(s) = made.next() {
-            let part = dot(s, step) / dot(s, s);
+            let part = part(step, s);
             match made.peek() {
                 Some(next) => step.iter_mut().zip(*next).for_each(|(x, next)| *x += next * part),
                 None => step.iter_mut().for_each(|x| *x /= 1.0 - part),
@@ -54,6 +54,12 @@ impl Broyden {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+/// s·x / s·s, also where the squares underflow.
+fn part(x: &[f64], s: &[f64]) -> f64 {
+    let largest = s.iter().fold(0.0, |max: f64, s| max.max(s.abs()));
+    if largest == 0.0 {
+        return 0.0;
+    }
+    let scaled = |a: &[f64]| a.iter().zip(s).map(|(a, s)| (a / largest) * (s / largest)).sum::<f64>();
+    scaled(x) / scaled(s)
 }

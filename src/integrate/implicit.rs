@@ -79,6 +79,9 @@ pub fn step(
 /// Of the largest acceleration, and torque: what is left is made smaller still by the step that it is a part of.
 const SMALL: f64 = 1e-13;
 
+/// Below it a number has fewer digits: what decays for ever ends there.
+const NOTHING: f64 = f64::MIN_POSITIVE / f64::EPSILON;
+
 /// Largest acceleration and torque.
 fn scale(drives: &[f64]) -> [f64; 2] {
     let largest =
@@ -88,7 +91,7 @@ fn scale(drives: &[f64]) -> [f64; 2] {
 
 fn is_small(residual: &[f64], [acceleration, torque]: [f64; 2]) -> bool {
     let [a, t] = scale(residual);
-    a <= SMALL * acceleration && t <= SMALL * torque
+    a <= SMALL * acceleration + NOTHING && t <= SMALL * torque + NOTHING
 }
 
 fn write(drives: &[Drive], out: &mut [f64]) {

@@ -4,4 +4,5 @@ mod free_rotation;
 mod heavy_top;
 mod pendulum;
 mod point;
+mod scenes;
 mod symmetric_body;

@@ -23,7 +23,7 @@ enum Method {
         scratch: implicit::Scratch,
     },
     Rk4(rk4::Scratch),
-    Dop853(dop853::Control, dop853::Scratch),
+    Dop853(dop853::Control, Box<dop853::Scratch>),
 }
 
 pub struct Free {
@@ -84,7 +84,7 @@ impl Method {
             },
             Integrator::Dop853 => {
                 let tolerance = settings.tolerance.unwrap_or(dop853::DEFAULT_TOLERANCE);
-                Method::Dop853(dop853::Control::new(tolerance), dop853::Scratch::new(island))
+                Method::Dop853(dop853::Control::new(tolerance), Box::new(dop853::Scratch::new(island)))
             }
             Integrator::Exact => return None,
         })

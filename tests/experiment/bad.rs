@@ -119,7 +119,7 @@ const ROWS: &[Row] = &[
     ("a negative interval", END, "  end_s: 1\nrecord: { every_s: -1 }\n", 20, "record.every_s", "at least 0"),
     ("an unknown stream", END, "  end_s: 1\nrecord:\n  streams: [bodies, contact]\n", 21, "record.streams.1", "did you mean `contacts`?"),
     ("a critical step of no spring", END, "  end_s: 1\nmeasure: [state, critical-step]\n", 20, "measure.1", "only the step of the method `penalty` is critical, found `critical-step`"),
-    ("an unknown closed form", END, "  end_s: 1\nexact: free-motoin\n", 20, "exact", "expected `free-motion`, found `free-motoin`"),
+    ("an unknown closed form", END, "  end_s: 1\nexact: free-motoin\n", 20, "exact", "found `free-motoin`; did you mean `free-motion`?"),
     ("a closed form where bodies touch", END, "  end_s: 1\nexact: free-motion\n", 20, "exact", "a body may touch the container, found `free-motion`"),
     ("an unknown measure", END, "  end_s: 1\nmeasure: [contact-matrx]\n", 20, "measure.0", "did you mean `contact-matrix`?"),
     ("an unknown cone", LECTURE, "method: { lecture: { cone: disk } }\n", 16, "method.lecture.cone", "did you mean `disc`?"),
@@ -181,16 +181,9 @@ fn penalty_refuses_restitution_wherever_it_is_written() {
 fn a_pin_needs_an_end_that_moves_and_velocities_that_agree() {
     let free = BASE.replace("method: lecture", "method: free");
     let refused = |sets: &[&str], path: &str, fragment: &str| {
-        let error = experiment(&free, sets).and_then(|experiment| {
-            let error = gotai::model::build(&experiment).unwrap_err();
-            assert_eq!(error.path, path);
-            assert!(error.to_string().contains(fragment), "{error}");
-            Ok(())
-        });
-        if let Err(error) = error {
-            assert_eq!(error.details().path.to_string(), path);
-            assert!(error.to_string().contains(fragment), "{error}");
-        }
+        let error = file(&free, sets).and_then(|file| gotai::sweep::plan::single_case(&file)).unwrap_err();
+        assert_eq!(error.details().path.to_string(), path);
+        assert!(error.to_string().contains(fragment), "{error}");
     };
     let pin = "scene.pins=[{ body: cube, point_m: [0, 1, 0] }]";
     refused(&[pin, "scene.bodies.cube.fixed=true"], "scene.pins.0", "two fixed ends (`cube` and the world)");

@@ -68,7 +68,7 @@ fn contact(model: &Model, method: &Method) -> Stage {
 
 fn friction(model: &Model, method: &Method, contact: bool) -> Stage {
     let name = "friction rows";
-    let rough = model.bodies.iter().any(|b| b.touches() && b.friction > 0.0);
+    let rough = model.is_rough();
     match method {
         _ if !contact => stage(name, false, "no contact test"),
         Method::Lecture(_) if !rough => {

@@ -72,8 +72,10 @@ fn document(case: &Case, model: &Model, ended: &Ended) -> Value {
 
 fn bodies(model: &Model, ended: &Ended) -> Value {
     let force_n = |i: usize| {
-        let on_body = ended.contacts.iter().filter(|solved| solved.contact.body == i);
-        on_body.map(|solved| solved.impulse_W).sum::<Vector3<f64>>() / ended.step_s
+        let ends =
+            ended.contacts.iter().flat_map(|solved| solved.contact.ends().map(move |end| (end, solved.impulse_W)));
+        let on_body = ends.filter(|((body, ..), _)| *body == i);
+        on_body.map(|((.., sign), impulse_W)| impulse_W * sign).sum::<Vector3<f64>>() / ended.step_s
     };
     let body = |(i, (body, at)): (usize, (&model::Body, &crate::state::BodyState))| {
         json!({
@@ -91,8 +93,9 @@ fn bodies(model: &Model, ended: &Ended) -> Value {
 }
 
 fn contact(model: &Model, ended: &Ended, solved: &SolvedContact) -> Value {
+    let other = solved.contact.other.map_or("container", |other| &model.bodies[other].name);
     json!({
-        "bodies": [model.bodies[solved.contact.body].name, "container"],
+        "bodies": [model.bodies[solved.contact.body].name, other],
         "point_m": numbers(&solved.contact.p_WC),
         "normal": numbers(&solved.contact.normal),
         "force_n": numbers(&(solved.impulse_W / ended.step_s)),

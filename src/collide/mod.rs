@@ -7,20 +7,25 @@ pub mod reduce;
 
 use crate::measure::work::Work;
 use crate::model::container::Face;
+use crate::model::surface::Surface;
 use crate::model::{Body, Geometry, Model};
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
-/// One point of contact of a body with the container.
+/// One point of contact of a body with the container or with another body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     pub body: usize,
+    /// Of a higher index than `body`; none: the container.
+    pub other: Option<usize>,
     /// Face and node: the same from step to step, to find last step's impulse by.
     pub feature: (u32, u32),
-    /// From the centre of mass to the point, world axes (the lecture's ᴳu_c).
+    /// From the body's centre of mass to the point, world axes (the lecture's ᴳu_c).
     pub r_BC_W: Vector3<f64>,
+    /// From the other body's centre of mass to the same point; zero for the container.
+    pub r_OC_W: Vector3<f64>,
     pub p_WC: Vector3<f64>,
-    /// From the container to the body.
+    /// From the container or the other body to the body.
     pub normal: Vector3<f64>,
     pub gap_m: f64,
     pub friction: f64,
@@ -28,6 +33,17 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// Its place in the order of contacts, and its name from step to step.
+    pub fn key(&self) -> Key {
+        (self.body, self.other, self.feature)
+    }
+
+    /// The bodies that it pushes: which, the lever arm, and the sign of the impulse.
+    pub fn ends(&self) -> impl Iterator<Item = (usize, Vector3<f64>, f64)> {
+        let other = self.other.map(|other| (other, self.r_OC_W, -1.0));
+        std::iter::once((self.body, self.r_BC_W, 1.0)).chain(other)
+    }
+
     /// e₁ = n and two tangents; for the faces of a box the tangents are the other coordinate axes.
     pub fn frame(&self) -> [Vector3<f64>; 3] {
         let normal = self.normal;
@@ -37,6 +53,9 @@ impl Contact {
         [normal, t1, normal.cross(&t1)]
     }
 }
+
+/// Body, other body, feature.
+pub type Key = (usize, Option<usize>, (u32, u32));
 
 /// A contact of the last step and the impulse that it put on its body, world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +72,7 @@ pub fn detect(model: &Model, state: &State, margin: f64, contacts: &mut Vec<Cont
         if !body.touches() {
             continue;
         }
+        let Surface { friction, restitution } = model.pair(index, None);
         for (f, face) in container.faces.iter().enumerate() {
             let centre_gap = face.gap_m(&at.p_WB);
             let limit = margin * body.bounding_radius_m;
@@ -62,13 +82,15 @@ pub fn detect(model: &Model, state: &State, margin: f64, contacts: &mut Vec<Cont
             let mut touch = |node: u32, r_BC_W: Vector3<f64>, gap_m: f64| {
                 contacts.push(Contact {
                     body: index,
+                    other: None,
                     feature: (f as u32, node),
                     r_BC_W,
+                    r_OC_W: Vector3::zeros(),
                     p_WC: at.p_WB + r_BC_W,
                     normal: face.normal,
                     gap_m,
-                    friction: body.friction,
-                    restitution: body.restitution,
+                    friction,
+                    restitution,
                 });
             };
             work.contact_tests += each_gap(body, at, face, centre_gap, |node, r_B, r_shift_W, gap| {

@@ -26,7 +26,7 @@ impl Reduction {
     pub fn apply(&mut self, contacts: &mut Vec<Contact>) {
         self.nearest.clear();
         self.left_out.clear();
-        for face in contacts.chunk_by(|a, b| (a.body, a.feature.0) == (b.body, b.feature.0)) {
+        for face in contacts.chunk_by(|a, b| (a.body, a.other, a.feature.0) == (b.body, b.other, b.feature.0)) {
             self.take(face);
         }
         let (mut nearest, left_out) = (self.nearest.iter(), &mut self.left_out);

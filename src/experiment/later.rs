@@ -5,7 +5,7 @@
 const LATER: &[(&str, &[&str])] = &[
     ("Experiment", &["reference", "limits"]),
     ("Sweep", &["where", "sample"]),
-    ("Scene", &["pairs"]),
+    ("Pair", &["tangential_restitution"]),
     ("Container", &["mesh"]),
     ("Body", &["copies"]),
     ("Shape", &["cylinder", "capsule", "ellipsoid", "convex", "mesh"]),

@@ -60,6 +60,9 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub container: Option<Container>,
     pub bodies: Vec<Body>,
+    /// Pairs whose values are not the mean of the two bodies'.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<Pair>,
     /// Ball joints.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pins: Vec<Pin>,
@@ -109,6 +112,17 @@ pub struct Plane {
     pub normal: [f64; 3],
     #[serde(default)]
     pub offset_m: f64,
+}
+
+/// Two bodies, or a body and the `container`; what is absent is the mean of the two.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Pair {
+    pub between: [String; 2],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<f64>,
 }
 
 /// A rigid body: shape, mass properties, first state.

@@ -3,12 +3,15 @@
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::types::{
-    Accuracy, Container, Diverge, Experiment, Free, Measure, Method, Penalty, Plane, Random, Record, RecordCases,
+    Accuracy, Container, Diverge, Experiment, Free, Measure, Method, Pair, Penalty, Plane, Random, Record, RecordCases,
     Scene, Shape, Time,
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
 use crate::integrate::dop853::SMALLEST_TOLERANCE;
+
+/// What contacts name the container.
+pub(super) const CONTAINER: &str = "container";
 
 pub(super) type Result<T> = std::result::Result<T, ExperimentError>;
 
@@ -58,7 +61,26 @@ fn validate_scene(scene: &Scene, at: Path) -> Result<()> {
             return Err(unexpected(bodies.item(i, None).key("name"), "a name of its own", &found));
         }
     }
+    let pairs = at.key("pairs");
+    scene.pairs.iter().enumerate().try_for_each(|(i, pair)| validate_pair(pair, scene, pairs.item(i, None)))?;
     scene.random.as_ref().map_or(Ok(()), |random| validate_random(random, scene, at.key("random")))
+}
+
+fn validate_pair(pair: &Pair, scene: &Scene, at: Path) -> Result<()> {
+    let between = at.key("between");
+    for (i, name) in pair.between.iter().enumerate() {
+        if name != CONTAINER && !scene.bodies.iter().any(|body| body.name == *name) {
+            let bodies = scene.bodies.iter().map(|body| body.name.as_str());
+            let known: Vec<&str> = bodies.chain([CONTAINER]).collect();
+            return Err(ExperimentError::unknown_word(between.item(i, None).to_key_path(), name, &known));
+        }
+    }
+    let [a, b] = &pair.between;
+    if a == b {
+        return Err(unexpected(between, "two different names", &format!("`{a}` twice")));
+    }
+    pair.friction.map_or(Ok(()), |friction| not_negative(friction, at.key("friction")))?;
+    pair.restitution.map_or(Ok(()), |restitution| a_part(restitution, at.key("restitution")))
 }
 
 fn validate_container(container: &Container, at: Path) -> Result<()> {

@@ -3,7 +3,7 @@
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
 use super::types::{Body, BoxShape, Inertia, InertiaFrom, MeshSpec, NodesPerEdge, Orientation, Shape};
-use super::validate::{Result, a_part, direction, not_negative, positive, sizes, unexpected};
+use super::validate::{CONTAINER, Result, a_part, direction, not_negative, positive, sizes, unexpected};
 use super::validate_loads::validate_driven;
 use nalgebra::Matrix3;
 
@@ -36,7 +36,7 @@ fn validate_name(name: &str, at: Path) -> Result<()> {
         "a name without space around it"
     } else if name.contains(is_reserved) {
         "a name without any of . [ ] = /"
-    } else if name == "container" {
+    } else if name == CONTAINER {
         "another name (contacts name the container so)"
     } else {
         return Ok(());

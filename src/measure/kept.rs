@@ -23,7 +23,7 @@ impl Kept {
     pub fn rows(&self, model: &Model, axes: usize) -> Vec<Vec<Vector6<f64>>> {
         let of_body = |(index, (body, at)): (usize, (&Body, &BodyState))| {
             let root = Root::of(body, at);
-            let own = self.contacts.iter().filter(|contact| contact.body == index);
+            let own = self.contacts.iter().filter(|contact| contact.body == index && contact.other.is_none());
             own.flat_map(|contact| contact.frame().into_iter().take(axes).map(|e| root.row(contact, &e))).collect()
         };
         let all = model.bodies.iter().zip(&self.bodies).enumerate().map(of_body);

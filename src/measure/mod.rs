@@ -117,9 +117,10 @@ impl Judge {
             self.pushes.fill(Push::NONE);
         }
         for SolvedContact { contact, impulse_W } in contacts {
-            let push = &mut self.pushes[contact.body];
-            push.linear += impulse_W;
-            push.angular += contact.r_BC_W.cross(impulse_W);
+            for (i, r_W, sign) in contact.ends() {
+                self.pushes[i].linear += impulse_W * sign;
+                self.pushes[i].angular += r_W.cross(impulse_W) * sign;
+            }
         }
     }
 }

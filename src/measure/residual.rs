@@ -6,12 +6,12 @@
 //! residual of a contact (V. Acary, B. Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, Springer 2008).
 //!
 //! With 1/ρ = the trace of the contact's own block of A all terms are impulses; divided by the largest impulse of the
-//! body's contacts, neither masses nor lengths nor times matter. Rounding gives 1e-16 … 1e-13, a wrong impulse O(1).
+//! island, neither masses nor lengths nor times matter. Rounding gives 1e-16 … 1e-13, a wrong impulse O(1).
 
 use super::{Push, relative};
 use crate::collide::{Contact, SolvedContact};
-use crate::model::{Body, Model};
-use crate::state::{BodyState, State};
+use crate::model::Model;
+use crate::state::State;
 use nalgebra::{Matrix3, Vector3};
 
 /// Impulses below this part of a body's momentum, √ε, are half rounding: they are not asked to obey to the last digit.
@@ -37,56 +37,91 @@ struct Moved {
     before: Motion,
     free: Motion,
     after: Motion,
+    /// Infinite, and 0, of a body that moves as it is told.
     mass_kg: f64,
     I_W_inverse: Matrix3<f64>,
-    /// Largest impulse of its contacts; largest that would stop an approach; its momentum, as an impulse at a contact.
+}
+
+impl Moved {
+    fn new(model: &Model, index: usize, before: &State, push: &Push, step_s: f64) -> Self {
+        let (body, at) = (&model.bodies[index], &before.bodies[index]);
+        let (v, w) = model.gained(index, before.time_s, at, step_s);
+        let before = Motion { v: at.v_WB, w: at.w_WB };
+        let free = Motion { v: at.v_WB + v, w: at.w_WB + w };
+        if body.driven {
+            return Moved { before, free, after: free, mass_kg: f64::INFINITY, I_W_inverse: Matrix3::zeros() };
+        }
+        let I_W_inverse = body.I_W_inverse(at);
+        let after = Motion { v: free.v + push.linear / body.mass_kg, w: free.w + I_W_inverse * push.angular };
+        Moved { before, free, after, mass_kg: body.mass_kg, I_W_inverse }
+    }
+
+    /// Trace of E/m − [r] I⁻¹ [r].
+    fn compliance(&self, r: &Vector3<f64>) -> f64 {
+        let I = &self.I_W_inverse;
+        3.0 / self.mass_kg + r.norm_squared() * I.trace() - r.dot(&(I * r))
+    }
+}
+
+/// Impulses of an island: bodies that contacts join.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stakes {
+    /// Largest impulse; largest that would stop an approach; the largest momentum, as an impulse at a contact.
     largest: f64,
     stopping: f64,
     momentum: f64,
 }
 
-impl Moved {
-    fn new(body: &Body, at: &BodyState, push: &Push, (gained_v, gained_w): (Vector3<f64>, Vector3<f64>)) -> Self {
-        let before = Motion { v: at.v_WB, w: at.w_WB };
-        let free = Motion { v: at.v_WB + gained_v, w: at.w_WB + gained_w };
-        let I_W_inverse = body.I_W_inverse(at);
-        let after = Motion { v: free.v + push.linear / body.mass_kg, w: free.w + I_W_inverse * push.angular };
-        let mass_kg = body.mass_kg;
-        Moved { before, free, after, mass_kg, I_W_inverse, largest: 0.0, stopping: 0.0, momentum: 0.0 }
-    }
-
-    /// ρ: one over the trace of E/m − [r] I⁻¹ [r].
-    fn step_length(&self, r: &Vector3<f64>) -> f64 {
-        let I = &self.I_W_inverse;
-        1.0 / (3.0 / self.mass_kg + r.norm_squared() * I.trace() - r.dot(&(I * r)))
-    }
-
-    /// e v⁻ of an approaching contact: Newton's law asks for u_n + e v⁻ ≥ 0.
-    fn rebound(&self, contact: &Contact) -> f64 {
-        contact.restitution * contact.normal.dot(&self.before.of_point(&contact.r_BC_W)).min(0.0)
-    }
-
-    fn weigh(&mut self, contact: &Contact, impulse_W: &Vector3<f64>) {
-        let (r, rho) = (&contact.r_BC_W, self.step_length(&contact.r_BC_W));
-        let approach = contact.normal.dot(&self.free.of_point(r)) + self.rebound(contact);
-        self.largest = self.largest.max(impulse_W.norm());
-        self.stopping = self.stopping.max(-rho * approach);
-        self.momentum = self.momentum.max(rho * (self.free.v.norm() + self.free.w.norm() * r.norm()));
-    }
-
+impl Stakes {
     /// What impulses are compared with.
     fn scale(&self) -> f64 {
         let at_stake = if self.largest > 0.0 { self.largest } else { self.stopping };
         at_stake.max(SMALL * self.momentum)
     }
 
+    fn weigh(&mut self, of: &Seen, impulse_W: &Vector3<f64>) {
+        self.largest = self.largest.max(impulse_W.norm());
+        self.stopping = self.stopping.max(-of.step_length * of.approach);
+        self.momentum = self.momentum.max(of.step_length * of.speed);
+    }
+}
+
+/// A contact as its bodies' motions show it.
+struct Seen {
+    /// ρ: one over the trace of its own block of A.
+    step_length: f64,
+    /// e v⁻ if it approaches: Newton's law asks for u_n + e v⁻ ≥ 0.
+    rebound: f64,
+    /// Normal velocity without an impulse, and the rebound.
+    approach: f64,
+    /// Relative velocity after the contacts.
+    u: Vector3<f64>,
+    /// Largest of its bodies' before the contacts.
+    speed: f64,
+}
+
+impl Seen {
+    fn new(contact: &Contact, moved: &[Moved]) -> Self {
+        let relative = |motion: fn(&Moved) -> &Motion| -> Vector3<f64> {
+            contact.ends().map(|(i, r, sign)| motion(&moved[i]).of_point(&r) * sign).sum()
+        };
+        let rebound = contact.restitution * contact.normal.dot(&relative(|m| &m.before)).min(0.0);
+        let speed = |(i, r, _): (usize, Vector3<f64>, f64)| moved[i].free.v.norm() + moved[i].free.w.norm() * r.norm();
+        Seen {
+            step_length: 1.0 / contact.ends().map(|(i, r, _)| moved[i].compliance(&r)).sum::<f64>(),
+            rebound,
+            approach: contact.normal.dot(&relative(|m| &m.free)) + rebound,
+            u: relative(|m| &m.after),
+            speed: contact.ends().map(speed).fold(0.0, f64::max),
+        }
+    }
+
     /// |p − P_K(p − ρ ũ)|.
     fn missed(&self, contact: &Contact, impulse_W: &Vector3<f64>) -> f64 {
-        let Contact { normal, friction, r_BC_W, .. } = contact;
-        let u = self.after.of_point(r_BC_W);
-        let slip = (u - normal * normal.dot(&u)).norm();
-        let dual = u + normal * (friction * slip + self.rebound(contact));
-        let wanted = in_cone(&(impulse_W - dual * self.step_length(r_BC_W)), normal, *friction);
+        let Contact { normal, friction, .. } = contact;
+        let slip = (self.u - normal * normal.dot(&self.u)).norm();
+        let dual = self.u + normal * (friction * slip + self.rebound);
+        let wanted = in_cone(&(impulse_W - dual * self.step_length), normal, *friction);
         (impulse_W - wanted).norm()
     }
 }
@@ -109,32 +144,69 @@ pub struct ResidualLedger {
     /// The method claims to solve the law of contact.
     judged: bool,
     moved: Vec<Moved>,
+    /// Of every body, the first one of its island.
+    island_of: Vec<usize>,
+    stakes: Vec<Stakes>,
     pub max: Option<f64>,
 }
 
 impl ResidualLedger {
     pub fn new(judged: bool, model: &Model) -> Self {
-        ResidualLedger { judged, moved: Vec::with_capacity(model.bodies.len()), max: None }
+        let bodies = model.bodies.len();
+        ResidualLedger {
+            judged,
+            moved: Vec::with_capacity(bodies),
+            island_of: Vec::with_capacity(bodies),
+            stakes: Vec::with_capacity(bodies),
+            max: None,
+        }
     }
 
     pub fn observe(&mut self, model: &Model, before: &State, contacts: &[SolvedContact], pushes: &[Push], step_s: f64) {
         if !self.judged || contacts.is_empty() {
             return;
         }
-        let bodies = model.bodies.iter().zip(&before.bodies).zip(pushes).enumerate();
         self.moved.clear();
-        self.moved.extend(
-            bodies
-                .map(|(i, ((body, at), push))| Moved::new(body, at, push, model.gained(i, before.time_s, at, step_s))),
-        );
+        self.moved.extend(pushes.iter().enumerate().map(|(i, push)| Moved::new(model, i, before, push, step_s)));
+        self.find_islands(model, contacts);
+        self.stakes.clear();
+        self.stakes.resize(pushes.len(), Stakes::default());
         for SolvedContact { contact, impulse_W } in contacts {
-            self.moved[contact.body].weigh(contact, impulse_W);
+            let island = self.island(model, contact);
+            self.stakes[island].weigh(&Seen::new(contact, &self.moved), impulse_W);
         }
         let missed = |SolvedContact { contact, impulse_W }: &SolvedContact| {
-            let moved = &self.moved[contact.body];
-            relative(moved.missed(contact, impulse_W), moved.scale())
+            let scale = self.stakes[self.island(model, contact)].scale();
+            relative(Seen::new(contact, &self.moved).missed(contact, impulse_W), scale)
         };
         let largest = contacts.iter().map(missed).fold(0.0, f64::max);
         self.max = Some(self.max.map_or(largest, |max| max.max(largest)));
     }
+
+    /// Of a contact: that of a body which it can move.
+    fn island(&self, model: &Model, contact: &Contact) -> usize {
+        let moving = contact.ends().find(|(i, ..)| !model.bodies[*i].driven);
+        root(&self.island_of, moving.map_or(contact.body, |(i, ..)| i))
+    }
+
+    /// Bodies that contacts join, but not through one that nothing moves.
+    fn find_islands(&mut self, model: &Model, contacts: &[SolvedContact]) {
+        self.island_of.clear();
+        self.island_of.extend(0..model.bodies.len());
+        for SolvedContact { contact, .. } in contacts {
+            let Some(other) = contact.other else { continue };
+            if !model.bodies[contact.body].driven && !model.bodies[other].driven {
+                let (a, b) = (root(&self.island_of, contact.body), root(&self.island_of, other));
+                self.island_of[a.max(b)] = a.min(b);
+            }
+        }
+    }
+}
+
+/// The first body of an island: every other one points to one before it.
+fn root(island_of: &[usize], mut body: usize) -> usize {
+    while island_of[body] != body {
+        body = island_of[body];
+    }
+    body
 }

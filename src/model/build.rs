@@ -7,6 +7,7 @@ use super::mesh::{TetMesh, box_counts, box_mesh, sphere_mesh};
 use super::pins::build_pins;
 use super::place::{Landing, MOST_DRAWS};
 use super::random::Draws;
+use super::surface::{Pair, Surface};
 use super::{Body, Geometry, Model};
 use crate::collide;
 use crate::experiment::types as file;
@@ -41,7 +42,16 @@ pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError
     let pins = build_pins(scene, &bodies, &mut states)?;
     let gravity_m_s2 = Vector3::from(scene.gravity_m_s2);
     let potential_zero_m = potential_zero(&gravity_m_s2, container.as_ref(), &bodies, &states);
-    let model = Model { gravity_m_s2, bodies, container, forces, pins, potential_zero_m };
+    let model = Model {
+        gravity_m_s2,
+        container,
+        container_surface: Surface { friction: scene.friction, restitution: scene.restitution },
+        pairs: scene.pairs.iter().map(|pair| build_pair(pair, &bodies)).collect(),
+        bodies,
+        forces,
+        pins,
+        potential_zero_m,
+    };
     let state = State { step: 0, time_s: 0.0, bodies: states };
     if !matches!(experiment.method, file::Method::Free(_)) && !scene.allow_overlap {
         refuse_overlap(&model, &state, &depths_m)?;
@@ -59,6 +69,12 @@ fn build_container(container: &file::Container) -> Container {
         file::Container::Plane(plane) => Container { faces: vec![face(plane)] },
         file::Container::Planes(planes) => Container { faces: planes.iter().map(face).collect() },
     }
+}
+
+fn build_pair(pair: &file::Pair, bodies: &[Body]) -> Pair {
+    // Validation has seen to it that a name is a body's or the container.
+    let index = |name: &String| bodies.iter().position(|body| body.name == *name);
+    Pair { between: pair.between.each_ref().map(index), friction: pair.friction, restitution: pair.restitution }
 }
 
 fn build_force(force: &file::Force, bodies: &[Body]) -> AppliedForce {
@@ -102,7 +118,6 @@ fn build_body(described: &file::Body, scene: &file::Scene) -> Body {
         Geometry::Sphere { centre, radius_m } => centre.norm() + radius_m,
     };
     let I_B = snapped(mass.I_B);
-    let pair = |own: Option<f64>, default: f64| own.map_or(default, |own| (own * default).sqrt());
     Body {
         name: described.name.clone(),
         mass_kg: mass.mass_kg,
@@ -113,8 +128,10 @@ fn build_body(described: &file::Body, scene: &file::Scene) -> Body {
         p_BoBcm: mass.p_BoBcm,
         geometry,
         bounding_radius_m,
-        friction: pair(described.friction, scene.friction),
-        restitution: pair(described.restitution, scene.restitution),
+        surface: Surface {
+            friction: described.friction.unwrap_or(scene.friction),
+            restitution: described.restitution.unwrap_or(scene.restitution),
+        },
         drag: scene.air.map_or_else(Drag::default, |air| build_drag(&air, &described.shape)),
         driven: described.is_driven(),
     }

@@ -12,6 +12,7 @@ pub mod mesh;
 pub mod pins;
 mod place;
 pub mod random;
+pub mod surface;
 
 pub use build::{BuildError, build};
 
@@ -21,12 +22,16 @@ use loads::{AppliedForce, Drag};
 use mesh::TetMesh;
 use nalgebra::{Matrix3, Vector3};
 use pins::Pin;
+use surface::{Pair, Surface};
 
 #[derive(Clone, Debug)]
 pub struct Model {
     pub gravity_m_s2: Vector3<f64>,
     pub bodies: Vec<Body>,
     pub container: Option<Container>,
+    pub container_surface: Surface,
+    /// Pairs that are not the mean of their own.
+    pub pairs: Vec<Pair>,
     pub forces: Vec<AppliedForce>,
     pub pins: Vec<Pin>,
     /// A point at height zero of the potential energy.
@@ -54,9 +59,8 @@ pub struct Body {
     pub geometry: Geometry,
     /// About the centre of mass.
     pub bounding_radius_m: f64,
-    /// Of the pair with the container.
-    pub friction: f64,
-    pub restitution: f64,
+    /// Its own; what counts is the pair's.
+    pub surface: Surface,
     pub drag: Drag,
     /// It moves with its start velocities, whatever acts on it.
     pub driven: bool,

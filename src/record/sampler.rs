@@ -59,7 +59,7 @@ impl Sampler {
     pub fn end(&mut self, state: &State, measured: &Measured) {
         let (severity, text) = match (&measured.outcome, &measured.criterion) {
             (Outcome::Finished, _) => (Severity::Info, "finished".to_string()),
-            (_, Some(criterion)) => (Severity::Warning, format!("diverged: {criterion}")),
+            (outcome, Some(criterion)) => (Severity::Warning, format!("{}: {criterion}", outcome.name())),
             (_, None) => (Severity::Warning, "ended early".to_string()),
         };
         let text = format!("{text} at t = {} s, step {}", state.time_s, state.step);
@@ -99,7 +99,7 @@ fn body_sample(at: &BodyState) -> BodySample {
 fn contact_sample(solved: &SolvedContact, step_s: f64) -> ContactSample {
     ContactSample {
         body: solved.contact.body as u32,
-        other: None,
+        other: solved.contact.other.map(|other| other as u32),
         point_m: solved.contact.p_WC.into(),
         normal: solved.contact.normal.into(),
         force_n: (solved.impulse_W / step_s).into(),

@@ -12,7 +12,7 @@ use crate::model::Model;
 /// 0.2 takes 10 steps for 90 %.
 const PART: f64 = 0.2;
 
-/// Depth that is left, of a body's bounding radius: below it contacts would come and go with every step.
+/// Depth that is left, of the smaller body's bounding radius: below it contacts would come and go with every step.
 const SLOP: f64 = 0.002;
 
 /// Fills `out` with every body's displacement; false if no contact is too deep (then `out` is left alone).
@@ -25,7 +25,8 @@ pub fn push_out(
     out: &mut Vec<Twist>,
     work: &mut Work,
 ) -> bool {
-    let wanted = |c: &Contact| PART * (-c.gap_m - SLOP * model.bodies[c.body].bounding_radius_m);
+    let size = |c: &Contact| c.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).fold(f64::INFINITY, f64::min);
+    let wanted = |c: &Contact| PART * (-c.gap_m - SLOP * size(c));
     if !contacts.iter().any(|c| wanted(c) > 0.0) {
         return false;
     }

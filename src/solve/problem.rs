@@ -4,7 +4,7 @@
 //! normal, tangent 1, tangent 2. The target is c = 0 (plastic); Newton restitution adds e v⁻ to the normal row of b.
 
 use crate::collide::Contact;
-use crate::model::Model;
+use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
@@ -41,12 +41,66 @@ impl Row {
     }
 }
 
+/// What a contact is to one of its bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct End {
+    pub body: usize,
+    rows: [Row; 3],
+}
+
+impl End {
+    /// `sign`: of the contact's impulse on this body.
+    fn new(body: usize, sign: f64, r_W: &Vector3<f64>, frame: &[Vector3<f64>; 3], inertia: &Inertia) -> Self {
+        let rows = frame.map(|e| {
+            let e = e * sign;
+            let j = Twist { v: e, w: r_W.cross(&e) };
+            Row { j, response: Twist { v: e / inertia.mass_kg, w: inertia.inverse_W * j.w } }
+        });
+        End { body, rows }
+    }
+
+    /// J u.
+    fn motion(&self, u: &Twist) -> Vector3<f64> {
+        Vector3::new(self.rows[0].along(u), self.rows[1].along(u), self.rows[2].along(u))
+    }
+
+    /// u += M⁻¹ Jᵀ Δp.
+    fn apply(&self, change: &Impulse, u: &mut [Twist]) {
+        for (row, p) in self.rows.iter().zip(change.iter()) {
+            u[self.body].add_scaled(&row.response, *p);
+        }
+    }
+
+    /// J M⁻¹ Jᵀ of two contacts, if it is the same body's.
+    fn coupling(&self, other: &End) -> Option<Matrix3<f64>> {
+        let (rows, others) = (&self.rows, &other.rows);
+        (self.body == other.body).then(|| Matrix3::from_fn(|i, j| rows[i].along(&others[j].response)))
+    }
+}
+
+/// M of one body; infinite where nothing moves it.
+#[derive(Clone, Copy, Debug)]
+pub struct Inertia {
+    pub mass_kg: f64,
+    pub inverse_W: Matrix3<f64>,
+}
+
+impl Inertia {
+    pub fn of(body: &Body, at: &BodyState) -> Self {
+        if body.driven {
+            return Inertia { mass_kg: f64::INFINITY, inverse_W: Matrix3::zeros() };
+        }
+        Inertia { mass_kg: body.mass_kg, inverse_W: body.I_W_inverse(at) }
+    }
+}
+
 /// One contact: its three rows, its 3×3 block of A, its part of b.
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
-    pub body: usize,
+    pub end: End,
+    /// None: the container.
+    pub other: Option<End>,
     pub friction: f64,
-    rows: [Row; 3],
     pub A: Matrix3<f64>,
     /// D⁻¹ of the lecture.
     pub inverse_diagonal: Vector3<f64>,
@@ -62,6 +116,7 @@ pub struct Block {
 pub struct ContactProblem {
     pub blocks: Vec<Block>,
     bodies: usize,
+    inertias: Vec<Inertia>,
     /// Empty for many contacts.
     A_blocks: Vec<Matrix3<f64>>,
 }
@@ -70,10 +125,11 @@ pub struct ContactProblem {
 const DENSE: usize = 32;
 
 impl ContactProblem {
-    pub fn with_capacity(contacts: usize) -> Self {
+    pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
         ContactProblem {
             blocks: Vec::with_capacity(contacts),
             bodies: 0,
+            inertias: Vec::with_capacity(bodies),
             A_blocks: Vec::with_capacity(contacts.min(DENSE) * contacts.min(DENSE)),
         }
     }
@@ -82,16 +138,11 @@ impl ContactProblem {
     pub fn gather(&mut self, model: &Model, state: &State, free: &[Twist], contacts: &[Contact]) {
         self.blocks.clear();
         self.bodies = model.bodies.len();
-        let mut inertia = (usize::MAX, Matrix3::zeros());
-        for contact in contacts {
-            if inertia.0 != contact.body {
-                let body = &model.bodies[contact.body];
-                inertia = (contact.body, body.I_W_inverse(&state.bodies[contact.body]));
-            }
-            let mass_kg = model.bodies[contact.body].mass_kg;
-            let before = &state.bodies[contact.body];
-            self.blocks.push(Block::new(contact, before, &free[contact.body], mass_kg, &inertia.1));
+        self.inertias.clear();
+        if !contacts.is_empty() {
+            self.inertias.extend(model.bodies.iter().zip(&state.bodies).map(|(body, at)| Inertia::of(body, at)));
         }
+        self.blocks.extend(contacts.iter().map(|contact| Block::new(contact, &state.bodies, free, &self.inertias)));
         self.A_blocks.clear();
         if contacts.len() <= DENSE {
             let blocks = &self.blocks;
@@ -210,48 +261,55 @@ impl Memory {
 impl Block {
     /// c = b + J u.
     fn velocity(&self, u: &[Twist]) -> Vector3<f64> {
-        let u = &u[self.body];
-        self.b + Vector3::new(self.rows[0].along(u), self.rows[1].along(u), self.rows[2].along(u))
+        let own = self.b + self.end.motion(&u[self.end.body]);
+        self.other.as_ref().map_or(own, |other| own + other.motion(&u[other.body]))
     }
 
     /// u += M⁻¹ Jᵀ Δp.
     fn apply(&self, change: &Impulse, u: &mut [Twist]) {
-        for (row, p) in self.rows.iter().zip(change.iter()) {
-            u[self.body].add_scaled(&row.response, *p);
-        }
+        self.ends().for_each(|end| end.apply(change, u));
+    }
+
+    /// The contact as its one or two bodies see it.
+    pub fn ends(&self) -> impl Iterator<Item = &End> {
+        std::iter::once(&self.end).chain(&self.other)
     }
 
     /// The normal row of J u.
     pub fn normal_motion(&self, u: &[Twist]) -> f64 {
-        self.rows[0].along(&u[self.body])
+        self.ends().map(|end| end.rows[0].along(&u[end.body])).sum()
     }
 
     /// u += M⁻¹ J_nᵀ Δp.
     pub fn apply_normal(&self, change: f64, u: &mut [Twist]) {
-        u[self.body].add_scaled(&self.rows[0].response, change);
+        self.ends().for_each(|end| u[end.body].add_scaled(&end.rows[0].response, change));
     }
 
     /// The 3×3 block of A between two contacts.
-    fn coupling(&self, other: &Block) -> Matrix3<f64> {
-        if self.body == other.body { rows_times_responses(&self.rows, &other.rows) } else { Matrix3::zeros() }
+    fn coupling(&self, with: &Block) -> Matrix3<f64> {
+        let pairs = self.ends().flat_map(|a| with.ends().map(move |b| (a, b)));
+        pairs.filter_map(|(a, b)| a.coupling(b)).reduce(|a, b| a + b).unwrap_or_else(Matrix3::zeros)
     }
 
-    fn new(contact: &Contact, before: &BodyState, free: &Twist, mass_kg: f64, I_W_inverse: &Matrix3<f64>) -> Self {
+    fn new(contact: &Contact, before: &[BodyState], free: &[Twist], inertias: &[Inertia]) -> Self {
         let frame = contact.frame();
-        let rows = frame.map(|e| {
-            let j = Twist { v: e, w: contact.r_BC_W.cross(&e) };
-            Row { j, response: Twist { v: e / mass_kg, w: I_W_inverse * j.w } }
+        let own = End::new(contact.body, 1.0, &contact.r_BC_W, &frame, &inertias[contact.body]);
+        let other = contact.other.map(|other| End::new(other, -1.0, &contact.r_OC_W, &frame, &inertias[other]));
+        let ends = || std::iter::once(&own).chain(&other);
+        let sum = |of: &dyn Fn(&End) -> Vector3<f64>| ends().map(of).reduce(|a, b| a + b).unwrap_or_default();
+        let mut b = sum(&|end| end.motion(&free[end.body]));
+        let approach = sum(&|end| {
+            let at = &before[end.body];
+            end.motion(&Twist { v: at.v_WB, w: at.w_WB })
         });
-        let mut b = Vector3::from_fn(|i, _| rows[i].along(free));
-        let approach = rows[0].along(&Twist { v: before.v_WB, w: before.w_WB });
-        if approach < 0.0 {
-            b.x += contact.restitution * approach;
+        if approach.x < 0.0 {
+            b.x += contact.restitution * approach.x;
         }
-        let A = rows_times_responses(&rows, &rows);
+        let A = ends().filter_map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
         Block {
-            body: contact.body,
+            end: own,
+            other,
             friction: contact.friction,
-            rows,
             A,
             inverse_diagonal: A.diagonal().map(|d| 1.0 / d),
             tangent_step: 1.0 / largest_eigenvalue(A[(1, 1)], A[(2, 2)], A[(1, 2)]),
@@ -264,11 +322,6 @@ impl Block {
     pub fn in_world(&self, p: &Impulse) -> Vector3<f64> {
         self.frame[0] * p.x + self.frame[1] * p.y + self.frame[2] * p.z
     }
-}
-
-/// J M⁻¹ Jᵀ of two contacts of one body.
-fn rows_times_responses(rows: &[Row; 3], others: &[Row; 3]) -> Matrix3<f64> {
-    Matrix3::from_fn(|i, j| rows[i].along(&others[j].response))
 }
 
 /// Of the symmetric matrix [a c; c b].

@@ -142,7 +142,7 @@ impl Scratch {
         let bodies = model.bodies.len();
         Scratch {
             found: Vec::with_capacity(contacts),
-            problem: ContactProblem::with_capacity(contacts),
+            problem: ContactProblem::with_capacity(contacts, bodies),
             free: Vec::with_capacity(bodies),
             impulses: Vec::with_capacity(contacts),
             solver: gauss_seidel::Scratch::with_capacity(contacts, bodies),

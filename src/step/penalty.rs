@@ -4,7 +4,7 @@ use super::{Clock, Scratch, move_body};
 use crate::collide::{Contact, SolvedContact, detect};
 use crate::experiment::types::Penalty as Settings;
 use crate::model::Model;
-use crate::solve::problem::Twist;
+use crate::solve::problem::{Inertia, Twist};
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
@@ -27,12 +27,12 @@ impl Penalty {
         s.free_velocities(model, state, clock.step_s);
         s.solved.clear();
         for contact in &s.found {
-            let at = &state.bodies[contact.body];
-            let impulse_W = force(&self.settings, contact, at) * clock.step_s;
-            let body = &model.bodies[contact.body];
-            let new = &mut s.free[contact.body];
-            new.v += impulse_W / body.mass_kg;
-            new.w += body.I_W_inverse(at) * contact.r_BC_W.cross(&impulse_W);
+            let impulse_W = force(&self.settings, contact, &state.bodies) * clock.step_s;
+            for (i, r_W, sign) in contact.ends() {
+                let Inertia { mass_kg, inverse_W } = Inertia::of(&model.bodies[i], &state.bodies[i]);
+                s.free[i].v += impulse_W * sign / mass_kg;
+                s.free[i].w += inverse_W * r_W.cross(&impulse_W) * sign;
+            }
             s.solved.push(SolvedContact { contact: *contact, impulse_W });
         }
         // 4. Position and attitude.
@@ -46,8 +46,9 @@ impl Penalty {
 }
 
 /// k depth − c v_n, never pulling; μ f_n against the slip, linear in it below `slip_speed_m_s`.
-fn force(settings: &Settings, contact: &Contact, at: &BodyState) -> Vector3<f64> {
-    let velocity = at.v_WB + at.w_WB.cross(&contact.r_BC_W);
+fn force(settings: &Settings, contact: &Contact, bodies: &[BodyState]) -> Vector3<f64> {
+    let of_point = |(i, r_W, sign): (usize, Vector3<f64>, f64)| (bodies[i].v_WB + bodies[i].w_WB.cross(&r_W)) * sign;
+    let velocity: Vector3<f64> = contact.ends().map(of_point).sum();
     let along = velocity.dot(&contact.normal);
     let push = (-settings.stiffness_n_m * contact.gap_m - settings.damping_n_s_m * along).max(0.0);
     let slip = velocity - contact.normal * along;

@@ -6,7 +6,7 @@
 
 use super::{Clock, Scratch};
 use crate::collide::reduce::Reduction;
-use crate::collide::{Contact, SolvedContact, detect};
+use crate::collide::{Contact, Key, SolvedContact, detect};
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
 use crate::integrate::rotation::{exponential, turn_at_momentum, w_from_momentum};
 use crate::model::Model;
@@ -25,7 +25,7 @@ pub struct TimeStepping {
     reduction: Option<Reduction>,
     position_correction: PositionCorrection,
     /// Which contact had which impulse in the last step, in the order of contacts.
-    last: Vec<(usize, (u32, u32), Impulse)>,
+    last: Vec<(Key, Impulse)>,
     /// Multipliers and displacements of the position correction.
     pushes: Vec<f64>,
     pushed: Vec<Twist>,
@@ -97,7 +97,7 @@ impl TimeStepping {
             s.problem.take_back(&mut s.impulses, &s.response);
         }
         self.last.clear();
-        self.last.extend(s.found.iter().zip(&s.impulses).map(|(c, p)| (c.body, c.feature, *p)));
+        self.last.extend(s.found.iter().zip(&s.impulses).map(|(c, p)| (c.key(), *p)));
         s.take_solution();
         if let Some(reduction) = &self.reduction {
             show(&reduction.left_out, &mut s.solved);
@@ -114,17 +114,17 @@ impl TimeStepping {
 /// Contacts that were left out are there, without an impulse.
 fn show(left_out: &[Contact], solved: &mut Vec<SolvedContact>) {
     solved.extend(left_out.iter().map(|contact| SolvedContact { contact: *contact, impulse_W: Vector3::zeros() }));
-    solved.sort_unstable_by_key(|s| (s.contact.body, s.contact.feature));
+    solved.sort_unstable_by_key(|s| s.contact.key());
 }
 
 /// Last step's impulse of every contact that is still there, else 0. Both lists are in the order of contacts.
-fn warm_start(found: &[Contact], last: &[(usize, (u32, u32), Impulse)], impulses: &mut Vec<Impulse>) {
+fn warm_start(found: &[Contact], last: &[(Key, Impulse)], impulses: &mut Vec<Impulse>) {
     impulses.clear();
     let mut last = last.iter().peekable();
     for contact in found {
-        let key = (contact.body, contact.feature);
-        while last.next_if(|(body, feature, _)| (*body, *feature) < key).is_some() {}
-        let same = last.next_if(|(body, feature, _)| (*body, *feature) == key);
-        impulses.push(same.map_or_else(Impulse::zeros, |(_, _, p)| *p));
+        let key = contact.key();
+        while last.next_if(|(known, _)| *known < key).is_some() {}
+        let same = last.next_if(|(known, _)| *known == key);
+        impulses.push(same.map_or_else(Impulse::zeros, |(_, p)| *p));
     }
 }

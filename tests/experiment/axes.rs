@@ -199,7 +199,7 @@ const BAD_CASES: &[(&str, &str, &[usize], &str)] = &[
         "    scene.fricton: [0]\n",
         &[0],
         "a.yaml:22: scene.fricton: unknown key; did you mean `friction`? (known here: gravity_m_s2, friction, \
-         restitution, container, bodies, pins, forces, air, random, allow_overlap) (from the axis scene.fricton = 0)",
+         restitution, container, bodies, pairs, pins, forces, air, random, allow_overlap) (from the axis scene.fricton = 0)",
     ),
     (
         "an unknown body",

@@ -25,7 +25,10 @@ const ROWS: &[Row] = &[
     ("a key twice", "seed: 7\n", "seed: 7\nseed: 8\n", 16, "seed", "this key is already there, on line 15"),
     ("a key twice, nested", CUBE, "      mass_kg: 1\n      name: cuboid\n", 11, "scene.bodies.0.name", "already there, on line 7"),
     ("a later key", "seed: 7\n", "seed: 7\nlimits: {}\n", 16, "limits", "not available in this version"),
-    ("a later key of the scene", "  friction: 0.3\n", "  pairs: []\n", 2, "scene.pairs", "not available in this version"),
+    ("a later key of a container", "    box:\n", "    mesh: {}\n    box:\n", 4, "scene.container.mesh", "not available in this version"),
+    ("a pair with nobody", FRICTION, "  pairs: [{ between: [cube, contaner], friction: 0.5 }]\n", 2, "scene.pairs.0.between.1", "did you mean `container`?"),
+    ("a pair of one", FRICTION, "  pairs: [{ between: [cube, cube], friction: 0.5 }]\n", 2, "scene.pairs.0.between", "two different names"),
+    ("a pair that bounces too much", FRICTION, "  pairs: [{ between: [cube, container], restitution: 1.5 }]\n", 2, "scene.pairs.0.restitution", "from 0 to 1"),
     ("a later key of a body", CUBE, "      copies: {}\n", 10, "scene.bodies.cube.copies", "not available in this version"),
     ("a later key of a sweep", "seed: 7\n", "sweep: { where: [] }\n", 15, "sweep.where", "not available in this version"),
     // Words.

@@ -184,7 +184,9 @@ fn the_exact_contact_obeys_the_law_at_every_friction() {
 fn the_corners_of_a_face_are_kept() {
     let contact = |node: u32, x: f64, z: f64, gap_m: f64| Contact {
         body: 0,
+        other: None,
         feature: (0, node),
+        r_OC_W: Vector3::zeros(),
         r_BC_W: Vector3::new(x, -1.0, z),
         p_WC: Vector3::zeros(),
         normal: Vector3::y(),

@@ -62,7 +62,9 @@ time: {{ step_s: {}, end_s: {} }}
         let mut judge = Judge::new(&model, &start, &Diverge::default(), &Plan::new(&model, &experiment.method));
         let contact = Contact {
             body: 0,
+            other: None,
             feature: (0, 0),
+            r_OC_W: Vector3::zeros(),
             r_BC_W: Vector3::new(0.0, -radius, 0.0),
             p_WC: Vector3::zeros(),
             normal: Vector3::y(),

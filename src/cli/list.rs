@@ -1,7 +1,7 @@
 //! `gotai list`: what can be written, one line each.
 
 use super::{CliError, OutputArgs, print, print_json};
-use crate::experiment::types::{Exact, Integrator};
+use crate::experiment::types::{Accuracy, Exact, Integrator};
 use crate::integrate::claims::{Claim, Kept, claim};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -32,7 +32,7 @@ type Line = (&'static str, &'static str, &'static str, &'static str);
 const METHODS: [Line; 4] = [
     (
         "free",
-        "integrator: semi-implicit-euler (default), or one of those below; tolerance: 1e-9 (of dop853)",
+        "integrator: semi-implicit-euler (default), or one of those below; tolerance: 1e-9 (of dop853 and taylor)",
         "motion without contact",
         "lecture L4, L5, L24",
     ),
@@ -183,6 +183,10 @@ fn promise(integrator: Integrator) -> String {
     let kept = [(energy, "energy"), (angular_momentum, "angular momentum"), (parabola, "parabola")];
     let kept: Vec<&str> = kept.iter().filter(|(kept, _)| *kept == Kept::ToRounding).map(|(_, what)| *what).collect();
     let keeps = if kept.is_empty() { String::new() } else { format!("; to rounding: {}", kept.join(", ")) };
-    let order = order.map_or("without error".to_string(), |order| format!("order {order}"));
+    let order = match (integrator.accuracy(), order) {
+        (_, Some(order)) => format!("order {order}"),
+        (Accuracy::Closed, _) => "without error".to_string(),
+        _ => "any order, as the tolerance asks".to_string(),
+    };
     format!("{:19} {order}{keeps} [{source}]", integrator.word())
 }

@@ -1,6 +1,6 @@
 //! Closed forms and references: `state_at(t)`, one case a file, cited; `scene` says which scenes they are the motion of.
 
-mod dd;
+pub mod dd;
 pub mod free_rotation;
 pub mod heavy_top;
 pub mod jacobi;

@@ -1,7 +1,7 @@
 //! What makes a method more accurate: the one place that says which method takes a step, which a tolerance.
 
 use super::method::{Integrator, Method};
-use crate::integrate::dop853::DEFAULT_TOLERANCE;
+use crate::integrate::DEFAULT_TOLERANCE;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accuracy {
@@ -34,7 +34,7 @@ impl Method {
 impl Integrator {
     pub fn accuracy(self) -> Accuracy {
         match self {
-            Integrator::Dop853 => Accuracy::Tolerance(&["method", "free", "tolerance"]),
+            Integrator::Dop853 | Integrator::Taylor => Accuracy::Tolerance(&["method", "free", "tolerance"]),
             Integrator::Exact => Accuracy::Closed,
             Integrator::ExplicitEuler
             | Integrator::SemiImplicitEuler

@@ -38,7 +38,7 @@ impl Method {
 pub struct Free {
     #[serde(default)]
     pub integrator: Integrator,
-    /// Of `dop853` alone: error of one inner step, relative and absolute. Absent: 1e-9.
+    /// Of `dop853` and `taylor`: error of one inner step, relative and absolute. Absent: 1e-9.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
 }
@@ -62,13 +62,15 @@ pub enum Integrator {
     MoserVeselov,
     /// Dormand and Prince's 8(5,3) with error control.
     Dop853,
+    /// Taylor's series, of as high an order as the tolerance asks for.
+    Taylor,
     /// The closed form: a parabola and elliptic functions, from the start in one leap to every time.
     Exact,
 }
 
 impl Integrator {
     /// All of them, as written above; a test holds this against the parser's own list.
-    pub const ALL: [Integrator; 8] = [
+    pub const ALL: [Integrator; 9] = [
         Integrator::ExplicitEuler,
         Integrator::SemiImplicitEuler,
         Integrator::CrankNicolson,
@@ -76,6 +78,7 @@ impl Integrator {
         Integrator::Rk4,
         Integrator::MoserVeselov,
         Integrator::Dop853,
+        Integrator::Taylor,
         Integrator::Exact,
     ];
 
@@ -89,6 +92,7 @@ impl Integrator {
             Integrator::Rk4 => "rk4",
             Integrator::MoserVeselov => "moser-veselov",
             Integrator::Dop853 => "dop853",
+            Integrator::Taylor => "taylor",
             Integrator::Exact => "exact",
         }
     }

@@ -8,7 +8,7 @@ use super::types::{
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
-use crate::integrate::dop853::SMALLEST_TOLERANCE;
+use crate::integrate::SMALLEST_TOLERANCE;
 
 /// What contacts name the container.
 pub(super) const CONTAINER: &str = "container";
@@ -150,8 +150,10 @@ fn validate_free(free: &Free, at: Path) -> Result<()> {
     let Some(tolerance) = free.tolerance else { return Ok(()) };
     let at = at.key("tolerance");
     if !matches!(free.integrator.accuracy(), Accuracy::Tolerance(_)) {
-        let expected =
-            format!("no tolerance, as `{}` does not control its error (`dop853` does)", free.integrator.word());
+        let expected = format!(
+            "no tolerance, as `{}` does not control its error (`dop853` and `taylor` do)",
+            free.integrator.word()
+        );
         return Err(unexpected(at, &expected, &number(tolerance)));
     }
     if tolerance < SMALLEST_TOLERANCE {

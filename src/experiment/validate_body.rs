@@ -108,6 +108,8 @@ fn validate_mass(body: &Body, at: Path) -> Result<()> {
         (None, Some(_)) if body.shape == Shape::None => {
             Err(unexpected(density, "`mass_kg`, as the shape `none` has no volume", "`density_kg_m3`"))
         }
+        // A body that moves as it is told has no use for it.
+        (None, None) if body.is_driven() => Ok(()),
         (None, None) if body.shape == Shape::None => {
             Err(ExperimentError::missing(mass.to_key_path(), "the mass of the point"))
         }

@@ -2,7 +2,7 @@
 
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
-use super::method::Method;
+use super::method::{Integrator, Method};
 use super::types::{Air, Body, Course, Experiment, Force, Pin, Scene, Shape};
 use super::validate::{Result, not_negative, unexpected};
 
@@ -13,12 +13,24 @@ pub fn validate_loads(experiment: &Experiment, at: Path) -> Result<()> {
     scene.air.as_ref().map_or(Ok(()), |air| validate_air(air, scene, at.key("air")))?;
     scene.pins.iter().enumerate().try_for_each(|(i, pin)| validate_pin(pin, scene, pins.item(i, None)))?;
     match &experiment.method {
+        Method::Free(free) if free.integrator == Integrator::Taylor => no_quadratic_drag(scene, at.key("air")),
         Method::Free(_) => Ok(()),
         _ if scene.pins.is_empty() => Ok(()),
         method => {
             let feature = format!("a pin with the method `{}` (the method `free` has pins)", method.word());
             Err(ExperimentError::feature_not_available(pins.to_key_path(), &feature))
         }
+    }
+}
+
+/// Where v = 0 the third derivative of a body with |v| v jumps, and no coefficient says so.
+fn no_quadratic_drag(scene: &Scene, at: Path) -> Result<()> {
+    match scene.air {
+        Some(air) if air.drag_coefficient > 0.0 => {
+            let expected = "no quadratic drag, as it has no Taylor series where v = 0 (`dop853` takes it)";
+            Err(unexpected(at.key("drag_coefficient"), expected, &number(air.drag_coefficient)))
+        }
+        _ => Ok(()),
     }
 }
 

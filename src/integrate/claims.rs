@@ -8,7 +8,7 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Claim {
     /// Of attitude and angular velocity; of the position too, where it is not exact.
-    /// None: there is no error of the step's.
+    /// None: there is no error of the step's, or one that the tolerance sets.
     pub order: Option<u32>,
     /// Rotational energy of a body without torque.
     pub energy: Kept,
@@ -31,6 +31,7 @@ pub enum Kept {
 pub fn claim(integrator: Integrator) -> Claim {
     use Integrator::*;
     use Kept::{No, ToRounding};
+    // 0: none of its own.
     let (order, energy, angular_momentum, parabola, source) = match integrator {
         ExplicitEuler => (1, No, No, No, "lecture L5, the formula"),
         SemiImplicitEuler => (1, No, No, No, "lecture L5, the C program"),
@@ -40,6 +41,7 @@ pub fn claim(integrator: Integrator) -> Claim {
         }
         Rk4 => (4, No, No, ToRounding, "Kutta 1901"),
         MoserVeselov => (2, ToRounding, ToRounding, ToRounding, "Moser & Veselov 1991; McLachlan & Zanna 2005"),
+        Taylor => (0, ToRounding, ToRounding, ToRounding, "Jorba & Zou, Exp. Math. 14 (2005) 99"),
         Exact => (0, ToRounding, ToRounding, ToRounding, "van Zon & Schofield, JCP 225 (2007) 145"),
         Dop853 => (8, No, No, ToRounding, "Hairer, Nørsett & Wanner, Solving ODEs I, II.5, II.10"),
     };

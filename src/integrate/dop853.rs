@@ -9,12 +9,6 @@ use super::phase::{Phase, phase, state};
 use crate::measure::work::Work;
 use crate::model::Model;
 
-/// Error of one inner step, relative and absolute, in every part of the motion.
-pub const DEFAULT_TOLERANCE: f64 = 1e-9;
-
-/// Below some units of rounding no estimate means anything.
-pub const SMALLEST_TOLERANCE: f64 = 1e-15;
-
 /// Tries of a body in one step of the clock; then it is given up, as below.
 const MOST: u32 = 100_000;
 

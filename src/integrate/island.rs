@@ -82,6 +82,22 @@ impl Island {
         self.at.iter().zip(&self.members).for_each(|(at, i)| state.bodies[*i] = *at);
     }
 
+    /// Indices of its bodies in the model.
+    pub fn members(&self) -> &[usize] {
+        &self.members
+    }
+
+    pub fn pins(&self) -> Option<&PinSolver> {
+        self.pins.as_ref()
+    }
+
+    /// Its pins, with A at the present states.
+    pub fn gathered_pins(&mut self, model: &Model) -> Option<&mut PinSolver> {
+        let pins = self.pins.as_mut()?;
+        pins.gather(model, &self.at);
+        Some(pins)
+    }
+
     /// One of its bodies, by the order of `at`.
     pub fn body<'a>(&self, member: usize, model: &'a Model) -> &'a Body {
         &model.bodies[self.members[member]]

@@ -17,3 +17,10 @@ pub mod phase;
 pub mod pin_solver;
 pub mod rk4;
 pub mod rotation;
+pub mod taylor;
+
+/// Of the error-controlled integrators: error of one inner step, relative and absolute, in every part of the motion.
+pub const DEFAULT_TOLERANCE: f64 = 1e-9;
+
+/// Below some units of rounding no estimate means anything.
+pub const SMALLEST_TOLERANCE: f64 = 1e-15;

@@ -15,13 +15,13 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// One end of a pin, on a body that it can move.
 #[derive(Clone, Copy, Debug)]
-struct End {
-    pin: usize,
+pub struct End {
+    pub pin: usize,
     /// Among the island's bodies.
-    member: usize,
-    r_B: Vector3<f64>,
+    pub member: usize,
+    pub r_B: Vector3<f64>,
     /// +1 on the pin's own body, −1 on the other one.
-    sign: f64,
+    pub sign: f64,
     /// From the centre of mass to the pin, world axes, at the present states.
     r_W: Vector3<f64>,
 }
@@ -35,10 +35,14 @@ struct Hook {
 }
 
 impl Hook {
+    /// From the body's centre of mass.
+    fn arm(&self, t_s: f64) -> Vector3<f64> {
+        exponential(&(self.start.w_WB * t_s)) * (self.start.q_WB * self.r_B)
+    }
+
     /// Position, velocity and acceleration.
     fn at(&self, t_s: f64) -> [Vector3<f64>; 3] {
-        let BodyState { p_WB, q_WB, v_WB, w_WB } = &self.start;
-        let r = exponential(&(w_WB * t_s)) * (q_WB * self.r_B);
+        let (BodyState { p_WB, v_WB, w_WB, .. }, r) = (&self.start, self.arm(t_s));
         let turning = w_WB.cross(&r);
         [p_WB + v_WB * t_s + r, v_WB + turning, w_WB.cross(&turning)]
     }
@@ -143,8 +147,37 @@ impl PinSolver {
         }
     }
 
+    /// Pins of the island.
+    pub fn count(&self) -> usize {
+        self.rows.len() / 3
+    }
+
+    pub fn ends(&self) -> impl Iterator<Item = &End> {
+        self.ends.iter()
+    }
+
+    /// Pins on bodies that move as they are told: which, and the body's ω.
+    pub fn hooks(&self) -> impl Iterator<Item = (usize, Vector3<f64>)> {
+        self.hooks.iter().map(|hook| (hook.pin, hook.start.w_WB))
+    }
+
+    /// From such a body's centre of mass to the pin.
+    pub fn arm(&self, hook: usize, t_s: f64) -> Vector3<f64> {
+        self.hooks[hook].arm(t_s)
+    }
+
+    /// What is missing at a pin, before `solve`.
+    pub fn ask(&mut self, pin: usize, missing: &Vector3<f64>) {
+        self.rows.fixed_rows_mut::<3>(3 * pin).copy_from(missing);
+    }
+
+    /// The force at a pin, after `solve`.
+    pub fn answer(&self, pin: usize) -> Vector3<f64> {
+        self.rows.fixed_rows::<3>(3 * pin).into_owned()
+    }
+
     /// Levers and A at these states.
-    fn gather(&mut self, model: &Model, at: &[BodyState]) {
+    pub fn gather(&mut self, model: &Model, at: &[BodyState]) {
         for ((inverse, i), at) in self.I_W_inverse.iter_mut().zip(&self.members).zip(at) {
             *inverse = model.bodies[*i].I_W_inverse(at);
         }
@@ -177,7 +210,7 @@ impl PinSolver {
     }
 
     /// A λ = rows, by Cholesky, or by the pseudo-inverse where rows say the same twice.
-    fn solve(&mut self, work: &mut Work) {
+    pub fn solve(&mut self, work: &mut Work) {
         work.pin_solves += 1;
         self.factor.copy_from(&self.A);
         if let Some(cholesky) = std::mem::take(&mut self.factor).cholesky() {
@@ -201,7 +234,7 @@ impl PinSolver {
     }
 
     fn force(&self, end: &End) -> Vector3<f64> {
-        self.rows.fixed_rows::<3>(3 * end.pin).into_owned() * end.sign
+        self.answer(end.pin) * end.sign
     }
 }
 

@@ -4,7 +4,8 @@ use super::Clock;
 use crate::exact::Reference;
 use crate::experiment::types::{Exact, Free as Settings, Integrator, Update};
 use crate::integrate::island::Island;
-use crate::integrate::{crank_nicolson, dop853, euler, implicit, implicit_midpoint, momentum, moser_veselov, rk4};
+use crate::integrate::{DEFAULT_TOLERANCE, crank_nicolson, dop853, euler, implicit, implicit_midpoint, momentum};
+use crate::integrate::{moser_veselov, rk4, taylor};
 use crate::measure::work::Work;
 use crate::model::Model;
 use crate::state::State;
@@ -24,6 +25,7 @@ enum Method {
     },
     Rk4(rk4::Scratch),
     Dop853(dop853::Control, Box<dop853::Scratch>),
+    Taylor(Box<taylor::Taylor>),
 }
 
 pub struct Free {
@@ -83,8 +85,12 @@ impl Method {
                 scratch: implicit(),
             },
             Integrator::Dop853 => {
-                let tolerance = settings.tolerance.unwrap_or(dop853::DEFAULT_TOLERANCE);
+                let tolerance = settings.tolerance.unwrap_or(DEFAULT_TOLERANCE);
                 Method::Dop853(dop853::Control::new(tolerance), Box::new(dop853::Scratch::new(island)))
+            }
+            Integrator::Taylor => {
+                let tolerance = settings.tolerance.unwrap_or(DEFAULT_TOLERANCE);
+                Method::Taylor(Box::new(taylor::Taylor::new(tolerance, island, model)))
             }
             Integrator::Exact => return None,
         })
@@ -104,6 +110,7 @@ impl Method {
             Method::Momentum { driven, seen, scratch, .. } => {
                 return implicit::step(*driven, *seen, island, model, span, scratch, work);
             }
+            Method::Taylor(taylor) => return taylor.step(island, model, span, work),
             Method::Dop853(control, scratch) => return dop853::step(island, model, span, control, scratch, work),
         }
         true

@@ -11,6 +11,7 @@ mod orders;
 mod penalty;
 mod residual;
 mod skipping;
+mod taylor;
 
 /// The fitted order.
 pub fn order(steps: &[f64], errors: &[f64]) -> f64 {

@@ -1,8 +1,10 @@
 //! `exact:` as an experiment meets it: which scenes a closed form is the motion of, and which it refuses.
 
 use crate::yaml::{experiment, file, run};
+use gotai::exact::heavy_top::{HeavyTop, Top};
 use gotai::experiment::types::Exact;
 use gotai::sweep::plan;
+use nalgebra::{UnitQuaternion, Vector3};
 
 const TIME: &str = "time: { step_s: 0.05, end_s: 3 }\n";
 
@@ -131,11 +133,43 @@ fn a_sleeping_top_is_stable_above_its_critical_spin() {
         let (mut state, mut largest) = (start, 0.0_f64);
         while state.step < clock.steps {
             stepper.step(&model, &mut state, &clock);
-            largest = largest.max((state.bodies[0].q_WB * nalgebra::Vector3::y()).angle(&nalgebra::Vector3::y()));
+            largest = largest.max((state.bodies[0].q_WB * Vector3::y()).angle(&Vector3::y()));
         }
         largest
     };
     let (asleep, awake) = (tilt(1.02), tilt(0.98));
     // measured: 8.9e-4, 0.40
     assert!(asleep < 2e-3 && awake > 0.2, "{asleep}, {awake}");
+}
+
+/// Released with its spin alone a top swings between its start u₀ and the other root of β (1 − u²) = a² (u₀ − u).
+#[test]
+fn a_released_top_swings_between_its_two_bounds() {
+    let text = std::fs::read_to_string("configs/free/heavy-top.yaml").unwrap();
+    let (transverse, axial, spin, moment) = (0.02 + 0.2 * 0.2, 0.01, 60.0, 9.81 * 0.2);
+    let (a, beta): (f64, f64) = (axial * spin / transverse, 2.0 * moment / transverse);
+    let u0 = 0.75_f64.sqrt();
+    let low = (a * a - (a * a * a * a - 4.0 * beta * (a * a * u0 - beta)).sqrt()) / (2.0 * beta);
+    let top = Top {
+        transverse_kg_m2: transverse,
+        axial_kg_m2: axial,
+        axis_B: Vector3::y(),
+        first_moment_kg_m: 0.2,
+        gravity_m_s2: Vector3::new(0.0, -9.81, 0.0),
+    };
+    let q_WB = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -30_f64.to_radians());
+    let closed = HeavyTop::new(&top, &q_WB, &(q_WB * Vector3::new(0.0, spin, 0.0))).unwrap();
+    let period_s = closed.nutation_period_s().unwrap();
+    for (halves, bound) in [(1, low), (2, u0), (21, low), (40, u0)] {
+        let end_s = period_s / 2.0 * f64::from(halves);
+        let method = "method.free={integrator: dop853, tolerance: 1e-13}";
+        let step_s = end_s / f64::from(halves) / 10.0;
+        let sets = [method.to_string(), format!("time.step_s={step_s}"), format!("time.end_s={end_s}")];
+        let ended = run(&experiment(&text, &sets.each_ref().map(String::as_str)));
+        let u = ended.state.bodies[0].p_WB.y / 0.2;
+        // measured: 7.8e-14
+        assert!((u - bound).abs() < 1e-9, "{halves}: {:e}", u - bound);
+        let (low_closed, high_closed) = closed.nutation().unwrap();
+        assert!((low_closed - low).abs() < 1e-14 && (high_closed - u0).abs() < 1e-14);
+    }
 }

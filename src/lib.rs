@@ -35,6 +35,8 @@ pub mod run;
 
 pub mod step;
 
+pub mod linear;
+
 pub mod integrate;
 
 pub mod collide;

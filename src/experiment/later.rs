@@ -11,7 +11,6 @@ const LATER: &[(&str, &[&str])] = &[
     ("Shape", &["cylinder", "capsule", "ellipsoid", "convex", "mesh"]),
     ("Method", &["event-driven", "auto"]),
     ("Integrator", &["taylor"]),
-    ("Solver", &["newton"]),
     ("Scheme", &["moreau"]),
     ("Impact", &["poisson", "sequential"]),
 ];

@@ -7,6 +7,7 @@
 
 use super::island::Drive;
 use super::rotation::{exponential, gyroscopic_torque_B};
+use crate::linear::least_norm;
 use crate::measure::work::Work;
 use crate::model::Model;
 use crate::model::pins::Anchor;
@@ -194,10 +195,7 @@ impl PinSolver {
         } else {
             self.factor = self.A.clone();
         }
-        let largest = self.A.diagonal().amax();
-        if let Ok(inverse) = self.A.clone().pseudo_inverse(REDUNDANT * largest) {
-            self.rows = inverse * &self.rows;
-        }
+        self.rows = least_norm(self.A.clone(), &self.rows, REDUNDANT);
     }
 
     fn force(&self, end: &End) -> Vector3<f64> {

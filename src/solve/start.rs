@@ -6,7 +6,11 @@
 use super::Impulse;
 use super::problem::ContactProblem;
 use crate::experiment::types::Start;
-use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector3};
+use crate::linear::least_norm;
+use nalgebra::Vector3;
+
+/// Eigenvalues below this part of the largest are rounding.
+const RANK: f64 = 1e-12;
 
 /// Fills `p` with the first guess, not yet corrected.
 pub fn first_guess(problem: &ContactProblem, start: Start, p: &mut Vec<Impulse>) {
@@ -17,24 +21,11 @@ pub fn first_guess(problem: &ContactProblem, start: Start, p: &mut Vec<Impulse>)
         Start::None => return,
         Start::Direct => problem.A().lu().solve(&-problem.b()),
         Start::Inverse => problem.A().try_inverse().map(|inverse| inverse * -problem.b()),
-        Start::PseudoInverse => Some(least_norm(problem.A(), &-problem.b())),
+        Start::PseudoInverse => Some(least_norm(problem.A(), &-problem.b(), RANK)),
     };
     if let Some(solved) = solved.filter(|s| s.iter().all(|x| x.is_finite())) {
         for (i, p) in p.iter_mut().enumerate() {
             *p = Vector3::new(solved[3 * i], solved[3 * i + 1], solved[3 * i + 2]);
         }
     }
-}
-
-/// A⁺ x by the eigenvectors of the symmetric A (nalgebra's SVD returns wrong factors when eigenvalues repeat).
-fn least_norm(A: DMatrix<f64>, x: &DVector<f64>) -> DVector<f64> {
-    /// Eigenvalues below this part of the largest are rounding. Relative: an absolute one would make mass matter.
-    const RANK: f64 = 1e-12;
-    let eigen = SymmetricEigen::new(A);
-    let smallest = RANK * eigen.eigenvalues.amax();
-    let mut along = eigen.eigenvectors.tr_mul(x);
-    for (a, value) in along.iter_mut().zip(eigen.eigenvalues.iter()) {
-        *a = if *value > smallest { *a / value } else { 0.0 };
-    }
-    eigen.eigenvectors * along
 }

@@ -75,6 +75,8 @@ pub struct Measured {
     pub work_contacts: u64,
     pub work_contact_solves: u64,
     pub work_sweeps: u64,
+    pub work_unsolved: u64,
+    pub work_newton_steps: u64,
     pub work_gyroscopic: u64,
     pub work_pin_solves: u64,
     pub work_inner_steps: u64,
@@ -118,6 +120,8 @@ impl Measured {
             work_contacts: 0,
             work_contact_solves: 0,
             work_sweeps: 0,
+            work_unsolved: 0,
+            work_newton_steps: 0,
             work_gyroscopic: 0,
             work_pin_solves: 0,
             work_inner_steps: 0,
@@ -138,6 +142,8 @@ impl Measured {
         self.work_contacts = work.contacts;
         self.work_contact_solves = work.contact_solves;
         self.work_sweeps = work.sweeps;
+        self.work_unsolved = work.unsolved;
+        self.work_newton_steps = work.newton_steps;
         self.work_gyroscopic = work.gyroscopic;
         self.work_pin_solves = work.pin_solves;
         self.work_inner_steps = work.inner_steps;

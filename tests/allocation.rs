@@ -69,6 +69,7 @@ fn no_step_allocates() {
         "{lecture: {correction: per-contact, rotation: momentum}}",
         "{penalty: {stiffness_n_m: 1e4}}",
         "time-stepping",
+        "{time-stepping: {solver: nncg}}",
         "{time-stepping: {local: exact, order: shuffled, relaxation: 0.5, contacts_per_face: 4}}",
     ];
     for method in methods {

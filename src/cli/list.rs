@@ -53,10 +53,12 @@ const METHODS: [Line; 4] = [
     ),
     (
         "time-stepping",
-        "solver: pgs (default); scheme: semi-implicit (default); impact: newton (default); sweeps: 50; tolerance: 1e-12; \
+        "solver: pgs (default) | nncg | newton; scheme: semi-implicit (default); impact: newton (default); sweeps: 50; tolerance: 1e-12 (newton: \
+         1e-10); \
          position_correction: projection (default) | none; local: common (default) | rows | exact; relaxation: 1; order: \
          fixed (default) | shuffled; contacts_per_face: all (default) or at least 3",
-        "velocity–impulse with projected Gauss–Seidel, momentum-conserving rotation; order 1; the default method",
+        "velocity–impulse with projected Gauss–Seidel, its conjugate gradients or the exact law of contact; momentum-conserving rotation; \
+         order 1; the default method",
         "Moreau 1988; Stewart & Trinkle 1996; Anitescu & Potra 1997",
     ),
 ];

@@ -10,7 +10,6 @@ const LATER: &[(&str, &[&str])] = &[
     ("Body", &["copies"]),
     ("Shape", &["cylinder", "capsule", "ellipsoid", "convex", "mesh"]),
     ("Method", &["event-driven", "auto"]),
-    ("Solver", &["newton"]),
     ("Scheme", &["moreau"]),
     ("Impact", &["poisson", "sequential"]),
 ];

@@ -4,7 +4,7 @@ use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::types::{
     Accuracy, Container, Diverge, Experiment, Free, Measure, Method, Pair, Penalty, Plane, Random, Record, RecordCases,
-    Scene, Shape, Time,
+    Scene, Shape, Solver, Time, TimeStepping,
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
@@ -136,13 +136,34 @@ fn validate_method(method: &Method, at: Path) -> Result<()> {
         Method::Free(free) => validate_free(free, at.key("free")),
         Method::Lecture(lecture) => at_least_one(lecture.sweeps, at.key("lecture").key("sweeps")),
         Method::Penalty(penalty) => validate_penalty(penalty, at.key("penalty")),
-        Method::TimeStepping(stepping) => {
-            let at = at.key("time-stepping");
-            at_least_one(stepping.sweeps, at.key("sweeps"))?;
-            not_negative(stepping.tolerance, at.key("tolerance"))?;
-            relaxation(stepping.relaxation, at.key("relaxation"))?;
-            stepping.contacts_per_face.map_or(Ok(()), |count| holds_a_face(count, at.key("contacts_per_face")))
+        Method::TimeStepping(stepping) => validate_time_stepping(stepping, at.key("time-stepping")),
+    }
+}
+
+fn validate_time_stepping(stepping: &TimeStepping, at: Path) -> Result<()> {
+    at_least_one(stepping.sweeps, at.key("sweeps"))?;
+    stepping.tolerance.map_or(Ok(()), |tolerance| not_negative(tolerance, at.key("tolerance")))?;
+    relaxation(stepping.relaxation, at.key("relaxation"))?;
+    if stepping.solver == Solver::Newton {
+        whole_law(stepping, at)?;
+    }
+    stepping.contacts_per_face.map_or(Ok(()), |count| holds_a_face(count, at.key("contacts_per_face")))
+}
+
+/// Settings of sweeps mean nothing to a solver of all contacts at once.
+fn whole_law(stepping: &TimeStepping, at: Path) -> Result<()> {
+    let TimeStepping { local, relaxation, order, .. } = Default::default();
+    let given = [
+        ("local", stepping.local != local),
+        ("relaxation", stepping.relaxation != relaxation),
+        ("order", stepping.order != order),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        Some((key, _)) => {
+            let expected = "nothing, as the solver `newton` solves all contacts at once (`pgs` and `nncg` sweep)";
+            Err(unexpected(at.key(key), expected, "a setting of sweeps"))
         }
+        None => Ok(()),
     }
 }
 

@@ -11,6 +11,10 @@ pub struct Work {
     pub contact_solves: u64,
     /// Sweeps over the contacts of a step, velocities and positions.
     pub sweeps: u64,
+    /// Contact solves that missed their tolerance.
+    pub unsolved: u64,
+    /// Linear systems of an island's velocities that the exact contact solver solved.
+    pub newton_steps: u64,
     /// Evaluations of the gyroscopic term, or of the momentum-conserving rotation in its place.
     pub gyroscopic: u64,
     /// Systems of all pins of an island that were solved.

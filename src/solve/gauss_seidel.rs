@@ -44,9 +44,11 @@ impl Default for Variant {
 /// The solver's memory between steps, to spare the allocator.
 #[derive(Clone, Debug)]
 pub struct Scratch {
-    before: Vec<Impulse>,
-    order: Vec<usize>,
-    coupling: Memory,
+    pub(super) before: Vec<Impulse>,
+    pub(super) order: Vec<usize>,
+    pub(super) coupling: Memory,
+    /// Of `nncg`.
+    pub(super) direction: Vec<Impulse>,
 }
 
 impl Scratch {
@@ -55,6 +57,17 @@ impl Scratch {
             before: Vec::with_capacity(contacts),
             order: Vec::with_capacity(contacts),
             coupling: Memory::with_capacity(bodies),
+            direction: Vec::with_capacity(contacts),
+        }
+    }
+}
+
+impl Scratch {
+    /// The order of the first sweep.
+    pub(super) fn restart(&mut self, sweeps: &Sweeps, contacts: usize) {
+        self.order.clear();
+        if sweeps.variant.order == Order::Shuffled {
+            self.order.extend(0..contacts);
         }
     }
 }
@@ -67,11 +80,8 @@ pub fn iterate(
     scratch: &mut Scratch,
     work: &mut Work,
 ) -> bool {
-    let Scratch { before, order, coupling } = scratch;
-    order.clear();
-    if sweeps.variant.order == Order::Shuffled {
-        order.extend(0..p.len());
-    }
+    scratch.restart(sweeps, p.len());
+    let Scratch { before, order, coupling, .. } = scratch;
     if problem.is_dense() {
         sweep_until_done(problem, &mut problem.dense(), sweeps, p, before, order, work)
     } else {
@@ -95,30 +105,43 @@ fn sweep_until_done(
     order: &mut [usize],
     work: &mut Work,
 ) -> bool {
-    let cone = sweeps.cone;
-    for sweep in 0..sweeps.most {
+    for number in 0..sweeps.most {
         work.sweeps += 1;
-        before.clear();
-        before.extend_from_slice(p);
-        match (sweeps.iteration, sweeps.correction) {
-            (Iteration::Jacobi, _) => jacobi(problem, coupling, cone, before, p),
-            (Iteration::GaussSeidel, Correction::AfterSweep) => {
-                in_place(problem, coupling, p, 0..before.len(), three_rows);
-                in_place(problem, coupling, p, 0..before.len(), |block, _, p| corrected(p, block.friction, cone));
-            }
-            (Iteration::GaussSeidel, Correction::PerContact) if sweeps.variant.order == Order::Fixed => {
-                per_contact(problem, coupling, p, 0..before.len(), sweeps);
-            }
-            (Iteration::GaussSeidel, Correction::PerContact) => {
-                shuffle(order, sweep);
-                per_contact(problem, coupling, p, order.iter().copied(), sweeps);
-            }
-        }
+        sweep(problem, coupling, sweeps, p, before, order, number);
         if has_settled(before, p, sweeps.tolerance) {
             return true;
         }
     }
     false
+}
+
+/// One pass over all contacts; `before` becomes the impulses before it.
+pub(super) fn sweep(
+    problem: &ContactProblem,
+    coupling: &mut impl Coupling,
+    sweeps: &Sweeps,
+    p: &mut [Impulse],
+    before: &mut Vec<Impulse>,
+    order: &mut [usize],
+    number: u32,
+) {
+    let cone = sweeps.cone;
+    before.clear();
+    before.extend_from_slice(p);
+    match (sweeps.iteration, sweeps.correction) {
+        (Iteration::Jacobi, _) => jacobi(problem, coupling, cone, before, p),
+        (Iteration::GaussSeidel, Correction::AfterSweep) => {
+            in_place(problem, coupling, p, 0..before.len(), three_rows);
+            in_place(problem, coupling, p, 0..before.len(), |block, _, p| corrected(p, block.friction, cone));
+        }
+        (Iteration::GaussSeidel, Correction::PerContact) if sweeps.variant.order == Order::Fixed => {
+            per_contact(problem, coupling, p, 0..before.len(), sweeps);
+        }
+        (Iteration::GaussSeidel, Correction::PerContact) => {
+            shuffle(order, number);
+            per_contact(problem, coupling, p, order.iter().copied(), sweeps);
+        }
+    }
 }
 
 /// One sweep of projected Gauss–Seidel in any of its variants.
@@ -221,7 +244,7 @@ fn rows_within_cone(block: &Block, c: &Vector3<f64>, p: &Impulse, part: f64, con
     corrected(&Impulse::new(normal, p.y + d2, p.z + d3), block.friction, cone)
 }
 
-fn has_settled(before: &[Impulse], p: &[Impulse], tolerance: f64) -> bool {
+pub(super) fn has_settled(before: &[Impulse], p: &[Impulse], tolerance: f64) -> bool {
     if tolerance == 0.0 {
         return before == p;
     }

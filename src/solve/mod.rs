@@ -1,9 +1,16 @@
 //! Contact solvers: a `ContactProblem` (plain data) becomes impulses, one method a file, each owning its scratch.
 
+mod active_set;
 pub mod exact_contact;
 pub mod gauss_seidel;
+pub mod island;
+pub mod law;
+pub mod newton;
+pub mod nncg;
 pub mod position;
 pub mod problem;
+mod proximal;
+mod smallest;
 pub mod start;
 
 use crate::experiment::types::Cone;

@@ -28,9 +28,9 @@ impl Twist {
 
 /// One row of J and of M⁻¹Jᵀ.
 #[derive(Clone, Copy, Debug)]
-struct Row {
+pub(super) struct Row {
     /// [eᵀ (u_c × e)ᵀ]: times V, the contact point's velocity along e.
-    j: Twist,
+    pub(super) j: Twist,
     /// What a unit impulse along e does to V.
     response: Twist,
 }
@@ -45,7 +45,7 @@ impl Row {
 #[derive(Clone, Copy, Debug)]
 pub struct End {
     pub body: usize,
-    rows: [Row; 3],
+    pub(super) rows: [Row; 3],
 }
 
 impl End {
@@ -116,7 +116,7 @@ pub struct Block {
 pub struct ContactProblem {
     pub blocks: Vec<Block>,
     bodies: usize,
-    inertias: Vec<Inertia>,
+    pub(super) inertias: Vec<Inertia>,
     /// Empty for many contacts.
     A_blocks: Vec<Matrix3<f64>>,
 }

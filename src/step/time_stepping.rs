@@ -1,19 +1,19 @@
 //! Velocity–impulse time-stepping: the sound default.
 //!
 //! As the lecture's constraint method, but every contact is put back into its cone right after its rows (projected
-//! Gauss–Seidel), started from last step's impulses; rotation conserves angular momentum; penetration is removed by a
+//! Gauss–Seidel; or another solver of the same law), started from last step's impulses; rotation conserves angular momentum; penetration is removed by a
 //! displacement of its own that is no velocity and adds no kinetic energy (split impulse).
 
 use super::{Clock, Scratch};
 use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, SolvedContact, detect};
-use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
+use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, Solver, TimeStepping as Settings};
 use crate::integrate::rotation::{exponential, turn_at_momentum, w_from_momentum};
 use crate::model::Model;
-use crate::solve::Impulse;
-use crate::solve::gauss_seidel::{Sweeps, Variant, iterate};
+use crate::solve::gauss_seidel::{self, Sweeps, Variant};
 use crate::solve::position::push_out;
 use crate::solve::problem::Twist;
+use crate::solve::{Impulse, newton, nncg};
 use crate::state::State;
 use nalgebra::Vector3;
 
@@ -21,6 +21,7 @@ use nalgebra::Vector3;
 const MARGIN: f64 = 1e-9;
 
 pub struct TimeStepping {
+    solver: Solver,
     sweeps: Sweeps,
     reduction: Option<Reduction>,
     position_correction: PositionCorrection,
@@ -35,12 +36,13 @@ pub struct TimeStepping {
 impl TimeStepping {
     pub(super) fn new(settings: &Settings, friction: bool, scratch: Scratch) -> Self {
         TimeStepping {
+            solver: settings.solver,
             sweeps: Sweeps {
                 iteration: Iteration::GaussSeidel,
                 correction: Correction::PerContact,
                 cone: Cone::Disc,
                 most: settings.sweeps,
-                tolerance: settings.tolerance,
+                tolerance: settings.tolerance(),
                 friction,
                 variant: Variant { local: settings.local, relaxation: settings.relaxation, order: settings.order },
             },
@@ -92,7 +94,13 @@ impl TimeStepping {
         if s.problem.energy(&s.impulses, &s.response) > 0.0 {
             s.impulses.fill(Impulse::zeros());
         }
-        if !s.found.is_empty() && !iterate(&s.problem, &self.sweeps, &mut s.impulses, &mut s.solver, &mut s.work) {
+        let solve = match self.solver {
+            Solver::Pgs => gauss_seidel::iterate,
+            Solver::Nncg => nncg::iterate,
+            Solver::Newton => newton::solve,
+        };
+        if !s.found.is_empty() && !solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.solver, &mut s.work) {
+            s.work.unsolved += 1;
             s.problem.response(&s.impulses, &mut s.response);
             s.problem.take_back(&mut s.impulses, &s.response);
         }

@@ -1,5 +1,6 @@
 //! Each method against its own recurrence, the exact motion, and what it should conserve.
 
+mod assemblies;
 mod cone;
 mod contact;
 mod cycles;
@@ -7,6 +8,7 @@ mod divergence;
 mod free;
 mod lecture;
 mod loads;
+mod newton;
 mod orders;
 mod penalty;
 mod residual;

@@ -1,0 +1,95 @@
+//! Newton's method on the law of contact itself, from where it is nearly known which contacts stick, slip and separate:
+//! the natural map says which, their equalities are linearised, and solved together (P. Alart, A. Curnier 1991).
+//!
+//! A sticking contact has u = 0; a slipping one u_n = 0, p on the cone and opposite to the slip, so that with E = |u_t|/μ p_n
+//! turning p across by q takes u_across = −E q; a separating one p = 0. With η on the diagonal, tiny against A's
+//! eigenvalues, redundant contacts are no trouble, and since the changes of p are worked out, not p, what rounding leaves
+//! shrinks from step to step.
+
+use super::Impulse;
+use super::island::{Island, Touch};
+use super::law::{self, Place};
+use nalgebra::{Matrix3, RowVector3, Vector3};
+
+const ETA: f64 = 1e-8;
+
+/// Steps without an improvement before it is given up, and after the tolerance is met.
+const PATIENCE: usize = 6;
+const SOLVED_PATIENCE: usize = 1;
+const MOST: usize = 15;
+
+/// A residual that no step improves.
+const ROUNDING: f64 = 1e-14;
+
+/// Improves `p`, or leaves it. Its residual.
+pub fn improve(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
+    let mut best = island.residual(p);
+    let (mut now, mut worse) = (p.clone(), 0);
+    for _ in 0..MOST {
+        if best <= ROUNDING || worse > PATIENCE || (worse > SOLVED_PATIENCE && best <= tolerance) {
+            break;
+        }
+        *steps += 1;
+        let Some(next) = step(island, &now) else { break };
+        now = next;
+        let residual = island.residual(&now);
+        if residual < best {
+            (best, worse) = (residual, 0);
+            p.clone_from(&now);
+        } else {
+            worse += 1;
+        }
+    }
+    best
+}
+
+/// What a contact's impulse does when velocities change: Δp = `jump` − K (u + Δu).
+struct Linear {
+    jump: Impulse,
+    K: Matrix3<f64>,
+    slips: bool,
+}
+
+impl Linear {
+    fn new(touch: &Touch, p: &Impulse, u: &Vector3<f64>) -> Self {
+        let friction = touch.friction;
+        let normal = RowVector3::new(1.0, 0.0, 0.0);
+        let stay = |K| Linear { jump: Impulse::zeros(), K, slips: false };
+        match law::place(&(p - law::dual(u, friction)), friction) {
+            Place::Tip => Linear { jump: -p, K: Matrix3::zeros(), slips: false },
+            _ if friction == 0.0 => stay(normal.transpose() * normal / ETA),
+            Place::Inside => stay(Matrix3::identity() / ETA),
+            Place::Side { t, .. } => {
+                let (edge, across) = (law::edge(&t, friction), law::across(&t));
+                let slip = (u.y * u.y + u.z * u.z).sqrt();
+                let E = if p.x > 0.0 { slip / (friction * p.x) } else { f64::INFINITY };
+                let K = edge * normal / ETA + across * across.transpose() / (E + ETA);
+                Linear { jump: edge * p.x.max(0.0) - p, K, slips: true }
+            }
+        }
+    }
+}
+
+fn step(island: &Island, p: &[Impulse]) -> Option<Vec<Impulse>> {
+    let u = island.velocities(&island.pushed(p));
+    let linear: Vec<Linear> =
+        island.touches.iter().zip(p).zip(&u).map(|((touch, p), u)| Linear::new(touch, p, u)).collect();
+    let K: Vec<Matrix3<f64>> = linear.iter().map(|linear| linear.K).collect();
+    let at_rest: Vec<Impulse> = linear.iter().zip(&u).map(|(linear, u)| linear.jump - linear.K * u).collect();
+    let change = island.matrix(&K).lu().solve(&island.pushed(&at_rest))?;
+    let moved = |(((touch, linear), p), u): (((&Touch, &Linear), &Impulse), &Vector3<f64>)| {
+        let new = p + linear.jump - linear.K * (u + touch.motion(&change));
+        if linear.slips { onto_cone(&new, touch.friction) } else { new }
+    };
+    Some(island.touches.iter().zip(&linear).zip(p).zip(&u).map(moved).collect())
+}
+
+/// Along the tangent the cone is left to second order.
+fn onto_cone(p: &Impulse, friction: f64) -> Impulse {
+    let length = (p.y * p.y + p.z * p.z).sqrt();
+    if p.x <= 0.0 || length == 0.0 {
+        return Impulse::zeros();
+    }
+    let scale = friction * p.x / length;
+    Impulse::new(p.x, p.y * scale, p.z * scale)
+}

@@ -1,0 +1,81 @@
+//! The proximal problem of an island (R. T. Rockafellar, SIAM J. Control Optim. 14 (1976) 877): the law of contact with
+//! ũ + η (p − p_centre) in place of ũ. Then p is a function of the velocity,
+//!
+//! p(y) = P_K(p_centre − ũ(y)/η),
+//!
+//! and y = Gᵀ p(y) a semi-smooth equation in six numbers a body that is regular however redundant the contacts are (the
+//! augmented Lagrangian of P. Alart, A. Curnier, Comput. Methods Appl. Mech. Engrg. 92 (1991) 353 with De Saxcé's cone).
+
+use super::Impulse;
+use super::island::{Island, Touch};
+use super::law;
+use nalgebra::{DVector, Matrix3, Vector3};
+
+/// Newton steps after which the problem is given up: with a larger η it is easier.
+const MOST: usize = 15;
+
+/// Halvings of a step before it is given up.
+const HALVINGS: usize = 30;
+
+/// Of |y| what may be missing: the next problem has another centre anyway.
+const TOLERANCE: f64 = 1e-6;
+
+/// p(y) and what it follows from.
+struct At {
+    y: DVector<f64>,
+    u: Vec<Vector3<f64>>,
+    /// p_centre − ũ/η.
+    z: Vec<Vector3<f64>>,
+    p: Vec<Impulse>,
+    /// y − Gᵀ p(y).
+    missing: DVector<f64>,
+}
+
+impl At {
+    fn new(island: &Island, centre: &[Impulse], eta: f64, y: DVector<f64>) -> Self {
+        let u = island.velocities(&y);
+        let touches = || island.touches.iter();
+        let point = |((touch, p), u): ((&Touch, &Impulse), &Vector3<f64>)| p - law::dual(u, touch.friction) / eta;
+        let z: Vec<_> = touches().zip(centre).zip(&u).map(point).collect();
+        let p: Vec<_> = touches().zip(&z).map(|(touch, z)| law::in_cone(z, touch.friction)).collect();
+        let missing = &y - island.pushed(&p);
+        At { y, u, z, p, missing }
+    }
+
+    /// What p(y) changes with −u.
+    fn slopes(&self, island: &Island, eta: f64) -> Vec<Matrix3<f64>> {
+        let slope = |((touch, z), u): ((&Touch, &Vector3<f64>), &Vector3<f64>)| {
+            law::in_cone_slope(z, touch.friction) / eta * law::dual_slope(u, touch.friction)
+        };
+        island.touches.iter().zip(&self.z).zip(&self.u).map(slope).collect()
+    }
+}
+
+/// The impulses of the proximal problem about `centre`, from the velocities that those make. None: not found.
+pub fn solve(island: &Island, centre: &[Impulse], eta: f64, steps: &mut u64) -> Option<Vec<Impulse>> {
+    let mut at = At::new(island, centre, eta, island.pushed(centre));
+    for _ in 0..MOST {
+        if at.missing.norm() <= TOLERANCE * at.y.norm() {
+            return Some(at.p);
+        }
+        *steps += 1;
+        let change = island.matrix(&at.slopes(island, eta)).lu().solve(&-&at.missing)?;
+        at = descend(island, centre, eta, &at, &change)?;
+    }
+    None
+}
+
+/// The longest of the halved steps after which less is missing.
+fn descend(island: &Island, centre: &[Impulse], eta: f64, at: &At, change: &DVector<f64>) -> Option<At> {
+    /// Of the decrease that the slope promises.
+    const ENOUGH: f64 = 1e-4;
+    let mut part = 1.0;
+    for _ in 0..HALVINGS {
+        let next = At::new(island, centre, eta, &at.y + change * part);
+        if next.missing.norm() <= (1.0 - ENOUGH * part) * at.missing.norm() {
+            return Some(next);
+        }
+        part /= 2.0;
+    }
+    None
+}

@@ -1,0 +1,154 @@
+//! The smallest impulses (Σ|p|² least) that make given velocities and obey the law of contact: redundant contacts share a
+//! force evenly, and symmetric scenes have symmetric forces.
+//!
+//! With the velocities given the law leaves every contact a convex cone F: none where it separates, the ray opposite to the
+//! slip where it slips, all of K where it sticks. The smallest p in F with Gᵀ p = y is p = P_F(G w), and w is the root of
+//! the slope of a convex function, Gᵀ P_F(G w) = y: Newton's method in six numbers a body.
+
+use super::Impulse;
+use super::island::{Island, Touch};
+use super::law;
+use nalgebra::{DVector, Matrix3, Vector3};
+
+const MOST: usize = 60;
+const HALVINGS: usize = 12;
+
+/// On the diagonal, of the largest element: bodies that no force holds leave it singular.
+const REGULAR: f64 = 1e-13;
+
+/// Steps without an improvement after the first.
+const PATIENCE: usize = 4;
+
+/// What velocities leave to a contact.
+#[derive(Clone, Copy)]
+enum Face {
+    Open,
+    Ray(Vector3<f64>),
+    Cone,
+}
+
+impl Face {
+    /// `small`: a velocity that is rounding.
+    fn new(touch: &Touch, u: &Vector3<f64>, small: f64) -> Self {
+        let slip = (u.y * u.y + u.z * u.z).sqrt();
+        if u.x > small {
+            Face::Open
+        } else if touch.friction == 0.0 {
+            Face::Ray(Vector3::x())
+        } else if slip > small {
+            Face::Ray(law::edge(&(-u / slip), touch.friction))
+        } else {
+            Face::Cone
+        }
+    }
+
+    fn nearest(&self, z: &Vector3<f64>, friction: f64) -> Impulse {
+        match self {
+            Face::Open => Impulse::zeros(),
+            Face::Ray(along) => along * (along.dot(z) / along.norm_squared()).max(0.0),
+            Face::Cone => law::in_cone(z, friction),
+        }
+    }
+
+    /// What `nearest` changes with z.
+    fn slope(&self, z: &Vector3<f64>, friction: f64) -> Matrix3<f64> {
+        match self {
+            Face::Cone => law::in_cone_slope(z, friction),
+            Face::Ray(along) if along.dot(z) <= 0.0 => Matrix3::zeros(),
+            _ => self.span(),
+        }
+    }
+
+    /// As if impulses could pull.
+    fn span(&self) -> Matrix3<f64> {
+        match self {
+            Face::Open => Matrix3::zeros(),
+            Face::Ray(along) => along * along.transpose() / along.norm_squared(),
+            Face::Cone => Matrix3::identity(),
+        }
+    }
+}
+
+/// The contacts' faces, and 1/σ² of their impulses without units relative to the largest: what is least has units.
+struct Faces<'a> {
+    island: &'a Island,
+    faces: Vec<Face>,
+    weights: Vec<f64>,
+    wanted: DVector<f64>,
+}
+
+/// z = G w, kept up to date instead of w: near the root its changes are small, and so is their rounding.
+struct At {
+    z: Vec<Vector3<f64>>,
+    p: Vec<Impulse>,
+    missing: DVector<f64>,
+}
+
+/// The smallest impulses that make the velocities of `p`, the best by the residual that was met, and that. Velocities are
+/// told from 0 when a residual of `small` is.
+pub fn impulses(island: &Island, p: &[Impulse], small: f64, steps: &mut u64) -> (Vec<Impulse>, f64) {
+    let faces = Faces::new(island, p, small);
+    let mut at = faces.at(vec![Vector3::zeros(); p.len()]);
+    let (mut best, mut least, mut worse) = (at.p.clone(), f64::INFINITY, 0);
+    for round in 0..MOST {
+        *steps += 1;
+        let Some(next) = faces.step(&at, round == 0) else { break };
+        at = next;
+        let residual = island.residual(&at.p);
+        if residual < least {
+            (best, least, worse) = (at.p.clone(), residual, 0);
+        } else {
+            worse += 1;
+        }
+        if worse > PATIENCE || at.missing.amax() <= f64::EPSILON * faces.wanted.amax() {
+            break;
+        }
+    }
+    (best, least)
+}
+
+impl<'a> Faces<'a> {
+    fn new(island: &'a Island, p: &[Impulse], small: f64) -> Self {
+        let wanted = island.pushed(p);
+        let u = island.velocities(&wanted);
+        let scale = small * island.scale(p);
+        let face = |(touch, u): (&Touch, &Vector3<f64>)| Face::new(touch, u, scale / touch.scale);
+        let faces = island.touches.iter().zip(&u).map(face).collect();
+        let smallest = island.touches.iter().map(|touch| touch.scale).fold(f64::INFINITY, f64::min);
+        let weights = island.touches.iter().map(|touch| (smallest / touch.scale) * (smallest / touch.scale)).collect();
+        Faces { island, faces, weights, wanted }
+    }
+
+    fn at(&self, z: Vec<Vector3<f64>>) -> At {
+        let nearest = |((face, touch), z): ((&Face, &Touch), &Vector3<f64>)| face.nearest(z, touch.friction);
+        let p: Vec<Impulse> = self.faces.iter().zip(&self.island.touches).zip(&z).map(nearest).collect();
+        let missing = &self.wanted - self.island.pushed(&p);
+        At { z, p, missing }
+    }
+
+    /// `first`: from nothing, where no cone has a slope.
+    fn step(&self, at: &At, first: bool) -> Option<At> {
+        let touches = || self.island.touches.iter().zip(&self.faces).zip(&self.weights);
+        let slope = |(((touch, face), weight), z): (((&Touch, &Face), &f64), &Vector3<f64>)| {
+            let slope = if first { face.span() } else { face.slope(z, touch.friction) };
+            slope * *weight
+        };
+        let slopes: Vec<Matrix3<f64>> = touches().zip(&at.z).map(slope).collect();
+        let mut H = self.island.coupled(&slopes);
+        let regular = REGULAR * H.diagonal().amax();
+        (0..H.nrows()).for_each(|i| H[(i, i)] += regular);
+        let change = H.cholesky()?.solve(&at.missing);
+        let mut part = 1.0;
+        for _ in 0..HALVINGS {
+            let moved = |(((touch, _), weight), z): (((&Touch, &Face), &f64), &Vector3<f64>)| {
+                z + touch.motion(&change) * (weight * part)
+            };
+            let next = self.at(touches().zip(&at.z).map(moved).collect());
+            if first || next.missing.norm() < at.missing.norm() {
+                return Some(next);
+            }
+            part /= 2.0;
+        }
+        None
+    }
+}

@@ -8,7 +8,7 @@ const LATER: &[(&str, &[&str])] = &[
     ("Scene", &["pairs"]),
     ("Container", &["mesh"]),
     ("Body", &["copies"]),
-    ("Shape", &["cylinder", "capsule", "ellipsoid", "convex", "mesh"]),
+    ("Shape", &["mesh"]),
     ("Method", &["event-driven", "auto"]),
     ("Integrator", &["taylor"]),
     ("Solver", &["newton"]),

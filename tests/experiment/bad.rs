@@ -34,7 +34,7 @@ const ROWS: &[Row] = &[
     ("an underscore for a hyphen", LECTURE, "method: time_stepping\n", 16, "method", "did you mean `time-stepping`?"),
     ("two words", LECTURE, "method:\n  lecture: {}\n  free: {}\n", 18, "method.free", "found `free` beside `lecture`"),
     ("a later word", LECTURE, "method: event-driven\n", 16, "method", "`event-driven` is not available in this version"),
-    ("a later word with settings", "shape: none", "shape: { capsule: { radius_m: 1 } }", 13, "scene.bodies.point.shape.capsule", "`capsule` is not available in this version"),
+    ("a later word with settings", "shape: none", "shape: { mesh: { file: a.obj } }", 13, "scene.bodies.point.shape.mesh", "`mesh` is not available in this version"),
     ("a later solver", LECTURE, "method: { time-stepping: { solver: newton } }\n", 16, "method.time-stepping.solver", "`newton` is not available in this version"),
     ("no relaxation", LECTURE, "method: { time-stepping: { relaxation: 0 } }\n", 16, "method.time-stepping.relaxation", "expected a number between 0 and 2, found 0"),
     ("too much of it", LECTURE, "method: { time-stepping: { relaxation: 2 } }\n", 16, "method.time-stepping.relaxation", "expected a number between 0 and 2, found 2"),

@@ -92,7 +92,23 @@ fn of_polytopes(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64) -> (Ve
 }
 
 fn of_curved(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64) -> (Vector3<f64>, f64) {
-    let mut best = first_guess(a, b, flat);
+    let guesses = first_guesses(a, b, flat);
+    let mut best = climb(a, b, guesses[0], size_m);
+    // Separated bodies have one peak; overlapping ones a few, of similar height where they overlap in a corner.
+    if best.1 < 0.0 {
+        for guess in &guesses[1..] {
+            let other = climb(a, b, *guess, size_m);
+            if other.1 > best.1 + EQUAL * size_m {
+                best = other;
+            }
+        }
+    }
+    best
+}
+
+/// To the peak of s near a direction with its separation.
+fn climb(a: &Placed, b: &Placed, guess: (Vector3<f64>, f64), size_m: f64) -> (Vector3<f64>, f64) {
+    let mut best = guess;
     // Long moves blunt, short ones leave little between the bodies to measure a direction by.
     let apart_m = 0.05 * size_m;
     for _ in 0..100 {
@@ -108,30 +124,37 @@ fn of_curved(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64) -> (Vecto
             break;
         }
     }
-    let start = best.0;
     // Straight lines that are nearly across the axis may be meant to be; the separation tells.
-    let mut refined: Option<(Vector3<f64>, f64)> = None;
-    for slack in [1e-3, 1e-5, 0.0] {
-        let (n, gap_m) = refine(a, b, start, slack);
-        if refined.is_none_or(|(_, largest_m)| gap_m > largest_m + EQUAL * size_m) {
-            refined = Some((n, gap_m));
+    let mut refined = (best.0, f64::NEG_INFINITY);
+    for slack in [1e-2, 1e-3, 1e-5, 0.0] {
+        let (n, gap_m) = refine(a, b, best.0, slack);
+        if gap_m > refined.1 + EQUAL * size_m {
+            refined = (n, gap_m);
         }
     }
-    match refined {
-        Some(refined) if refined.1 >= best.1 - EQUAL * size_m => refined,
-        _ => best,
-    }
+    if refined.1 >= best.1 - EQUAL * size_m { refined } else { best }
 }
 
-/// The best of the line of centres, the bodies' axes and the best face.
-fn first_guess(a: &Placed, b: &Placed, flat: &Option<Axis>) -> (Vector3<f64>, f64) {
-    let centres = (a.p - b.p).try_normalize(0.0);
-    let axes = a.axes().into_iter().chain(b.axes()).flat_map(|n| [n, -n]);
-    let mut best = flat.as_ref().map_or((Vector3::y(), f64::NEG_INFINITY), |flat| (flat.normal, flat.gap_m));
-    for n in centres.into_iter().chain(axes) {
-        let gap_m = separation(a, b, &n);
-        if gap_m > best.1 {
-            best = (n, gap_m);
+/// Directions to begin with.
+const GUESSES: usize = 8;
+
+/// The best of the line of centres, the bodies' axes, what is across a straight line of each, and the best face.
+fn first_guesses(a: &Placed, b: &Placed, flat: &Option<Axis>) -> [(Vector3<f64>, f64); GUESSES] {
+    let mut best = [(Vector3::y(), f64::NEG_INFINITY); GUESSES];
+    let mut consider = |n: Vector3<f64>| {
+        let guess = (n, separation(a, b, &n));
+        if let Some(place) = best.iter().position(|other| guess.1 > other.1) {
+            best[place..].rotate_right(1);
+            best[place] = guess;
+        }
+    };
+    flat.iter().for_each(|flat| consider(flat.normal));
+    (a.p - b.p).try_normalize(0.0).into_iter().for_each(&mut consider);
+    a.axes().into_iter().chain(b.axes()).flat_map(|n| [n, -n]).for_each(&mut consider);
+    for i in 0..a.lines() {
+        for j in 0..b.lines() {
+            let across = a.line(i).cross(&b.line(j)).try_normalize(1e-6);
+            across.into_iter().flat_map(|n| [n, -n]).for_each(&mut consider);
         }
     }
     best

@@ -59,11 +59,11 @@ fn nearest(simplex: &[Vector3<f64>]) -> (Vector3<f64>, [Vector3<f64>; 4], usize)
     best
 }
 
-/// Foot of the origin on the triangle at `a` with sides `e` and `f`, if it is inside.
+/// Foot of the origin on the triangle at `a` with sides `e` and `f`, if it is inside; along the normal, as products of the
+/// sides' lengths cancel in the thin triangles near the end.
 fn on_triangle(a: &Vector3<f64>, e: &Vector3<f64>, f: &Vector3<f64>) -> Option<Vector3<f64>> {
-    let (ee, ef, ff) = (e.norm_squared(), e.dot(f), f.norm_squared());
-    let (ae, af) = (-a.dot(e), -a.dot(f));
-    let determinant = ee * ff - ef * ef;
-    let (s, t) = ((ae * ff - af * ef) / determinant, (af * ee - ae * ef) / determinant);
-    (s > 0.0 && t > 0.0 && s + t < 1.0).then(|| a + e * s + f * t)
+    let m = e.cross(f);
+    let square = m.norm_squared();
+    let (s, t) = (f.cross(a).dot(&m) / square, a.cross(e).dot(&m) / square);
+    (s > 0.0 && t > 0.0 && s + t < 1.0).then(|| m * (a.dot(&m) / square))
 }

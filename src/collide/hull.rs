@@ -50,7 +50,12 @@ impl Hull {
         }
         let centre = vertices.iter().sum::<Vector3<f64>>() / vertices.len() as f64;
         let size = vertices.iter().map(|v| (v - centre).norm()).fold(0.0, f64::max);
-        let faces = faces(&vertices, COPLANAR * size)?;
+        let rounding = COPLANAR * size;
+        let faces = faces(&vertices, rounding)?;
+        let is_again = |i: &usize| vertices[..*i].iter().any(|v| (v - vertices[*i]).norm() <= rounding);
+        if let Some(again) = (0..vertices.len()).find(is_again) {
+            return Err(HullError::NotConvex(again));
+        }
         let is_corner = |i: usize| faces.iter().any(|face| face.corners.contains(&(i as u32)));
         if let Some(inner) = (0..vertices.len()).find(|i| !is_corner(*i)) {
             return Err(HullError::NotConvex(inner));

@@ -15,6 +15,9 @@ const ONE_POINT: f64 = 1e-9;
 /// A cap faces along directions within 45° of its normal, beyond them the side of the cylinder does.
 const FACING: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
+/// Caps tilted by less (rad) bear on each other over an area; seen from one, the other's rim is a circle to 10⁻⁸.
+const COAXIAL: f64 = 1e-4;
+
 /// Points of a's and of b's core on one line along the axis, and what of either they are.
 pub struct Opposite {
     pub on_a: Vector3<f64>,
@@ -289,6 +292,9 @@ fn rim_crossings(
 
 /// What two caps have in common beyond the points of their rims: where the rims cross, and the middle of either arc.
 fn lens(a: &Disc, b: &Disc, n: &Vector3<f64>, slack_m: f64, visit: &mut impl FnMut(Opposite)) {
+    if a.normal.cross(&b.normal).norm() > COAXIAL {
+        return;
+    }
     let Some(centre_b) = projected(&b.centre, n, &a.normal, &a.centre) else { return };
     let apart = centre_b - a.centre;
     let d = apart.norm();

@@ -38,7 +38,7 @@ impl<'a> Placed<'a> {
             Solid::Sphere { .. } => Vector3::zeros(),
             Solid::Box { half_m } => half_m.zip_map(&own, f64::copysign),
             Solid::Cylinder { radius_m, half_height_m } => {
-                rim_directions(&own)[0] * *radius_m + Vector3::y() * half_height_m.copysign(own.y)
+                radial(&own) * *radius_m + Vector3::y() * half_height_m.copysign(own.y)
             }
             Solid::Capsule { half_height_m, .. } => Vector3::y() * half_height_m.copysign(own.y),
             Solid::Ellipsoid { semi_axes_m } => ellipsoid_support(semi_axes_m, &own),
@@ -185,6 +185,11 @@ impl<'a> Placed<'a> {
     pub fn rim(&self, along: &Vector3<f64>) -> [Vector3<f64>; 4] {
         rim_directions(&self.R.tr_mul(along)).map(|u| self.R * u)
     }
+}
+
+/// However little of `d` is radial, as separations are measured with it; x if nothing is.
+fn radial(d: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(d.x, 0.0, d.z).try_normalize(0.0).unwrap_or_else(Vector3::x)
 }
 
 fn first_farthest(vertices: &[Vector3<f64>], d: &Vector3<f64>) -> Vector3<f64> {

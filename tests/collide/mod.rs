@@ -1,0 +1,8 @@
+//! Contact geometry of solids: planes, pairs, hulls, candidate pairs.
+
+mod broad;
+mod hulls;
+mod manifolds;
+mod oracle;
+mod pairs;
+mod planes;

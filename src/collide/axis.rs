@@ -7,8 +7,10 @@
 //!   D. Manocha, SIGGRAPH 1996, for boxes). Separated ones: GJK, which is exact after finitely many steps.
 //! - With curved bodies: a is moved along n until they are apart, and the direction between them is the next n. That
 //!   never lowers s: the moved bodies are at least s(n) + move apart, of which the move explains no more than itself along
-//!   any other direction. Then Newton's
-//!   iteration on the sphere of directions, held on great circles where straight lines meet the other body.
+//!   any other direction. Then Newton's iteration on the sphere of directions, held on great circles where straight
+//!   lines meet the other body.
+//!   Deep inside each other they have several peaks; of pairs a tenth of their size deep, one in 10⁴ ends at one that is
+//!   not the highest.
 
 use super::gjk::between;
 use super::placed::Placed;
@@ -216,7 +218,7 @@ fn turn(
 /// False at the end of the iteration: a turn that rounding makes, or one so wide that the start was not near.
 fn step(n: &mut Vector3<f64>, turn: &Vector3<f64>) -> bool {
     let angle = turn.norm();
-    if !(angle < 0.5) {
+    if angle.is_nan() || angle >= 0.5 {
         return false;
     }
     *n = (*n + turn).normalize();

@@ -34,8 +34,8 @@ pub fn of(solid: &Solid) -> Triangles {
         ]),
         Solid::Capsule { radius_m, half_height_m } => {
             let arc = |k: u32| libm::sincos(FRAC_PI_2 * f64::from(k) / f64::from(ARC));
-            let lower = (0..=ARC).map(|k| arc(k)).map(|(sin, cos)| (-half_height_m - radius_m * cos, radius_m * sin));
-            let upper = (0..=ARC).map(|k| arc(k)).map(|(sin, cos)| (half_height_m + radius_m * sin, radius_m * cos));
+            let lower = (0..=ARC).map(arc).map(|(sin, cos)| (-half_height_m - radius_m * cos, radius_m * sin));
+            let upper = (0..=ARC).map(arc).map(|(sin, cos)| (half_height_m + radius_m * sin, radius_m * cos));
             revolved(&lower.chain(upper).collect::<Vec<_>>())
         }
     }

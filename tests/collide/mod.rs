@@ -6,3 +6,4 @@ mod manifolds;
 mod oracle;
 mod pairs;
 mod planes;
+mod resting;

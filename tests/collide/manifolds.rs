@@ -81,7 +81,6 @@ fn caps_sides_and_capsules_on_a_box_touch_in_all_points_that_hold_them() {
     let inner = over.iter().map(|touch| touch.p_W.x).fold(f64::INFINITY, f64::min);
     let outer: Vec<f64> = over.iter().filter(|touch| (touch.p_W.x - 0.5).abs() < 1e-12).map(|t| t.p_W.z).collect();
     assert!((inner - 0.1).abs() < 1e-12, "{over:?}");
-    // measured: ±0.282842712474619
     assert!(outer.len() == 2 && outer.iter().all(|z| (z.abs() - 0.08_f64.sqrt()).abs() < 1e-12), "{over:?}");
 }
 
@@ -105,7 +104,6 @@ fn a_cap_on_a_cap_touches_in_points_that_surround_the_common_part() {
     let offset = near(&coin, &at(Vector3::new(0.31, 0.2, 0.52)), &coin, &below);
     assert!(offset.len() >= 4);
     for touch in &offset {
-        // measured: 5.6e-17
         assert!(level_at(&coin, &below, &touch.p_W) < 1e-15, "{touch:?}");
     }
 }
@@ -131,7 +129,7 @@ fn edges_that_cross_touch_in_one_point_between_them() {
     let upper = Pose { p_W: Vector3::new(0.1, 2.0_f64.sqrt(), 0.2), q_W: edge_down };
     let touches = near(&cube, &upper, &cube, &lower);
     assert_eq!(steady_points(&cube, &upper, &cube, &lower), 1);
-    // Along z the lower edge, along x the upper one; measured: 1.6e-16 and 0
+    // Along z the lower edge, along x the upper one
     assert!((touches[0].p_W - Vector3::new(0.0, 0.5_f64.sqrt(), 0.2)).norm() < 1e-14, "{touches:?}");
     assert!((touches[0].normal - Vector3::y()).norm() < 1e-14);
 }

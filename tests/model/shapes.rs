@@ -53,7 +53,7 @@ fn closed_forms_are_the_sum_of_slices() {
     ];
     for (closed, sum) in rows {
         let closed = closed.with_mass(closed.volume_m3);
-        // measured: 1.5e-9 and 4.0e-9, the slices' error
+        // The slices' error.
         assert!((closed.mass_kg / sum.mass_kg - 1.0).abs() < 1e-8);
         assert!((closed.I_B - sum.I_B).abs().max() < 1e-8 * sum.I_B.trace());
     }
@@ -65,7 +65,6 @@ fn a_convex_box_is_the_box_and_its_centre_of_mass_is_found() {
     let corners = "[0, 0, 0], [1, 0, 0], [0, 2, 0], [1, 2, 0], [0, 0, 3], [1, 0, 3], [0, 2, 3], [1, 2, 3]";
     let convex = body(&format!("convex: {{ vertices_m: [{corners}] }}"), "");
     let closed = box_moments([1.0, 2.0, 3.0]).with_mass(18.0);
-    // measured: 3.6e-15 and 4.4e-16
     assert!((convex.I_B - closed.I_B).abs().max() < 1e-13 && (convex.mass_kg - 18.0).abs() < 1e-13);
     assert!((convex.p_BoBcm - Vector3::new(0.5, 1.0, 1.5)).norm() < 1e-14);
     let tet = body("convex: { vertices_m: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] }", "");
@@ -87,7 +86,6 @@ fn surfaces_are_those_of_the_textbook() {
         ("ellipsoid: { semi_axes_m: [2, 2, 2] }", 16.0 * PI),
         ("convex: { vertices_m: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] }", 1.5 + 0.75_f64.sqrt()),
     ] {
-        // measured: 4.4e-16
         assert!((surface(shape) / area - 1.0).abs() < 1e-13, "{shape}: {} {area}", surface(shape));
     }
 }
@@ -106,7 +104,7 @@ fn every_solid_has_a_closed_surface_around_its_volume() {
         let (points, triangles) = body.surface();
         let corners = |t: &[u32; 3]| t.map(|i| points[i as usize]);
         let volume: f64 = triangles.iter().map(corners).map(|[a, b, c]| a.cross(&b).dot(&c) / 6.0).sum();
-        // measured: 0.951 to 1: chords are inside
+        // Chords are inside.
         assert!((0.94..1.0 + 1e-12).contains(&(volume * 3.0 / body.mass_kg)), "{shape}: {volume} {}", body.mass_kg);
         assert!(points.iter().all(|p| p.norm() <= body.bounding_radius_m * (1.0 + 1e-12)));
         let mut edges: Vec<(u32, u32)> =

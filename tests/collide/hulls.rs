@@ -13,6 +13,7 @@ fn a_cubes_twelve_triangles_are_six_squares() {
         let hull = Hull::new(vertices).unwrap();
         assert_eq!((hull.faces.len(), hull.edge_directions.len()), (6, 3));
         assert!(hull.faces.iter().all(|face| face.corners.len() == 4));
+        // measured: 3.6e-15
         assert!((hull.area_m2() - 6.0).abs() < 1e-13);
     }
 }
@@ -29,6 +30,7 @@ fn random_points_of_a_sphere_are_a_closed_polyhedron() {
             let at = |i: usize| hull.vertices[face.corners[i] as usize];
             assert!((at(1) - at(0)).cross(&(at(2) - at(0))).dot(&face.normal) > 0.0);
             for v in &hull.vertices {
+                // measured: 2.2e-16
                 assert!(face.normal.dot(&(v - at(0))) < 1e-14);
             }
         }

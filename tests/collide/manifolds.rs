@@ -104,6 +104,7 @@ fn a_cap_on_a_cap_touches_in_points_that_surround_the_common_part() {
     let offset = near(&coin, &at(Vector3::new(0.31, 0.2, 0.52)), &coin, &below);
     assert!(offset.len() >= 4);
     for touch in &offset {
+        // measured: 0
         assert!(level_at(&coin, &below, &touch.p_W) < 1e-15, "{touch:?}");
     }
 }
@@ -129,7 +130,7 @@ fn edges_that_cross_touch_in_one_point_between_them() {
     let upper = Pose { p_W: Vector3::new(0.1, 2.0_f64.sqrt(), 0.2), q_W: edge_down };
     let touches = near(&cube, &upper, &cube, &lower);
     assert_eq!(steady_points(&cube, &upper, &cube, &lower), 1);
-    // Along z the lower edge, along x the upper one
+    // Along z the lower edge, along x the upper one; measured: 5.6e-17 and 0
     assert!((touches[0].p_W - Vector3::new(0.0, 0.5_f64.sqrt(), 0.2)).norm() < 1e-14, "{touches:?}");
     assert!((touches[0].normal - Vector3::y()).norm() < 1e-14);
 }

@@ -25,10 +25,11 @@ fn the_deepest_point_is_on_the_surface_and_as_deep_as_the_solid() {
             plane_touches(&solid, &pose, &normal, offset_m, 10.0, &mut touches);
             let deepest = touches.iter().min_by(|a, b| a.gap_m.total_cmp(&b.gap_m)).unwrap();
             let truth = -reach(&solid, &pose, &-normal) - offset_m;
+            // measured: 6.7e-16
             assert!((deepest.gap_m - truth).abs() < 1e-14, "{solid:?}");
             for touch in &touches {
                 let ends = [0.5, -0.5].map(|part| touch.p_W + normal * (part * touch.gap_m));
-                // No point of the solid's is outside of it
+                // No point of the solid's is outside of it; measured: 1.0e-15 and 1.4e-15
                 assert!(level_at(&solid, &pose, &ends[0]) < 1e-14, "{solid:?}");
                 assert!((normal.dot(&ends[1]) - offset_m).abs() < 1e-14, "{solid:?}");
             }
@@ -72,7 +73,7 @@ fn a_rolling_disk_touches_in_its_lowest_point() {
         let touches = on_floor(&disk, &standing(&disk, q_W), 1e-6);
         assert_eq!(touches.len(), 1);
         assert!(touches[0].feature == (0, 0) || touches[0].feature == (4, 0));
-        // The same point of space, however far it has turned
+        // The same point of space, however far it has turned; measured: 5.6e-17
         assert!(touches[0].p_W.x.abs() < 1e-14);
     }
 }

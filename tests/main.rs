@@ -2,6 +2,7 @@
 //!
 //! - `experiment/`: what a file, a `--set` and an axis mean, and what is said when they mean nothing
 //! - `model/`: meshes, mass properties, containers, start states
+//! - `collide/`: contact points of solids with planes and with each other, candidate pairs
 //! - `methods/`: each method against its own recurrence, the exact motion, its conserved quantities
 //! - `exact/`: closed forms against 40-digit references
 //! - `measure/`: columns that `measure:` adds, against another way to their numbers
@@ -22,6 +23,7 @@ mod allocation;
 mod bench;
 mod check;
 mod cli;
+mod collide;
 mod configs;
 mod counters;
 mod exact;

@@ -63,9 +63,13 @@ const METHODS: [Line; 4] = [
     ),
 ];
 
-const SHAPES: [Line; 3] = [
+const SHAPES: [Line; 7] = [
     ("box", "size_m: [x, y, z]; mesh: { nodes_per_edge: n | [nx, ny, nz] }", "touches with corners, or mesh nodes", ""),
     ("sphere", "radius_m; mesh: { subdivisions: k }", "touches with its surface, or mesh nodes", ""),
+    ("cylinder", "radius_m; height_m", "axis y; touches with its rims and caps", ""),
+    ("capsule", "radius_m; height_m (between the centres of its spheres)", "axis y; touches with its surface", ""),
+    ("ellipsoid", "semi_axes_m: [x, y, z]", "touches with its surface", ""),
+    ("convex", "vertices_m: [[x, y, z], ...], corners of the hull", "polyhedron; touches with its vertices", ""),
     ("none", "", "a point with mass and inertia, without contact", ""),
 ];
 

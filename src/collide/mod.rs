@@ -3,7 +3,16 @@
 //! A node is in contact when n·(u_c − u_p) < margin. Contacts come in a stable order: body, face, node. A face farther
 //! from the centre of mass than the bounding radius is skipped with one dot product.
 
+mod axis;
+pub mod broad;
+pub mod closest;
+mod gjk;
+pub mod hull;
+mod manifold;
+pub mod pair;
+mod placed;
 pub mod reduce;
+pub mod solid;
 
 use crate::measure::work::Work;
 use crate::model::container::Face;
@@ -149,6 +158,14 @@ fn each_gap(
             let gap = centre_gap + face.normal.dot(&(at.q_WB * centre)) - radius_m;
             visit(0, *centre, -face.normal * *radius_m, gap);
             1
+        }
+        Geometry::Solid { solid, centre } => {
+            let normal_B = at.q_WB.inverse_transform_vector(&face.normal);
+            solid.each_lowest(&normal_B, |feature, point| {
+                let u = centre + point;
+                visit(feature, u, Vector3::zeros(), centre_gap + normal_B.dot(&u));
+            });
+            solid.lowest_points() as u64
         }
     }
 }

@@ -8,7 +8,7 @@ const LATER: &[(&str, &[&str])] = &[
     ("Pair", &["tangential_restitution"]),
     ("Container", &["mesh"]),
     ("Body", &["copies"]),
-    ("Shape", &["cylinder", "capsule", "ellipsoid", "convex", "mesh"]),
+    ("Shape", &["mesh"]),
     ("Method", &["event-driven", "auto"]),
     ("Scheme", &["moreau"]),
     ("Impact", &["poisson", "sequential"]),

@@ -8,6 +8,7 @@ pub use super::accuracy::Accuracy;
 pub use super::loads::*;
 pub use super::method::*;
 use super::search::SearchText;
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// One resolved experiment: no axes left in it, every default filled in.
@@ -186,6 +187,10 @@ impl Body {
 pub enum Shape {
     Sphere(Sphere),
     Box(BoxShape),
+    Cylinder(Cylinder),
+    Capsule(Capsule),
+    Ellipsoid(Ellipsoid),
+    Convex(Convex),
     /// A point with mass and inertia, without contact.
     None,
 }
@@ -201,6 +206,42 @@ pub struct Sphere {
 #[serde(deny_unknown_fields)]
 pub struct BoxShape {
     pub size_m: [f64; 3],
+}
+
+/// Its axis is y.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cylinder {
+    pub radius_m: f64,
+    pub height_m: f64,
+}
+
+/// Its axis is y. `height_m` is between the centres of its two spheres, as a rod's length is: it measures
+/// `height_m` + 2 `radius_m` from end to end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Capsule {
+    pub radius_m: f64,
+    pub height_m: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ellipsoid {
+    pub semi_axes_m: [f64; 3],
+}
+
+/// The convex hull of its vertices, all of which are corners of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Convex {
+    pub vertices_m: Vec<[f64; 3]>,
+}
+
+impl Convex {
+    pub fn vertices(&self) -> Vec<Vector3<f64>> {
+        self.vertices_m.iter().map(|v| Vector3::from(*v)).collect()
+    }
 }
 
 /// Resolution of the volume mesh: `nodes_per_edge` for a box, `subdivisions` for a sphere.

@@ -2,9 +2,10 @@
 
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
-use super::types::{Body, BoxShape, Inertia, InertiaFrom, MeshSpec, NodesPerEdge, Orientation, Shape};
+use super::types::{Body, BoxShape, Convex, Inertia, InertiaFrom, MeshSpec, NodesPerEdge, Orientation, Shape};
 use super::validate::{CONTAINER, Result, a_part, direction, not_negative, positive, sizes, unexpected};
 use super::validate_loads::validate_driven;
+use crate::collide::hull::{Hull, HullError, MOST_VERTICES};
 use nalgebra::Matrix3;
 
 /// Six levels make 40,962 surface nodes, seven 163,842: finer spheres only fill the memory.
@@ -48,7 +49,29 @@ fn validate_shape(shape: &Shape, at: Path) -> Result<()> {
     match shape {
         Shape::Sphere(sphere) => positive(sphere.radius_m, at.key("sphere").key("radius_m")),
         Shape::Box(box_) => sizes(&box_.size_m, at.key("box").key("size_m")),
+        Shape::Cylinder(cylinder) => round(cylinder.radius_m, cylinder.height_m, at.key("cylinder")),
+        Shape::Capsule(capsule) => round(capsule.radius_m, capsule.height_m, at.key("capsule")),
+        Shape::Ellipsoid(ellipsoid) => sizes(&ellipsoid.semi_axes_m, at.key("ellipsoid").key("semi_axes_m")),
+        Shape::Convex(convex) => validate_hull(convex, at.key("convex").key("vertices_m")),
         Shape::None => Ok(()),
+    }
+}
+
+fn round(radius_m: f64, height_m: f64, at: Path) -> Result<()> {
+    positive(radius_m, at.key("radius_m"))?;
+    positive(height_m, at.key("height_m"))
+}
+
+fn validate_hull(convex: &Convex, at: Path) -> Result<()> {
+    let Err(wrong) = Hull::new(convex.vertices()) else { return Ok(()) };
+    match wrong {
+        HullError::Few(_) => Err(unexpected(at, "at least 4 vertices", &wrong.to_string())),
+        HullError::Many(_) => Err(unexpected(at, &format!("at most {MOST_VERTICES} vertices"), &wrong.to_string())),
+        HullError::Flat => Err(unexpected(at, "vertices that span a volume", "all of them in one plane")),
+        HullError::NotConvex(vertex) => {
+            let found = "a vertex inside the others' hull, on one of its edges or faces, or given twice";
+            Err(unexpected(at.item(vertex, None), "a corner of the convex hull", found))
+        }
     }
 }
 
@@ -59,6 +82,9 @@ fn validate_mesh(body: &Body, at: Path) -> Result<()> {
     let (nodes, levels) = (at.key("nodes_per_edge"), at.key("subdivisions"));
     match (&body.shape, nodes_per_edge, subdivisions) {
         (Shape::None, ..) => Err(unexpected(at, "no mesh, as the shape is `none`", "one")),
+        (Shape::Cylinder(_) | Shape::Capsule(_) | Shape::Ellipsoid(_) | Shape::Convex(_), ..) => {
+            Err(unexpected(at, "no mesh, as only a `box` and a `sphere` can have one", "one"))
+        }
         (Shape::Box(_), _, Some(_)) => Err(unexpected(levels, "`nodes_per_edge` for a box", "`subdivisions`")),
         (Shape::Sphere(_), Some(_), _) => Err(unexpected(nodes, "`subdivisions` for a sphere", "`nodes_per_edge`")),
         (Shape::Box(_), None, None) => Err(ExperimentError::missing(nodes.to_key_path(), "the nodes along an edge")),

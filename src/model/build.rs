@@ -1,15 +1,21 @@
 //! From one resolved experiment to its constant `Model` and first `State`.
 
+use super::area::surface_m2;
 use super::container::{Container, Face};
 use super::loads::{AppliedForce, Drag};
-use super::mass::{MassProperties, Moments, box_moments, exact, lumped, sphere_moments};
-use super::mesh::{TetMesh, box_counts, box_mesh, sphere_mesh};
+use super::mass::{
+    MassProperties, Moments, box_moments, capsule_moments, cylinder_moments, ellipsoid_moments, exact, lumped,
+    sphere_moments,
+};
+use super::mesh::{TetMesh, box_counts, box_mesh, hull_mesh, sphere_mesh};
 use super::pins::build_pins;
 use super::place::{Landing, MOST_DRAWS};
 use super::random::Draws;
 use super::surface::{Pair, Surface};
 use super::{Body, Geometry, Model};
 use crate::collide;
+use crate::collide::hull::Hull;
+use crate::collide::solid::Solid;
 use crate::experiment::types as file;
 use crate::state::{BodyState, State};
 use nalgebra::{Matrix3, Quaternion, Unit, UnitQuaternion, Vector3};
@@ -32,7 +38,7 @@ pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError
     let mut states = Vec::with_capacity(scene.bodies.len());
     let mut depths_m = Vec::with_capacity(scene.bodies.len());
     for described in &scene.bodies {
-        let body = build_body(described, scene);
+        let body = build_body(described, scene)?;
         let (state, depth_m) = first_state(described, &body, experiment, landing.as_ref())?;
         states.push(state);
         depths_m.push(depth_m);
@@ -93,32 +99,27 @@ fn build_force(force: &file::Force, bodies: &[Body]) -> AppliedForce {
     }
 }
 
-fn build_drag(air: &file::Air, shape: &file::Shape) -> Drag {
-    let surface_m2 = match shape {
-        file::Shape::Sphere(s) => 4.0 * std::f64::consts::PI * s.radius_m * s.radius_m,
-        file::Shape::Box(b) => {
-            let [x, y, z] = b.size_m;
-            2.0 * (x * y + y * z + z * x)
-        }
-        file::Shape::None => 0.0,
-    };
+fn build_drag(air: &file::Air, shape: &file::Shape, hull: Option<&Hull>) -> Drag {
     Drag {
         linear_n_s_m: air.linear_drag_n_s_m,
-        quadratic_n_s2_m2: 0.5 * air.density_kg_m3 * air.drag_coefficient * surface_m2 / 4.0,
+        quadratic_n_s2_m2: 0.5 * air.density_kg_m3 * air.drag_coefficient * surface_m2(shape, hull) / 4.0,
     }
 }
 
-fn build_body(described: &file::Body, scene: &file::Scene) -> Body {
+fn build_body(described: &file::Body, scene: &file::Scene) -> Result<Body, BuildError> {
     let mesh = described.mesh.as_ref().and_then(|spec| volume_mesh(&described.shape, spec));
-    let mass = mass_properties(described, mesh.as_ref());
-    let geometry = geometry(&described.shape, mesh, &mass.p_BoBcm);
+    let hull = build_hull(described)?;
+    let drag = scene.air.map_or_else(Drag::default, |air| build_drag(&air, &described.shape, hull.as_ref()));
+    let mass = mass_properties(described, mesh.as_ref(), hull.as_ref());
+    let geometry = geometry(&described.shape, mesh, hull, &mass.p_BoBcm);
     let bounding_radius_m = match &geometry {
         Geometry::None => 0.0,
         Geometry::Mesh { nodes, .. } | Geometry::Corners(nodes) => nodes.iter().map(|u| u.norm()).fold(0.0, f64::max),
         Geometry::Sphere { centre, radius_m } => centre.norm() + radius_m,
+        Geometry::Solid { solid, centre } => centre.norm() + solid.bounding_radius_m(),
     };
     let I_B = snapped(mass.I_B);
-    Body {
+    Ok(Body {
         name: described.name.clone(),
         mass_kg: mass.mass_kg,
         I_B,
@@ -132,9 +133,18 @@ fn build_body(described: &file::Body, scene: &file::Scene) -> Body {
             friction: described.friction.unwrap_or(scene.friction),
             restitution: described.restitution.unwrap_or(scene.restitution),
         },
-        drag: scene.air.map_or_else(Drag::default, |air| build_drag(&air, &described.shape)),
+        drag,
         driven: described.is_driven(),
-    }
+    })
+}
+
+fn build_hull(described: &file::Body) -> Result<Option<Hull>, BuildError> {
+    let file::Shape::Convex(convex) = &described.shape else { return Ok(None) };
+    Hull::new(convex.vertices()).map(Some).map_err(|wrong| BuildError {
+        path: format!("scene.bodies.{}.shape.convex.vertices_m", described.name),
+        expected: "corners of a convex hull".into(),
+        found: wrong.to_string(),
+    })
 }
 
 fn volume_mesh(shape: &file::Shape, spec: &file::MeshSpec) -> Option<TetMesh> {
@@ -144,22 +154,34 @@ fn volume_mesh(shape: &file::Shape, spec: &file::MeshSpec) -> Option<TetMesh> {
             file::NodesPerEdge::Each(counts) => box_mesh(b.size_m, counts),
         }),
         file::Shape::Sphere(s) => spec.subdivisions.map(|k| sphere_mesh(s.radius_m, k)),
-        file::Shape::None => None,
+        _ => None,
     }
 }
 
-fn geometry(shape: &file::Shape, mesh: Option<TetMesh>, p_BoBcm: &Vector3<f64>) -> Geometry {
+fn geometry(shape: &file::Shape, mesh: Option<TetMesh>, hull: Option<Hull>, p_BoBcm: &Vector3<f64>) -> Geometry {
+    let about = |solid: Solid| Geometry::Solid { solid, centre: -p_BoBcm };
     let about_centre = |nodes: &[Vector3<f64>]| nodes.iter().map(|u| u - p_BoBcm).collect();
     match (shape, mesh) {
         (_, Some(mesh)) => Geometry::Mesh { nodes: about_centre(&mesh.nodes), mesh },
         (file::Shape::Box(b), None) => Geometry::Corners(about_centre(&box_mesh(b.size_m, [2; 3]).nodes)),
         (file::Shape::Sphere(s), None) => Geometry::Sphere { centre: -p_BoBcm, radius_m: s.radius_m },
+        (file::Shape::Cylinder(c), None) => {
+            about(Solid::Cylinder { radius_m: c.radius_m, half_height_m: c.height_m / 2.0 })
+        }
+        (file::Shape::Capsule(c), None) => {
+            about(Solid::Capsule { radius_m: c.radius_m, half_height_m: c.height_m / 2.0 })
+        }
+        (file::Shape::Ellipsoid(e), None) => about(Solid::Ellipsoid { semi_axes_m: e.semi_axes_m.into() }),
+        (file::Shape::Convex(_), None) => hull.map_or(Geometry::None, |mut hull| {
+            hull.vertices.iter_mut().for_each(|v| *v -= p_BoBcm);
+            Geometry::Solid { solid: Solid::Convex(hull), centre: Vector3::zeros() }
+        }),
         (file::Shape::None, None) => Geometry::None,
     }
 }
 
-fn mass_properties(described: &file::Body, mesh: Option<&TetMesh>) -> MassProperties {
-    let moments = shape_moments(described, mesh);
+fn mass_properties(described: &file::Body, mesh: Option<&TetMesh>, hull: Option<&Hull>) -> MassProperties {
+    let moments = shape_moments(described, mesh, hull);
     let volume_m3 = moments.as_ref().map_or(0.0, |m| m.volume_m3);
     let mass_kg = described.mass_kg.unwrap_or_else(|| described.density_kg_m3.unwrap_or(0.0) * volume_m3);
     let mut mass = match moments {
@@ -181,7 +203,7 @@ fn mass_properties(described: &file::Body, mesh: Option<&TetMesh>) -> MassProper
     mass
 }
 
-fn shape_moments(described: &file::Body, mesh: Option<&TetMesh>) -> Option<Moments> {
+fn shape_moments(described: &file::Body, mesh: Option<&TetMesh>, hull: Option<&Hull>) -> Option<Moments> {
     match (mesh, &described.shape) {
         (Some(mesh), _) => Some(match described.inertia_from {
             file::InertiaFrom::Exact => exact(mesh),
@@ -189,6 +211,10 @@ fn shape_moments(described: &file::Body, mesh: Option<&TetMesh>) -> Option<Momen
         }),
         (None, file::Shape::Box(b)) => Some(box_moments(b.size_m)),
         (None, file::Shape::Sphere(s)) => Some(sphere_moments(s.radius_m)),
+        (None, file::Shape::Cylinder(c)) => Some(cylinder_moments(c.radius_m, c.height_m)),
+        (None, file::Shape::Capsule(c)) => Some(capsule_moments(c.radius_m, c.height_m)),
+        (None, file::Shape::Ellipsoid(e)) => Some(ellipsoid_moments(e.semi_axes_m)),
+        (None, file::Shape::Convex(_)) => hull.map(|hull| exact(&hull_mesh(hull))),
         (None, file::Shape::None) => None,
     }
 }

@@ -73,12 +73,38 @@ pub fn box_moments(size_m: [f64; 3]) -> Moments {
     }
 }
 
+/// Closed form: a cylinder about its centre, its axis y.
+pub fn cylinder_moments(radius_m: f64, height_m: f64) -> Moments {
+    let square = radius_m * radius_m;
+    let volume_m3 = std::f64::consts::PI * square * height_m;
+    let across = square / 4.0;
+    about_centre(volume_m3, Vector3::new(across, height_m * height_m / 12.0, across) * volume_m3)
+}
+
+/// Closed form: a cylinder, its axis y, between two half balls; `height_m` between their centres.
+pub fn capsule_moments(radius_m: f64, height_m: f64) -> Moments {
+    let (middle, ball) = (cylinder_moments(radius_m, height_m), sphere_moments(radius_m));
+    let half_m = height_m / 2.0;
+    let fourth = radius_m * radius_m * radius_m * radius_m;
+    // Of each half ball ∫(y + half)² dV with ∫y dV = π r⁴/4.
+    let moved = std::f64::consts::PI * fourth * half_m + ball.volume_m3 * half_m * half_m;
+    let second = middle.second.diagonal() + ball.second.diagonal() + Vector3::y() * moved;
+    about_centre(middle.volume_m3 + ball.volume_m3, second)
+}
+
+/// Closed form: an ellipsoid about its centre.
+pub fn ellipsoid_moments(semi_axes_m: [f64; 3]) -> Moments {
+    let axes = Vector3::from(semi_axes_m);
+    let volume_m3 = 4.0 / 3.0 * std::f64::consts::PI * axes.product();
+    about_centre(volume_m3, axes.component_mul(&axes) * (volume_m3 / 5.0))
+}
+
+fn about_centre(volume_m3: f64, second: Vector3<f64>) -> Moments {
+    Moments { volume_m3, first: Vector3::zeros(), second: Matrix3::from_diagonal(&second) }
+}
+
 /// Closed form: a ball about its centre.
 pub fn sphere_moments(radius_m: f64) -> Moments {
     let volume_m3 = 4.0 / 3.0 * std::f64::consts::PI * radius_m * radius_m * radius_m;
-    Moments {
-        volume_m3,
-        first: Vector3::zeros(),
-        second: Matrix3::identity() * (volume_m3 * radius_m * radius_m / 5.0),
-    }
+    about_centre(volume_m3, Vector3::repeat(volume_m3 * radius_m * radius_m / 5.0))
 }

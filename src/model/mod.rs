@@ -4,6 +4,7 @@
 //! Frames (L7): W is the world (the lecture's Σ), B the body's axes with the centre of mass as origin (ᴳΣ in body axes);
 //! Bo is the origin of the body frame as the experiment file places it (ᴼΣ).
 
+mod area;
 mod build;
 pub mod container;
 pub mod loads;
@@ -13,9 +14,11 @@ pub mod pins;
 mod place;
 pub mod random;
 pub mod surface;
+mod triangles;
 
 pub use build::{BuildError, build};
 
+use crate::collide::solid::Solid;
 use crate::state::BodyState;
 use container::Container;
 use loads::{AppliedForce, Drag};
@@ -82,6 +85,11 @@ pub enum Geometry {
         centre: Vector3<f64>,
         radius_m: f64,
     },
+    /// Any other analytic shape; its axes are the body's.
+    Solid {
+        solid: Solid,
+        centre: Vector3<f64>,
+    },
 }
 
 impl Geometry {
@@ -91,6 +99,7 @@ impl Geometry {
             Geometry::None => 0,
             Geometry::Mesh { nodes, .. } | Geometry::Corners(nodes) => nodes.len(),
             Geometry::Sphere { .. } => 1,
+            Geometry::Solid { solid, .. } => solid.lowest_points(),
         }
     }
 }
@@ -135,6 +144,10 @@ impl Body {
             Geometry::Sphere { centre, radius_m } => {
                 let ball = mesh::sphere_mesh(*radius_m, 2);
                 (ball.nodes.iter().map(|u| u + centre).collect(), ball.surface())
+            }
+            Geometry::Solid { solid, centre } => {
+                let (points, triangles) = triangles::of(solid);
+                (points.iter().map(|u| u + centre).collect(), triangles)
             }
         }
     }

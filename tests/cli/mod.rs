@@ -194,5 +194,5 @@ fn list_names_every_method_and_shape_that_can_be_written() {
     let known = |set: &str| run(&["run", "configs/lecture/demo.yaml", "--set", set]).2;
     let (methods, shapes) = (known("method=nonsense"), known("scene.bodies.cube.shape=nonsense"));
     assert!(names("methods").iter().all(|name| methods.contains(name.as_str())) && names("methods").len() == 4);
-    assert!(names("shapes").iter().all(|name| shapes.contains(name.as_str())) && names("shapes").len() == 3);
+    assert!(names("shapes").iter().all(|name| shapes.contains(name.as_str())) && names("shapes").len() == 7);
 }

@@ -4,4 +4,5 @@ mod at_contact;
 mod container;
 mod mass;
 mod mesh;
+mod shapes;
 mod start;

@@ -1,0 +1,204 @@
+//! A solid in the world, as support functions see it: a core, and a ball of some radius that is rolled around it.
+//!
+//! The core of a sphere is its centre, of a capsule the segment between the centres of its spheres; all others are their
+//! own core. Positions are relative to a point near both bodies, so that far from the world's origin nothing is lost.
+
+use super::solid::{Pose, Solid, corner, ellipsoid_support, rim_directions};
+use nalgebra::{Matrix3, Vector3};
+
+pub struct Placed<'a> {
+    pub solid: &'a Solid,
+    pub p: Vector3<f64>,
+    R: Matrix3<f64>,
+}
+
+/// Corners of a box's faces −x, x, −y, y, −z, z, counter-clockwise seen from outside.
+const BOX_FACES: [[u32; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+
+/// Parallel within this angle (rad).
+pub const PARALLEL: f64 = 1e-7;
+
+impl<'a> Placed<'a> {
+    pub fn new(solid: &'a Solid, pose: &Pose, origin_W: &Vector3<f64>) -> Self {
+        Placed { solid, p: pose.p_W - origin_W, R: pose.q_W.to_rotation_matrix().into_inner() }
+    }
+
+    /// Of the ball around the core.
+    pub fn radius_m(&self) -> f64 {
+        match self.solid {
+            Solid::Sphere { radius_m } | Solid::Capsule { radius_m, .. } => *radius_m,
+            _ => 0.0,
+        }
+    }
+
+    /// The core's point farthest along `d`.
+    pub fn support(&self, d: &Vector3<f64>) -> Vector3<f64> {
+        let own = self.R.tr_mul(d);
+        let point = match self.solid {
+            Solid::Sphere { .. } => Vector3::zeros(),
+            Solid::Box { half_m } => half_m.zip_map(&own, f64::copysign),
+            Solid::Cylinder { radius_m, half_height_m } => {
+                radial(&own) * *radius_m + Vector3::y() * half_height_m.copysign(own.y)
+            }
+            Solid::Capsule { half_height_m, .. } => Vector3::y() * half_height_m.copysign(own.y),
+            Solid::Ellipsoid { semi_axes_m } => ellipsoid_support(semi_axes_m, &own),
+            Solid::Convex(hull) => first_farthest(&hull.vertices, &own),
+        };
+        self.p + self.R * point
+    }
+
+    /// Second derivative of the core's support function h(d) at a unit d, where it has one: 0 at a vertex.
+    pub fn curvature(&self, d: &Vector3<f64>) -> Matrix3<f64> {
+        let own = self.R.tr_mul(d);
+        let curvature = match self.solid {
+            Solid::Cylinder { radius_m, .. } => {
+                let radial = Vector3::new(own.x, 0.0, own.z);
+                let along = Matrix3::from_diagonal(&Vector3::new(1.0, 0.0, 1.0));
+                (along - radial * radial.transpose() / radial.norm_squared()) * (*radius_m / radial.norm())
+            }
+            Solid::Ellipsoid { semi_axes_m } => {
+                let squares = semi_axes_m.component_mul(semi_axes_m);
+                let (h, point) = (semi_axes_m.component_mul(&own).norm(), squares.component_mul(&own));
+                Matrix3::from_diagonal(&(squares / h)) - point * point.transpose() / (h * h * h)
+            }
+            _ => return Matrix3::zeros(),
+        };
+        self.R * curvature * self.R.transpose()
+    }
+
+    /// Whether the core is the hull of finitely many vertices.
+    pub fn is_polytope(&self) -> bool {
+        !matches!(self.solid, Solid::Cylinder { .. } | Solid::Ellipsoid { .. })
+    }
+
+    pub fn vertices(&self) -> u32 {
+        match self.solid {
+            Solid::Sphere { .. } => 1,
+            Solid::Capsule { .. } => 2,
+            Solid::Box { .. } => 8,
+            Solid::Convex(hull) => hull.vertices.len() as u32,
+            Solid::Cylinder { .. } | Solid::Ellipsoid { .. } => 0,
+        }
+    }
+
+    pub fn vertex(&self, number: u32) -> Vector3<f64> {
+        let own = match self.solid {
+            Solid::Box { half_m } => corner(half_m, number),
+            Solid::Capsule { half_height_m, .. } => {
+                Vector3::y() * if number == 0 { -half_height_m } else { *half_height_m }
+            }
+            Solid::Convex(hull) => hull.vertices[number as usize],
+            _ => Vector3::zeros(),
+        };
+        self.p + self.R * own
+    }
+
+    /// Polygons, or the two caps of a cylinder, −y first.
+    pub fn faces(&self) -> u32 {
+        match self.solid {
+            Solid::Box { .. } => 6,
+            Solid::Cylinder { .. } => 2,
+            Solid::Convex(hull) => hull.faces.len() as u32,
+            _ => 0,
+        }
+    }
+
+    /// Outward, unit.
+    pub fn face_normal(&self, face: u32) -> Vector3<f64> {
+        let sign = if face & 1 == 0 { -1.0 } else { 1.0 };
+        match self.solid {
+            Solid::Box { .. } => self.R.column(face as usize / 2) * sign,
+            Solid::Cylinder { .. } => self.R.column(1) * sign,
+            Solid::Convex(hull) => self.R * hull.faces[face as usize].normal,
+            _ => Vector3::zeros(),
+        }
+    }
+
+    /// Vertices around a face; none of a cap.
+    pub fn face_corners(&self, face: u32) -> &'a [u32] {
+        match self.solid {
+            Solid::Box { .. } => &BOX_FACES[face as usize],
+            Solid::Convex(hull) => &hull.faces[face as usize].corners,
+            _ => &[],
+        }
+    }
+
+    /// Directions of straight lines on the surface: edges, and a cylinder's and a capsule's generators.
+    pub fn lines(&self) -> usize {
+        match self.solid {
+            Solid::Box { .. } => 3,
+            Solid::Cylinder { .. } | Solid::Capsule { .. } => 1,
+            Solid::Convex(hull) => hull.edge_directions.len(),
+            Solid::Sphere { .. } | Solid::Ellipsoid { .. } => 0,
+        }
+    }
+
+    pub fn line(&self, number: usize) -> Vector3<f64> {
+        match self.solid {
+            Solid::Box { .. } => self.R.column(number).into(),
+            Solid::Convex(hull) => self.R * hull.edge_directions[number],
+            _ => self.axis(),
+        }
+    }
+
+    /// The body's y axis.
+    pub fn axis(&self) -> Vector3<f64> {
+        self.R.column(1).into()
+    }
+
+    /// The body's axes.
+    pub fn axes(&self) -> [Vector3<f64>; 3] {
+        [0, 1, 2].map(|i| self.R.column(i).into())
+    }
+
+    /// Ends of the edge or generator that is farthest along `d`, with their numbers: twice the same point where the
+    /// support is one. A vertex belongs to it that is less far by at most `slack_m`.
+    pub fn support_line(&self, d: &Vector3<f64>, slack_m: f64) -> [(u32, Vector3<f64>); 2] {
+        match self.solid {
+            Solid::Cylinder { radius_m, half_height_m } if d.dot(&self.axis()).abs() < PARALLEL => {
+                let side = self.p + self.R * (rim_directions(&self.R.tr_mul(d))[0] * *radius_m);
+                let half = self.axis() * *half_height_m;
+                [(0, side - half), (1, side + half)]
+            }
+            _ if !self.is_polytope() => [(0, self.support(d)); 2],
+            _ => {
+                let farthest = (0..self.vertices()).map(|i| d.dot(&self.vertex(i))).fold(f64::NEG_INFINITY, f64::max);
+                let mut on = (0..self.vertices()).filter(|i| farthest - d.dot(&self.vertex(*i)) <= slack_m);
+                let first = on.next().unwrap_or_default();
+                let second = on.next().unwrap_or(first);
+                [(first, self.vertex(first)), (second, self.vertex(second))]
+            }
+        }
+    }
+
+    /// Centre of a cap and its radius.
+    pub fn cap(&self, face: u32) -> (Vector3<f64>, f64) {
+        match self.solid {
+            Solid::Cylinder { radius_m, half_height_m } => {
+                (self.p + self.face_normal(face) * *half_height_m, *radius_m)
+            }
+            _ => (self.p, 0.0),
+        }
+    }
+
+    /// Four directions from a cap's centre to its rim, the one nearest to `along` first.
+    pub fn rim(&self, along: &Vector3<f64>) -> [Vector3<f64>; 4] {
+        rim_directions(&self.R.tr_mul(along)).map(|u| self.R * u)
+    }
+}
+
+/// However little of `d` is radial, as separations are measured with it; x if nothing is.
+fn radial(d: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(d.x, 0.0, d.z).try_normalize(0.0).unwrap_or_else(Vector3::x)
+}
+
+fn first_farthest(vertices: &[Vector3<f64>], d: &Vector3<f64>) -> Vector3<f64> {
+    let mut farthest = (f64::NEG_INFINITY, Vector3::zeros());
+    for vertex in vertices {
+        let along = d.dot(vertex);
+        if along > farthest.0 {
+            farthest = (along, *vertex);
+        }
+    }
+    farthest.1
+}

@@ -1,0 +1,9 @@
+//! Contact geometry of solids: planes, pairs, hulls, candidate pairs.
+
+mod broad;
+mod hulls;
+mod manifolds;
+mod oracle;
+mod pairs;
+mod planes;
+mod resting;

@@ -2,6 +2,7 @@
 //!
 //! A skip follows from a property that is checked, never from one mesh or scene, and changes no bit of the motion.
 
+use crate::collide::approach::Approach;
 use crate::experiment::types::Method;
 use crate::model::Model;
 
@@ -14,6 +15,8 @@ pub struct Plan {
     pub constraint: bool,
     /// Tangent rows are solved.
     pub friction: bool,
+    /// How it steps through a contact.
+    pub approach: Approach,
     pub stages: Vec<Stage>,
 }
 
@@ -39,7 +42,7 @@ impl Plan {
             pins(model),
         ];
         let constraint = has_contact && !matches!(method, Method::Penalty(_));
-        Plan { contact: has_contact, constraint, friction: has_friction, stages }
+        Plan { contact: has_contact, constraint, friction: has_friction, approach: Approach::of(method), stages }
     }
 }
 
@@ -49,20 +52,20 @@ fn stage(name: &'static str, runs: bool, why: impl Into<String>) -> Stage {
 
 fn contact(model: &Model, method: &Method) -> Stage {
     let name = "contact test";
-    let touching = model.bodies.iter().filter(|b| b.touches()).count();
-    match (&model.container, method) {
-        (_, Method::Free(_)) => stage(name, false, "`free` is motion without contact"),
-        (None, _) => stage(name, false, "no container: nothing to hit"),
-        (_, _) if touching == 0 => stage(name, false, "no body has a shape"),
-        (Some(container), _) => {
-            let points: usize = model.bodies.iter().map(|body| body.geometry.points()).sum();
-            let faces = container.faces.len();
-            stage(
-                name,
-                true,
-                format!("{points} points, {faces} faces; a face beyond the bounding radius costs one dot product"),
-            )
-        }
+    let feeling = model.bodies.iter().filter(|body| body.feels_container());
+    let points: usize = feeling.map(|body| body.geometry.points()).sum();
+    let solids = model.bodies.iter().filter(|body| body.solid().is_some()).count();
+    let faces = model.container.as_ref().map_or(0, |container| container.faces.len());
+    let with_faces =
+        || format!("{points} points, {faces} faces; a face beyond the bounding radius costs one dot product");
+    let with_others = || format!("{solids} bodies, of which only those with overlapping bounds are compared");
+    match (faces > 0 && points > 0, model.touching_pairs) {
+        _ if matches!(method, Method::Free(_)) => stage(name, false, "`free` is motion without contact"),
+        (false, false) if faces == 0 && points > 0 => stage(name, false, "no container: nothing to hit"),
+        (false, false) => stage(name, false, "no body has a shape"),
+        (true, false) => stage(name, true, with_faces()),
+        (false, true) => stage(name, true, with_others()),
+        (true, true) => stage(name, true, format!("{}; {}", with_faces(), with_others())),
     }
 }
 
@@ -102,7 +105,7 @@ fn position_correction(method: &Method, contact: bool) -> Stage {
     match method {
         _ if !contact => stage(name, false, "no contact test"),
         Method::TimeStepping(s) if s.position_correction == Projection => {
-            stage(name, true, "only in steps with a contact deeper than the slop")
+            stage(name, true, "only in steps that would end with a contact inside")
         }
         Method::TimeStepping(_) => stage(name, false, "position_correction: none"),
         _ => stage(name, false, "the method has none"),

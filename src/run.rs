@@ -49,7 +49,12 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
             state.copy_from(&before);
             Some((Outcome::Stalled, Criterion::NotConverged))
         } else {
-            let diverged = judge.observe(model, &before, &state, stepper.contacts(), clock.step_s);
+            let diverged = judge.observe(
+                model,
+                [&before, stepper.kicked().unwrap_or(&before), &state],
+                stepper.contacts(),
+                clock.step_s,
+            );
             diverged.map(|criterion| (Outcome::Diverged, criterion))
         };
         if let Some(sampler) = &mut sampler {

@@ -53,7 +53,7 @@ fn allocations(sets: &[&str]) -> (u64, u64) {
     while state.step < clock.steps {
         before.copy_from(&state);
         stepper.step(&model, &mut state, &clock);
-        judge.observe(&model, &before, &state, stepper.contacts(), clock.step_s);
+        judge.observe(&model, [&before, &before, &state], stepper.contacts(), clock.step_s);
     }
     (ALLOCATIONS.get() - counted, stepper.work().contacts)
 }

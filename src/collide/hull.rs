@@ -64,6 +64,21 @@ impl Hull {
         Ok(Hull { vertices, faces, edge_directions })
     }
 
+    /// From triangles that are known to be its surface, counter-clockwise seen from outside.
+    pub fn of_triangles(mut vertices: Vec<Vector3<f64>>, triangles: &[[u32; 3]]) -> Self {
+        let used = triangles.iter().flatten().max().map_or(0, |last| *last as usize + 1);
+        vertices.truncate(used);
+        let face = |corners: &[u32; 3]| Polygon {
+            normal: area_vector(&vertices, corners).normalize(),
+            corners: corners.to_vec(),
+        };
+        let faces: Vec<_> = triangles.iter().map(face).collect();
+        let once = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).filter(|(a, b)| a < b);
+        let along = |(a, b): (u32, u32)| (vertices[b as usize] - vertices[a as usize]).normalize();
+        let edge_directions = once.map(along).collect();
+        Hull { vertices, faces, edge_directions }
+    }
+
     pub fn area_m2(&self) -> f64 {
         self.faces.iter().map(|face| 0.5 * self.area_vector(face).norm()).sum()
     }

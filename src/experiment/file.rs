@@ -2,6 +2,7 @@
 
 use super::axes::{Axes, axis_path, value_path};
 use super::bench::{self, Bench};
+use super::copies;
 use super::error::{ExperimentError, Kind};
 use super::expect::{self, Expectation};
 use super::key_path::KeyPath;
@@ -419,6 +420,7 @@ fn resolved(tree: &Value) -> Result<Experiment> {
     let mut experiment: Experiment = from_value(tree, &KeyPath::default())?;
     validate(&experiment)?;
     normalise_quaternions(&mut experiment);
+    copies::expand(&mut experiment);
     Ok(experiment)
 }
 

@@ -7,10 +7,8 @@ const LATER: &[(&str, &[&str])] = &[
     ("Sweep", &["where", "sample"]),
     ("Pair", &["tangential_restitution"]),
     ("Container", &["mesh"]),
-    ("Body", &["copies"]),
     ("Shape", &["mesh"]),
     ("Method", &["event-driven", "auto"]),
-    ("Scheme", &["moreau"]),
     ("Impact", &["poisson", "sequential"]),
 ];
 

@@ -322,8 +322,11 @@ impl Solver {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scheme {
-    /// Forces at the old position, position with the new velocity.
+    /// Contacts and forces at the old position, position with the new velocity. Order 1.
     SemiImplicit,
+    /// Half of the motion, contacts and forces there, the other half with the new velocity (J. J. Moreau 1999; θ = ½).
+    /// Order 2 between impacts; without friction and with e = 1 the energy is kept.
+    Moreau,
 }
 
 /// What happens to the normal velocity of an approaching contact.

@@ -5,6 +5,7 @@
 mod accuracy;
 pub mod axes;
 pub mod bench;
+pub mod copies;
 mod either;
 pub mod error;
 pub mod expect;

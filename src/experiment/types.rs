@@ -5,6 +5,7 @@
 //! SI units stand last in the key. Unknown keys are errors.
 
 pub use super::accuracy::Accuracy;
+pub use super::copies::Copies;
 pub use super::loads::*;
 pub use super::method::*;
 use super::search::SearchText;
@@ -167,6 +168,9 @@ pub struct Body {
     pub friction: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
+    /// A row or a grid of bodies like this one; absent in a resolved case.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub copies: Option<Copies>,
     /// It stays where it is.
     #[serde(default, skip_serializing_if = "is_default")]
     pub fixed: bool,

@@ -69,9 +69,9 @@ fn validate_scene(scene: &Scene, at: Path) -> Result<()> {
 fn validate_pair(pair: &Pair, scene: &Scene, at: Path) -> Result<()> {
     let between = at.key("between");
     for (i, name) in pair.between.iter().enumerate() {
-        if name != CONTAINER && !scene.bodies.iter().any(|body| body.name == *name) {
-            let bodies = scene.bodies.iter().map(|body| body.name.as_str());
-            let known: Vec<&str> = bodies.chain([CONTAINER]).collect();
+        if name != CONTAINER && !scene.bodies.iter().any(|body| body.is_called(name)) {
+            let bodies: Vec<String> = scene.bodies.iter().map(|body| body.called()).collect();
+            let known: Vec<&str> = bodies.iter().map(String::as_str).chain([CONTAINER]).collect();
             return Err(ExperimentError::unknown_word(between.item(i, None).to_key_path(), name, &known));
         }
     }
@@ -193,17 +193,12 @@ fn validate_penalty(penalty: &Penalty, at: Path) -> Result<()> {
 /// What the method can do with the scene's contacts.
 fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
     match experiment.method {
-        Method::Free(_) => Ok(()),
-        Method::Lecture(_) => {
-            needs_meshes("lecture", &experiment.scene, at)?;
-            one_shape(&experiment.scene, at)
-        }
+        Method::Free(_) | Method::TimeStepping(_) => Ok(()),
+        Method::Lecture(_) => needs_meshes("lecture", &experiment.scene, at),
         Method::Penalty(_) => {
             needs_meshes("penalty", &experiment.scene, at)?;
-            no_restitution(&experiment.scene, at)?;
-            one_shape(&experiment.scene, at)
+            no_restitution(&experiment.scene, at)
         }
-        Method::TimeStepping(_) => one_shape(&experiment.scene, at),
     }
 }
 
@@ -245,19 +240,6 @@ fn no_restitution(scene: &Scene, at: Path) -> Result<()> {
         }
     }
     Ok(())
-}
-
-fn one_shape(scene: &Scene, at: Path) -> Result<()> {
-    let bodies = at.key("bodies");
-    let mut shaped = scene.bodies.iter().enumerate().filter(|(_, body)| body.shape != Shape::None);
-    match (shaped.next(), shaped.next()) {
-        (Some((_, first)), Some((i, second))) => {
-            let path = bodies.item(i, Some(&second.name)).key("shape").to_key_path();
-            let word = format!("contact between bodies (`{}` and `{}`)", first.name, second.name);
-            Err(ExperimentError::feature_not_available(path, &word))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// Whoever needs no step makes one of the whole time if none is given.

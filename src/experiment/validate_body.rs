@@ -1,5 +1,6 @@
 //! What must be true of one body, whatever else is in the scene.
 
+use super::copies::validate_copies;
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
 use super::types::{Body, BoxShape, Convex, Inertia, InertiaFrom, MeshSpec, NodesPerEdge, Orientation, Shape};
@@ -26,6 +27,7 @@ pub fn validate_body(body: &Body, at: Path) -> Result<()> {
     }
     validate_spin(body, at)?;
     validate_driven(body, at)?;
+    body.copies.as_ref().map_or(Ok(()), |copies| validate_copies(copies, at.key("copies")))?;
     body.friction.map_or(Ok(()), |friction| not_negative(friction, at.key("friction")))?;
     body.restitution.map_or(Ok(()), |restitution| a_part(restitution, at.key("restitution")))
 }

@@ -115,8 +115,9 @@ fn is_point(body: &Body) -> bool {
 }
 
 fn index_of(name: &str, scene: &Scene, at: Path) -> Result<usize> {
-    scene.bodies.iter().position(|body| body.name == name).ok_or_else(|| {
-        let known: Vec<&str> = scene.bodies.iter().map(|body| body.name.as_str()).collect();
+    scene.bodies.iter().position(|body| body.is_called(name)).ok_or_else(|| {
+        let known: Vec<String> = scene.bodies.iter().map(Body::called).collect();
+        let known: Vec<&str> = known.iter().map(String::as_str).collect();
         ExperimentError::unknown_word(at.to_key_path(), name, &known)
     })
 }

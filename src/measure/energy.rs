@@ -1,6 +1,6 @@
 //! Energy of a state, and its ledger over a run.
 
-use super::{Push, relative};
+use super::{Push, beyond_rounding};
 use crate::model::Model;
 use crate::state::State;
 
@@ -105,12 +105,18 @@ impl EnergyLedger {
 
     /// (end − start − work of applied forces + dissipation) / scale.
     pub fn drift_rel(&self) -> f64 {
-        relative(self.end_j() - self.start_j() - self.work_j + self.dissipated_j, self.scale_j())
+        self.part(self.end_j() - self.start_j() - self.work_j + self.dissipated_j)
     }
 
     /// Largest E(t) − min over s < t of E(s), less the work of applied forces between, / scale.
     pub fn rise_max_rel(&self) -> f64 {
-        relative(self.rise_max_j, self.scale_j())
+        self.part(self.rise_max_j)
+    }
+
+    fn part(&self, amount_j: f64) -> f64 {
+        let (low, high) = self.potential_range_j;
+        let largest_j = self.kinetic_max_j + low.abs().max(high.abs());
+        beyond_rounding(amount_j, largest_j, self.scale_j())
     }
 
     /// Largest kinetic energy of the run plus the range of the potential energy.

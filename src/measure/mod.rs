@@ -63,7 +63,7 @@ impl Judge {
         Judge {
             energy: EnergyLedger::new(energy),
             momentum: MomentumLedger::new(model, start),
-            residual: ResidualLedger::new(plan.constraint, model),
+            residual: ResidualLedger::new(plan.constraint, plan.approach, model),
             penetration_max_m: plan.contact.then_some(0.0),
             contacts_max: 0,
             pin_gap_max_m: model.pin_gap_m(&start.bodies),
@@ -74,28 +74,28 @@ impl Judge {
         }
     }
 
-    /// Judges the step from `before` to `after`; says if the run has diverged, and by which criterion.
+    /// Judges the step from `before` to `after`, in which `contacts` acted at the state `kicked`; says if the run has
+    /// diverged, and by which criterion.
     pub fn observe(
         &mut self,
         model: &Model,
-        before: &State,
-        after: &State,
+        [before, kicked, after]: [&State; 3],
         contacts: &[SolvedContact],
         step_s: f64,
     ) -> Option<Criterion> {
         self.gather_pushes(contacts);
         let energy = Energy::of(model, after);
         if !contacts.is_empty() {
-            self.energy.observe_contacts(model, before, &self.pushes, step_s);
-            self.watched.observe(before, contacts);
+            self.energy.observe_contacts(model, kicked, &self.pushes, step_s);
+            self.watched.observe(kicked, contacts);
         }
         self.watched.observe_step(before, after, step_s);
-        self.residual.observe(model, before, contacts, &self.pushes, step_s);
+        self.residual.observe(model, kicked, contacts, &self.pushes, step_s);
         let pivot = |state: &State| self.momentum.pivot_m(model, state);
         let done = loads::done(model, [before, after], &mut self.middle, pivot, step_s);
         self.energy.observe(energy, done.work_j);
         let pushes = (!contacts.is_empty()).then_some(&self.pushes[..]);
-        self.momentum.observe(model, [before, after], pushes, &done, step_s);
+        self.momentum.observe(model, [before, kicked, after], pushes, &done, step_s);
         let gap_m = model.pin_gap_m(&after.bodies);
         self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
         let depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max);
@@ -125,9 +125,15 @@ impl Judge {
     }
 }
 
-/// Largest depth of any point of any body in the container.
+/// Largest depth of any point of any body in the container or in another body.
 pub fn deepest_m(model: &Model, state: &State) -> f64 {
-    model.bodies.iter().zip(&state.bodies).map(|(body, at)| collide::deepest_m(model, body, at)).fold(0.0, f64::max)
+    collide::deepest(model, state).map_or(0.0, |contact| -contact.gap_m)
+}
+
+/// Part of a scale; 0 if it is no more than the rounding of what it is the difference of: a body at rest has no scale of
+/// its own.
+fn beyond_rounding(amount: f64, of: f64, scale: f64) -> f64 {
+    if amount.abs() <= 64.0 * f64::EPSILON * of { 0.0 } else { relative(amount, scale) }
 }
 
 /// Part of a scale; 0 of a scale that is 0 as well.

@@ -5,7 +5,7 @@
 //! about the pin along gravity (a heavy top's L_z; without gravity all of it). Two such points leave nothing.
 
 use super::loads::Done;
-use super::{Push, relative};
+use super::{Push, beyond_rounding};
 use crate::model::pins::Anchor;
 use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
@@ -101,6 +101,9 @@ pub struct MomentumLedger {
     /// Impulse of gravity, applied forces and contacts.
     linear_given: Vector3<f64>,
     angular_given: Vector3<f64>,
+    /// Sums of the sizes of what contacts gave and took.
+    linear_moved: f64,
+    angular_moved: f64,
     linear_scale: f64,
     angular_scale: f64,
     /// Along which gravity has no moment about the pivot.
@@ -117,6 +120,8 @@ impl MomentumLedger {
             end: start,
             linear_given: Vector3::zeros(),
             angular_given: Vector3::zeros(),
+            linear_moved: 0.0,
+            angular_moved: 0.0,
             linear_scale: start.linear_scale,
             angular_scale: start.angular_scale,
             axis: model.gravity_m_s2.try_normalize(0.0),
@@ -132,7 +137,7 @@ impl MomentumLedger {
     pub fn observe(
         &mut self,
         model: &Model,
-        [before, after]: [&State; 2],
+        [before, kicked, after]: [&State; 3],
         pushes: Option<&[Push]>,
         loads: &Done,
         step_s: f64,
@@ -141,10 +146,13 @@ impl MomentumLedger {
         self.linear_given += model.gravity_m_s2 * (mass_kg * step_s) + loads.impulse;
         self.angular_given += loads.angular_impulse;
         if let Some(pushes) = pushes {
-            let pivot = self.pivot_m(model, before);
-            for (push, at) in pushes.iter().zip(&before.bodies) {
+            let pivot = self.pivot_m(model, kicked);
+            for (push, at) in pushes.iter().zip(&kicked.bodies) {
+                let about_pivot = (at.p_WB - pivot).cross(&push.linear);
                 self.linear_given += push.linear;
-                self.angular_given += push.angular + (at.p_WB - pivot).cross(&push.linear);
+                self.angular_given += push.angular + about_pivot;
+                self.linear_moved += push.linear.norm();
+                self.angular_moved += push.angular.norm() + about_pivot.norm();
             }
         }
         self.end = Momentum::of(model, after, &self.pivot);
@@ -154,7 +162,7 @@ impl MomentumLedger {
 
     pub fn linear_drift_rel(&self) -> Option<f64> {
         let drift = (self.end.linear - self.start.linear - self.linear_given).norm();
-        matches!(self.pivot, Pivot::Centre).then(|| relative(drift, self.linear_scale))
+        matches!(self.pivot, Pivot::Centre).then(|| beyond_rounding(drift, self.linear_moved, self.linear_scale))
     }
 
     pub fn angular_drift_rel(&self) -> Option<f64> {
@@ -164,6 +172,6 @@ impl MomentumLedger {
             (Pivot::Pin(_), Some(axis)) => axis.dot(&drift).abs(),
             _ => drift.norm(),
         };
-        Some(relative(left, self.angular_scale))
+        Some(beyond_rounding(left, self.angular_moved, self.angular_scale))
     }
 }

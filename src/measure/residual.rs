@@ -9,6 +9,7 @@
 //! island, neither masses nor lengths nor times matter. Rounding gives 1e-16 … 1e-13, a wrong impulse O(1).
 
 use super::{Push, relative};
+use crate::collide::approach::Approach;
 use crate::collide::{Contact, SolvedContact};
 use crate::model::Model;
 use crate::state::State;
@@ -90,9 +91,9 @@ impl Stakes {
 struct Seen {
     /// ρ: one over the trace of its own block of A.
     step_length: f64,
-    /// e v⁻ if it approaches: Newton's law asks for u_n + e v⁻ ≥ 0.
-    rebound: f64,
-    /// Normal velocity without an impulse, and the rebound.
+    /// The normal velocity that the law asks for at least: u_n ≥ least.
+    least: f64,
+    /// Normal velocity without an impulse, less that.
     approach: f64,
     /// Relative velocity after the contacts.
     u: Vector3<f64>,
@@ -101,16 +102,18 @@ struct Seen {
 }
 
 impl Seen {
-    fn new(contact: &Contact, moved: &[Moved]) -> Self {
+    fn new(model: &Model, contact: &Contact, moved: &[Moved], (approach, step_s): (Approach, f64)) -> Self {
         let relative = |motion: fn(&Moved) -> &Motion| -> Vector3<f64> {
             contact.ends().map(|(i, r, sign)| motion(&moved[i]).of_point(&r) * sign).sum()
         };
-        let rebound = contact.restitution * contact.normal.dot(&relative(|m| &m.before)).min(0.0);
+        let before = contact.normal.dot(&relative(|m| &m.before));
+        let free = contact.normal.dot(&relative(|m| &m.free));
+        let least = approach.least(model, contact, [before, free - before], step_s).unwrap_or(f64::NAN);
         let speed = |(i, r, _): (usize, Vector3<f64>, f64)| moved[i].free.v.norm() + moved[i].free.w.norm() * r.norm();
         Seen {
             step_length: 1.0 / contact.ends().map(|(i, r, _)| moved[i].compliance(&r)).sum::<f64>(),
-            rebound,
-            approach: contact.normal.dot(&relative(|m| &m.free)) + rebound,
+            least,
+            approach: free - least,
             u: relative(|m| &m.after),
             speed: contact.ends().map(speed).fold(0.0, f64::max),
         }
@@ -120,7 +123,7 @@ impl Seen {
     fn missed(&self, contact: &Contact, impulse_W: &Vector3<f64>) -> f64 {
         let Contact { normal, friction, .. } = contact;
         let slip = (self.u - normal * normal.dot(&self.u)).norm();
-        let dual = self.u + normal * (friction * slip + self.rebound);
+        let dual = self.u + normal * (friction * slip - self.least);
         let wanted = in_cone(&(impulse_W - dual * self.step_length), normal, *friction);
         (impulse_W - wanted).norm()
     }
@@ -131,7 +134,7 @@ fn in_cone(z: &Vector3<f64>, normal: &Vector3<f64>, friction: f64) -> Vector3<f6
     let z_n = normal.dot(z);
     let z_t = z - normal * z_n;
     let length = z_t.norm();
-    if length <= friction * z_n {
+    if z_n >= 0.0 && length <= friction * z_n {
         return *z;
     }
     let along = (z_n + friction * length) / (1.0 + friction * friction);
@@ -143,6 +146,7 @@ fn in_cone(z: &Vector3<f64>, normal: &Vector3<f64>, friction: f64) -> Vector3<f6
 pub struct ResidualLedger {
     /// The method claims to solve the law of contact.
     judged: bool,
+    approach: Approach,
     moved: Vec<Moved>,
     /// Of every body, the first one of its island.
     island_of: Vec<usize>,
@@ -151,10 +155,11 @@ pub struct ResidualLedger {
 }
 
 impl ResidualLedger {
-    pub fn new(judged: bool, model: &Model) -> Self {
+    pub fn new(judged: bool, approach: Approach, model: &Model) -> Self {
         let bodies = model.bodies.len();
         ResidualLedger {
             judged,
+            approach,
             moved: Vec::with_capacity(bodies),
             island_of: Vec::with_capacity(bodies),
             stakes: Vec::with_capacity(bodies),
@@ -171,13 +176,14 @@ impl ResidualLedger {
         self.find_islands(model, contacts);
         self.stakes.clear();
         self.stakes.resize(pushes.len(), Stakes::default());
+        let seen = |contact: &Contact| Seen::new(model, contact, &self.moved, (self.approach, step_s));
         for SolvedContact { contact, impulse_W } in contacts {
             let island = self.island(model, contact);
-            self.stakes[island].weigh(&Seen::new(contact, &self.moved), impulse_W);
+            self.stakes[island].weigh(&seen(contact), impulse_W);
         }
         let missed = |SolvedContact { contact, impulse_W }: &SolvedContact| {
             let scale = self.stakes[self.island(model, contact)].scale();
-            relative(Seen::new(contact, &self.moved).missed(contact, impulse_W), scale)
+            relative(seen(contact).missed(contact, impulse_W), scale)
         };
         let largest = contacts.iter().map(missed).fold(0.0, f64::max);
         self.max = Some(self.max.map_or(largest, |max| max.max(largest)));

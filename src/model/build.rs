@@ -13,10 +13,12 @@ use super::place::{Landing, MOST_DRAWS};
 use super::random::Draws;
 use super::surface::{Pair, Surface};
 use super::{Body, Geometry, Model};
-use crate::collide;
 use crate::collide::hull::Hull;
 use crate::collide::solid::Solid;
+use crate::collide::{Contact, Detector, Reach};
+use crate::experiment::copies::described_as;
 use crate::experiment::types as file;
+use crate::measure::work::Work;
 use crate::state::{BodyState, State};
 use nalgebra::{Matrix3, Quaternion, Unit, UnitQuaternion, Vector3};
 
@@ -48,7 +50,9 @@ pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError
     let pins = build_pins(scene, &bodies, &mut states)?;
     let gravity_m_s2 = Vector3::from(scene.gravity_m_s2);
     let potential_zero_m = potential_zero(&gravity_m_s2, container.as_ref(), &bodies, &states);
+    let solids = || bodies.iter().filter(|body| body.solid().is_some());
     let model = Model {
+        touching_pairs: solids().count() > 1 && solids().any(|body| !body.driven),
         gravity_m_s2,
         container,
         container_surface: Surface { friction: scene.friction, restitution: scene.restitution },
@@ -111,11 +115,12 @@ fn build_body(described: &file::Body, scene: &file::Scene) -> Result<Body, Build
     let hull = build_hull(described)?;
     let drag = scene.air.map_or_else(Drag::default, |air| build_drag(&air, &described.shape, hull.as_ref()));
     let mass = mass_properties(described, mesh.as_ref(), hull.as_ref());
-    let geometry = geometry(&described.shape, mesh, hull, &mass.p_BoBcm);
+    let among_others = scene.bodies.iter().filter(|body| body.shape != file::Shape::None).count() > 1;
+    let geometry = geometry(&described.shape, mesh, hull, &mass.p_BoBcm, among_others);
     let bounding_radius_m = match &geometry {
         Geometry::None => 0.0,
-        Geometry::Mesh { nodes, .. } | Geometry::Corners(nodes) => nodes.iter().map(|u| u.norm()).fold(0.0, f64::max),
-        Geometry::Sphere { centre, radius_m } => centre.norm() + radius_m,
+        Geometry::Mesh { nodes, .. } => nodes.iter().map(|u| u.norm()).fold(0.0, f64::max),
+        Geometry::Solid { solid: Solid::Box { half_m }, centre } => (centre.abs() + half_m).norm(),
         Geometry::Solid { solid, centre } => centre.norm() + solid.bounding_radius_m(),
     };
     let I_B = snapped(mass.I_B);
@@ -141,7 +146,7 @@ fn build_body(described: &file::Body, scene: &file::Scene) -> Result<Body, Build
 fn build_hull(described: &file::Body) -> Result<Option<Hull>, BuildError> {
     let file::Shape::Convex(convex) = &described.shape else { return Ok(None) };
     Hull::new(convex.vertices()).map(Some).map_err(|wrong| BuildError {
-        path: format!("scene.bodies.{}.shape.convex.vertices_m", described.name),
+        path: format!("scene.bodies.{}.shape.convex.vertices_m", described_as(&described.name)),
         expected: "corners of a convex hull".into(),
         found: wrong.to_string(),
     })
@@ -158,13 +163,26 @@ fn volume_mesh(shape: &file::Shape, spec: &file::MeshSpec) -> Option<TetMesh> {
     }
 }
 
-fn geometry(shape: &file::Shape, mesh: Option<TetMesh>, hull: Option<Hull>, p_BoBcm: &Vector3<f64>) -> Geometry {
+fn geometry(
+    shape: &file::Shape,
+    mesh: Option<TetMesh>,
+    hull: Option<Hull>,
+    p_BoBcm: &Vector3<f64>,
+    among_others: bool,
+) -> Geometry {
     let about = |solid: Solid| Geometry::Solid { solid, centre: -p_BoBcm };
-    let about_centre = |nodes: &[Vector3<f64>]| nodes.iter().map(|u| u - p_BoBcm).collect();
+    let of_box = |b: &file::BoxShape| Solid::Box { half_m: Vector3::from(b.size_m) / 2.0 };
     match (shape, mesh) {
-        (_, Some(mesh)) => Geometry::Mesh { nodes: about_centre(&mesh.nodes), mesh },
-        (file::Shape::Box(b), None) => Geometry::Corners(about_centre(&box_mesh(b.size_m, [2; 3]).nodes)),
-        (file::Shape::Sphere(s), None) => Geometry::Sphere { centre: -p_BoBcm, radius_m: s.radius_m },
+        (_, Some(mesh)) => {
+            let hull = among_others.then(|| match shape {
+                file::Shape::Box(b) => of_box(b),
+                _ => Solid::Convex(mesh.hull()),
+            });
+            let nodes = mesh.nodes.iter().map(|u| u - p_BoBcm).collect();
+            Geometry::Mesh { nodes, mesh, hull, centre: -p_BoBcm }
+        }
+        (file::Shape::Box(b), None) => about(of_box(b)),
+        (file::Shape::Sphere(s), None) => about(Solid::Sphere { radius_m: s.radius_m }),
         (file::Shape::Cylinder(c), None) => {
             about(Solid::Cylinder { radius_m: c.radius_m, half_height_m: c.height_m / 2.0 })
         }
@@ -172,10 +190,7 @@ fn geometry(shape: &file::Shape, mesh: Option<TetMesh>, hull: Option<Hull>, p_Bo
             about(Solid::Capsule { radius_m: c.radius_m, half_height_m: c.height_m / 2.0 })
         }
         (file::Shape::Ellipsoid(e), None) => about(Solid::Ellipsoid { semi_axes_m: e.semi_axes_m.into() }),
-        (file::Shape::Convex(_), None) => hull.map_or(Geometry::None, |mut hull| {
-            hull.vertices.iter_mut().for_each(|v| *v -= p_BoBcm);
-            Geometry::Solid { solid: Solid::Convex(hull), centre: Vector3::zeros() }
-        }),
+        (file::Shape::Convex(_), None) => hull.map_or(Geometry::None, |hull| about(Solid::Convex(hull))),
         (file::Shape::None, None) => Geometry::None,
     }
 }
@@ -249,7 +264,7 @@ fn first_state(
         (placed(state), part)
     };
     match landing {
-        Some(landing) if body.touches() => landing.first(body, draw).ok_or_else(|| BuildError {
+        Some(landing) if body.feels_container() => landing.first(body, draw).ok_or_else(|| BuildError {
             path: "scene.random.place".into(),
             expected: "a body that approaches the floor in some draw".into(),
             found: format!("{} receding in all of {MOST_DRAWS}", body.name),
@@ -312,15 +327,26 @@ fn potential_zero(
 fn refuse_overlap(model: &Model, state: &State, allowed_m: &[f64]) -> Result<(), BuildError> {
     /// Of the body's size: a body placed on the floor is not inside it.
     const ROUNDING: f64 = 1e-9;
-    for ((body, at), allowed) in model.bodies.iter().zip(&state.bodies).zip(allowed_m) {
-        let depth = collide::deepest_m(model, body, at);
-        if depth > allowed + ROUNDING * body.bounding_radius_m {
-            return Err(BuildError {
-                path: format!("scene.bodies.{}.position_m", body.name),
-                expected: "no overlap with the container at the start".into(),
-                found: format!("{} inside a face by {depth:.3e} m", body.name),
-            });
+    let mut contacts = Vec::new();
+    Detector::default().detect(model, state, &Reach::INSIDE, &mut contacts, &mut Work::default());
+    let allowed = |contact: &Contact| {
+        let size_m = contact.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).fold(0.0, f64::max);
+        let placed_m = if contact.other.is_none() { allowed_m[contact.body] } else { 0.0 };
+        placed_m + ROUNDING * size_m
+    };
+    let inside = contacts.iter().filter(|contact| -contact.gap_m > allowed(contact));
+    let Some(contact) = inside.reduce(|a, b| if b.gap_m < a.gap_m { b } else { a }) else { return Ok(()) };
+    let (name, depth) = (&model.bodies[contact.body].name, -contact.gap_m);
+    let (whom, what) = match contact.other {
+        None => ("the container".into(), format!("{name} inside a face by {depth:.3e} m")),
+        Some(other) => {
+            let other = &model.bodies[other].name;
+            (format!("`{other}`"), format!("{name} and {other} inside each other by {depth:.3e} m"))
         }
-    }
-    Ok(())
+    };
+    Err(BuildError {
+        path: format!("scene.bodies.{}.position_m", described_as(name)),
+        expected: format!("no overlap with {whom} at the start"),
+        found: what,
+    })
 }

@@ -97,7 +97,7 @@ impl Model {
             return (Vector3::zeros(), Vector3::zeros());
         }
         let gravity = self.gravity_m_s2 * step_s;
-        if !self.has_loads() {
+        if self.forces.is_empty() && body.drag.is_none() {
             return (gravity, Vector3::zeros());
         }
         let load = self.load(index, t_s, at);

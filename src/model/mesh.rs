@@ -31,6 +31,11 @@ impl TetMesh {
         faces.into_iter().filter(|face| count[&sorted(*face)] == 1).collect()
     }
 
+    /// Of a convex body.
+    pub fn hull(&self) -> Hull {
+        Hull::of_triangles(self.nodes.clone(), &self.surface())
+    }
+
     /// Makes every tet's volume positive by swapping two of its nodes where needed.
     fn oriented(mut self) -> Self {
         for i in 0..self.tets.len() {

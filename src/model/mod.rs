@@ -39,6 +39,8 @@ pub struct Model {
     pub pins: Vec<Pin>,
     /// A point at height zero of the potential energy.
     pub potential_zero_m: Vector3<f64>,
+    /// Some two bodies may touch each other.
+    pub touching_pairs: bool,
 }
 
 impl Model {
@@ -74,22 +76,10 @@ pub struct Body {
 pub enum Geometry {
     /// A point without contact.
     None,
-    /// Nodes of a volume mesh (L18).
-    Mesh {
-        nodes: Vec<Vector3<f64>>,
-        mesh: TetMesh,
-    },
-    /// A box's eight corners.
-    Corners(Vec<Vector3<f64>>),
-    Sphere {
-        centre: Vector3<f64>,
-        radius_m: f64,
-    },
-    /// Any other analytic shape; its axes are the body's.
-    Solid {
-        solid: Solid,
-        centre: Vector3<f64>,
-    },
+    /// A volume mesh (L18): nodes against the container, its hull against other bodies if there are any.
+    Mesh { nodes: Vec<Vector3<f64>>, mesh: TetMesh, hull: Option<Solid>, centre: Vector3<f64> },
+    /// An analytic shape; its axes are the body's.
+    Solid { solid: Solid, centre: Vector3<f64> },
 }
 
 impl Geometry {
@@ -97,8 +87,7 @@ impl Geometry {
     pub fn points(&self) -> usize {
         match self {
             Geometry::None => 0,
-            Geometry::Mesh { nodes, .. } | Geometry::Corners(nodes) => nodes.len(),
-            Geometry::Sphere { .. } => 1,
+            Geometry::Mesh { nodes, .. } => nodes.len(),
             Geometry::Solid { solid, .. } => solid.lowest_points(),
         }
     }
@@ -127,24 +116,25 @@ impl Body {
         state.p_WB - state.q_WB * self.p_BoBcm
     }
 
-    /// A body that moves as it is told does not feel the container.
-    pub fn touches(&self) -> bool {
+    /// A body that moves as it is told does not; other bodies feel it.
+    pub fn feels_container(&self) -> bool {
         !matches!(self.geometry, Geometry::None) && !self.driven
+    }
+
+    /// What other bodies touch, and its centre from the centre of mass, in body axes.
+    pub fn solid(&self) -> Option<(&Solid, &Vector3<f64>)> {
+        match &self.geometry {
+            Geometry::None => None,
+            Geometry::Mesh { hull, centre, .. } => hull.as_ref().map(|hull| (hull, centre)),
+            Geometry::Solid { solid, centre } => Some((solid, centre)),
+        }
     }
 
     /// Triangles for a picture, relative to the centre of mass, in body axes.
     pub fn surface(&self) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
         match &self.geometry {
             Geometry::None => (Vec::new(), Vec::new()),
-            Geometry::Mesh { nodes, mesh } => (nodes.clone(), mesh.surface()),
-            Geometry::Corners(corners) => {
-                let unit = mesh::box_mesh([1.0; 3], [2; 3]);
-                (corners.clone(), unit.surface())
-            }
-            Geometry::Sphere { centre, radius_m } => {
-                let ball = mesh::sphere_mesh(*radius_m, 2);
-                (ball.nodes.iter().map(|u| u + centre).collect(), ball.surface())
-            }
+            Geometry::Mesh { nodes, mesh, .. } => (nodes.clone(), mesh.surface()),
             Geometry::Solid { solid, centre } => {
                 let (points, triangles) = triangles::of(solid);
                 (points.iter().map(|u| u + centre).collect(), triangles)

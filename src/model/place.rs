@@ -5,7 +5,7 @@
 
 use super::Body;
 use super::container::{Container, Face};
-use crate::collide;
+use crate::collide::faces;
 use crate::experiment::types::{Experiment, Place};
 use crate::run::clock;
 use crate::state::BodyState;
@@ -38,7 +38,7 @@ impl<'a> Landing<'a> {
     }
 
     fn shifted(&self, body: &Body, mut at: BodyState, part: f64) -> Option<(BodyState, f64)> {
-        let (r_BC_W, gap_m) = collide::nearest(body, &at, self.floor)?;
+        let (r_BC_W, gap_m) = faces::nearest(body, &at, self.floor)?;
         let approach = -self.floor.normal.dot(&(at.v_WB + at.w_WB.cross(&r_BC_W)));
         let depth_m = part * approach * self.step_s;
         at.p_WB -= self.floor.normal * (gap_m + depth_m);

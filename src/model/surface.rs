@@ -1,6 +1,6 @@
 //! What a pair of surfaces does: Coulomb friction and restitution, by default the geometric mean of the two bodies' own.
 
-use super::{Body, Model};
+use super::{Body, Geometry, Model};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
@@ -35,7 +35,7 @@ impl Model {
 
     /// Some contact that can be has friction.
     pub fn is_rough(&self) -> bool {
-        let touching = |body: &Body| body.touches() && body.surface.friction > 0.0;
+        let touching = |body: &Body| !matches!(body.geometry, Geometry::None) && body.surface.friction > 0.0;
         self.bodies.iter().any(touching) || self.pairs.iter().any(|pair| pair.friction.is_some_and(|f| f > 0.0))
     }
 }

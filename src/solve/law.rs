@@ -37,7 +37,7 @@ pub enum Place {
 
 pub fn place(z: &Vector3<f64>, friction: f64) -> Place {
     let (length, t) = tangent(z);
-    if length <= friction * z.x {
+    if z.x >= 0.0 && length <= friction * z.x {
         return Place::Inside;
     }
     let along = (z.x + friction * length) / (1.0 + friction * friction);

@@ -1,9 +1,11 @@
 //! Contacts gathered once for every solver (L12, L13, L16): J, M⁻¹ and b, with A = J M⁻¹ Jᵀ as a view of them.
 //!
 //! With impulses p = F Δt the slide's ᶜV_C[n+1] = b + A ᶜF_C reads c = b + (J M⁻¹ Jᵀ) p. Rows of a contact are ordered
-//! normal, tangent 1, tangent 2. The target is c = 0 (plastic); Newton restitution adds e v⁻ to the normal row of b.
+//! normal, tangent 1, tangent 2. The target is c = 0; what else is asked of the
+//! normal velocity (restitution, a gap that may close) is taken off the normal row of b (`collide::approach`).
 
 use crate::collide::Contact;
+use crate::collide::approach::Approach;
 use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -19,6 +21,10 @@ pub struct Twist {
 
 impl Twist {
     pub const ZERO: Twist = Twist { v: Vector3::new(0.0, 0.0, 0.0), w: Vector3::new(0.0, 0.0, 0.0) };
+
+    pub fn times(&self, factor: f64) -> Twist {
+        Twist { v: self.v * factor, w: self.w * factor }
+    }
 
     fn add_scaled(&mut self, other: &Twist, factor: f64) {
         self.v += other.v * factor;
@@ -107,6 +113,8 @@ pub struct Block {
     /// 1/λmax of the tangents' 2×2 block of A.
     pub tangent_step: f64,
     pub b: Vector3<f64>,
+    /// The normal velocity that is asked for at least; b's normal row is relative to it.
+    pub least: f64,
     /// Normal and two tangents, world axes.
     pub frame: [Vector3<f64>; 3],
 }
@@ -135,14 +143,26 @@ impl ContactProblem {
     }
 
     /// `V = V[n] + M⁻¹ F_E Δt` is in `free`, the state before the step in `state`.
-    pub fn gather(&mut self, model: &Model, state: &State, free: &[Twist], contacts: &[Contact]) {
+    /// Contacts that `approach` does not see in this step are dropped.
+    pub fn gather(
+        &mut self,
+        model: &Model,
+        state: &State,
+        free: &[Twist],
+        contacts: &mut Vec<Contact>,
+        (approach, step_s): (Approach, f64),
+    ) {
         self.blocks.clear();
         self.bodies = model.bodies.len();
         self.inertias.clear();
         if !contacts.is_empty() {
             self.inertias.extend(model.bodies.iter().zip(&state.bodies).map(|(body, at)| Inertia::of(body, at)));
         }
-        self.blocks.extend(contacts.iter().map(|contact| Block::new(contact, &state.bodies, free, &self.inertias)));
+        contacts.retain(|contact| {
+            let block = Block::new(contact, model, &state.bodies, free, &self.inertias, (approach, step_s));
+            self.blocks.extend(block);
+            block.is_some()
+        });
         self.A_blocks.clear();
         if contacts.len() <= DENSE {
             let blocks = &self.blocks;
@@ -179,6 +199,16 @@ impl ContactProblem {
     pub fn energy(&self, impulses: &[Impulse], u: &[Twist]) -> f64 {
         let half = |block: &Block, p: &Impulse| p.dot(&(block.velocity(u) + block.b)) / 2.0;
         self.blocks.iter().zip(impulses).map(|(block, p)| half(block, p)).sum()
+    }
+
+    /// Energy that the impulses take from bodies that were at `before`: −Σ p·½(c⁻ + c⁺).
+    pub fn dissipated_j(&self, before: &State, free: &[Twist], impulses: &[Impulse], u: &[Twist]) -> f64 {
+        let mean = |end: &End| {
+            let (at, free, u) = (&before.bodies[end.body], &free[end.body], &u[end.body]);
+            end.motion(&Twist { v: (at.v_WB + free.v + u.v) / 2.0, w: (at.w_WB + free.w + u.w) / 2.0 })
+        };
+        let taken = |(block, p): (&Block, &Impulse)| -p.dot(&block.ends().map(mean).sum::<Vector3<f64>>());
+        self.blocks.iter().zip(impulses).map(taken).sum()
     }
 
     /// Impulses of an iteration that has not settled may add energy (a bar at μ = 1: up to 1.004 of it): only that part of
@@ -260,7 +290,7 @@ impl Memory {
 
 impl Block {
     /// c = b + J u.
-    fn velocity(&self, u: &[Twist]) -> Vector3<f64> {
+    pub fn velocity(&self, u: &[Twist]) -> Vector3<f64> {
         let own = self.b + self.end.motion(&u[self.end.body]);
         self.other.as_ref().map_or(own, |other| own + other.motion(&u[other.body]))
     }
@@ -291,22 +321,28 @@ impl Block {
         pairs.filter_map(|(a, b)| a.coupling(b)).reduce(|a, b| a + b).unwrap_or_else(Matrix3::zeros)
     }
 
-    fn new(contact: &Contact, before: &[BodyState], free: &[Twist], inertias: &[Inertia]) -> Self {
+    fn new(
+        contact: &Contact,
+        model: &Model,
+        before: &[BodyState],
+        free: &[Twist],
+        inertias: &[Inertia],
+        (approach, step_s): (Approach, f64),
+    ) -> Option<Self> {
         let frame = contact.frame();
         let own = End::new(contact.body, 1.0, &contact.r_BC_W, &frame, &inertias[contact.body]);
         let other = contact.other.map(|other| End::new(other, -1.0, &contact.r_OC_W, &frame, &inertias[other]));
         let ends = || std::iter::once(&own).chain(&other);
         let sum = |of: &dyn Fn(&End) -> Vector3<f64>| ends().map(of).reduce(|a, b| a + b).unwrap_or_default();
         let mut b = sum(&|end| end.motion(&free[end.body]));
-        let approach = sum(&|end| {
+        let before = sum(&|end| {
             let at = &before[end.body];
             end.motion(&Twist { v: at.v_WB, w: at.w_WB })
         });
-        if approach.x < 0.0 {
-            b.x += contact.restitution * approach.x;
-        }
+        let least = approach.least(model, contact, [before.x, b.x - before.x], step_s)?;
+        b.x -= least;
         let A = ends().filter_map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
-        Block {
+        Some(Block {
             end: own,
             other,
             friction: contact.friction,
@@ -314,8 +350,9 @@ impl Block {
             inverse_diagonal: A.diagonal().map(|d| 1.0 / d),
             tangent_step: 1.0 / largest_eigenvalue(A[(1, 1)], A[(2, 2)], A[(1, 2)]),
             b,
+            least,
             frame,
-        }
+        })
     }
 
     /// An impulse in world axes.

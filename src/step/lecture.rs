@@ -1,7 +1,8 @@
 //! The lecture's simulation (L16–L21), its five steps visible as five, in all literal variants.
 
 use super::{Clock, Scratch, move_body};
-use crate::collide::detect;
+use crate::collide::Reach;
+use crate::collide::approach::Approach;
 use crate::experiment::types::Lecture as Settings;
 use crate::model::Model;
 use crate::solve::gauss_seidel::{Sweeps, Variant, correct_all, iterate};
@@ -21,10 +22,10 @@ impl Lecture {
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
         // 1. Contact test.
-        detect(model, state, 0.0, &mut self.scratch.found, &mut self.scratch.work);
+        self.scratch.detect(model, state, &Reach::INSIDE);
         // 2. Constraint forces.
         self.scratch.free_velocities(model, state, clock.step_s);
-        self.solve_constraints(model, state);
+        self.solve_constraints(model, state, clock.step_s);
         // 3. Velocities: M (V[n+1] − V[n]) = (F_E + F_C) Δt. 4. Position and attitude.
         let s = &mut self.scratch;
         for (i, (body, at)) in model.bodies.iter().zip(&mut state.bodies).enumerate() {
@@ -36,9 +37,9 @@ impl Lecture {
     }
 
     /// First guess, correction, sweeps (L20).
-    fn solve_constraints(&mut self, model: &Model, state: &State) {
+    fn solve_constraints(&mut self, model: &Model, state: &State, step_s: f64) {
         let s = &mut self.scratch;
-        s.problem.gather(model, state, &s.free, &s.found);
+        s.problem.gather(model, state, &s.free, &mut s.found, (Approach::Inside, step_s));
         first_guess(&s.problem, self.settings.start, &mut s.impulses);
         if !s.found.is_empty() {
             correct_all(&s.problem, self.settings.cone, &mut s.impulses);

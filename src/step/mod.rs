@@ -3,12 +3,13 @@
 //! A `match` on the method picks it, once a run. A free product of integrators and contact solvers would permit
 //! nonsense and forbid substeps and events.
 
+mod drift;
 mod free;
 mod lecture;
 mod penalty;
 mod time_stepping;
 
-use crate::collide::{Contact, SolvedContact};
+use crate::collide::{Contact, Detector, Reach, SolvedContact};
 use crate::experiment::types::{Method as Settings, Rotation, Update};
 use crate::integrate::rotation::{exponential, turn_at_momentum, turn_literally, w_from_momentum};
 use crate::measure::work::Work;
@@ -44,6 +45,7 @@ impl Clock {
 /// What a method needs in every step and nobody outside does.
 #[derive(Debug)]
 struct Scratch {
+    detector: Detector,
     found: Vec<Contact>,
     problem: ContactProblem,
     /// V[n] + M⁻¹ F_E Δt of every body.
@@ -89,7 +91,7 @@ impl Stepper {
             Settings::Lecture(settings) => Method::Lecture(lecture::Lecture::new(settings, scratch())),
             Settings::Penalty(settings) => Method::Penalty(penalty::Penalty::new(settings, scratch())),
             Settings::TimeStepping(settings) => {
-                Method::TimeStepping(time_stepping::TimeStepping::new(settings, plan.friction, scratch()))
+                Method::TimeStepping(time_stepping::TimeStepping::new(settings, plan, start, scratch()))
             }
         };
         let driven = model.bodies.iter().zip(&start.bodies).enumerate().filter(|(_, (body, _))| body.driven);
@@ -109,6 +111,14 @@ impl Stepper {
     /// The last step could not be made: the state is to be forgotten.
     pub fn stalled(&self) -> bool {
         matches!(&self.method, Method::Free(method) if method.stalled)
+    }
+
+    /// Where the impulses of the last step acted; none: where it began.
+    pub fn kicked(&self) -> Option<&State> {
+        match &self.method {
+            Method::TimeStepping(method) => method.kicked.as_ref(),
+            _ => None,
+        }
     }
 
     /// Contacts of the last step.
@@ -141,6 +151,7 @@ impl Scratch {
         let contacts = if plan.contact { (points * faces.min(3)).min(MOST) } else { 0 };
         let bodies = model.bodies.len();
         Scratch {
+            detector: Detector::default(),
             found: Vec::with_capacity(contacts),
             problem: ContactProblem::with_capacity(contacts, bodies),
             free: Vec::with_capacity(bodies),
@@ -155,6 +166,11 @@ impl Scratch {
     /// Contacts that there is room for.
     fn contacts(&self) -> usize {
         self.found.capacity()
+    }
+
+    /// Step 1 of L21.
+    fn detect(&mut self, model: &Model, state: &State, reach: &Reach) {
+        self.detector.detect(model, state, reach, &mut self.found, &mut self.work);
     }
 
     /// V + M⁻¹ F_E Δt (L14).

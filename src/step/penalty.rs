@@ -1,7 +1,7 @@
 //! The penalty method (L15): a spring and a damper in every penetrating node, regularised Coulomb friction.
 
 use super::{Clock, Scratch, move_body};
-use crate::collide::{Contact, SolvedContact, detect};
+use crate::collide::{Contact, Reach, SolvedContact};
 use crate::experiment::types::Penalty as Settings;
 use crate::model::Model;
 use crate::solve::problem::{Inertia, Twist};
@@ -21,7 +21,7 @@ impl Penalty {
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
         // 1. Contact test.
         let s = &mut self.scratch;
-        detect(model, state, 0.0, &mut s.found, &mut s.work);
+        s.detect(model, state, &Reach::INSIDE);
         s.work.contacts += s.found.len() as u64;
         // 2. Contact forces, from the old positions and velocities. 3. Velocities.
         s.free_velocities(model, state, clock.step_s);

@@ -1,18 +1,23 @@
 //! Velocity–impulse time-stepping: the sound default.
 //!
 //! As the lecture's constraint method, but every contact is put back into its cone right after its rows (projected
-//! Gauss–Seidel; or another solver of the same law), started from last step's impulses; rotation conserves angular momentum; penetration is removed by a
-//! displacement of its own that is no velocity and adds no kinetic energy (split impulse).
+//! Gauss–Seidel; or another solver of the same law), started from last step's impulses. Contacts are foreseen: a gap may
+//! close to zero in a step and no further (`collide::approach`). Between impulses bodies turn freely, in closed form.
+//!
+//! A step is a motion, a kick and a motion: `semi-implicit` kicks first and moves for the whole step, `moreau` kicks half-way
+//! (J. J. Moreau, Comput. Methods Appl. Mech. Engrg 177 (1999) 329).
 
+use super::drift::drift;
 use super::{Clock, Scratch};
+use crate::collide::approach::Approach;
 use crate::collide::reduce::Reduction;
-use crate::collide::{Contact, Key, SolvedContact, detect};
+use crate::collide::{Contact, Key, Reach, SolvedContact};
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, Solver, TimeStepping as Settings};
-use crate::integrate::rotation::{exponential, turn_at_momentum, w_from_momentum};
+use crate::integrate::rotation::exponential;
 use crate::model::Model;
+use crate::plan::Plan;
 use crate::solve::gauss_seidel::{self, Sweeps, Variant};
-use crate::solve::position::push_out;
-use crate::solve::problem::Twist;
+use crate::solve::position::Push;
 use crate::solve::{Impulse, newton, nncg};
 use crate::state::State;
 use nalgebra::Vector3;
@@ -22,72 +27,80 @@ const MARGIN: f64 = 1e-9;
 
 pub struct TimeStepping {
     solver: Solver,
+    approach: Approach,
     sweeps: Sweeps,
     reduction: Option<Reduction>,
     position_correction: PositionCorrection,
     /// Which contact had which impulse in the last step, in the order of contacts.
     last: Vec<(Key, Impulse)>,
-    /// Multipliers and displacements of the position correction.
-    pushes: Vec<f64>,
-    pushed: Vec<Twist>,
+    push: Push,
+    /// Where the last step's impulses acted, if not where the step began.
+    pub(super) kicked: Option<State>,
     pub(super) scratch: Scratch,
 }
 
 impl TimeStepping {
-    pub(super) fn new(settings: &Settings, friction: bool, scratch: Scratch) -> Self {
+    pub(super) fn new(settings: &Settings, plan: &Plan, start: &State, scratch: Scratch) -> Self {
         TimeStepping {
             solver: settings.solver,
+            approach: plan.approach,
             sweeps: Sweeps {
                 iteration: Iteration::GaussSeidel,
                 correction: Correction::PerContact,
                 cone: Cone::Disc,
                 most: settings.sweeps,
                 tolerance: settings.tolerance(),
-                friction,
+                friction: plan.friction,
                 variant: Variant { local: settings.local, relaxation: settings.relaxation, order: settings.order },
             },
             reduction: settings.contacts_per_face.map(|most| Reduction::new(most, scratch.contacts())),
             position_correction: settings.position_correction,
             last: Vec::with_capacity(scratch.contacts()),
-            pushes: Vec::with_capacity(scratch.contacts()),
-            pushed: Vec::with_capacity(scratch.free.capacity()),
+            push: Push::with_capacity(scratch.contacts(), scratch.free.capacity()),
+            kicked: (plan.approach == Approach::Middle).then(|| start.clone()),
             scratch,
         }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
+        let before_s = if self.approach == Approach::Middle { clock.step_s / 2.0 } else { 0.0 };
+        let after_s = clock.step_s - before_s;
+        drift(model, state, before_s, &mut self.scratch.work);
+        if let Some(kicked) = &mut self.kicked {
+            kicked.copy_from(state);
+        }
         // 1. Contact test.
-        detect(model, state, MARGIN, &mut self.scratch.found, &mut self.scratch.work);
+        self.scratch.detect(model, state, &Reach { margin: MARGIN, ahead_s: clock.step_s });
         if let Some(reduction) = &mut self.reduction {
             reduction.apply(&mut self.scratch.found);
         }
         // 2. Contact impulses; displacements that remove penetration.
         self.scratch.free_velocities(model, state, clock.step_s);
-        self.solve_contacts(model, state);
-        let pushed = self.push_out(model);
-        // 3. Velocities. 4. Position and attitude, at constant angular momentum.
+        self.solve_contacts(model, state, clock.step_s);
+        let pushed = self.push_out(model, state, clock.step_s);
+        // 3. Velocities. 4. Position and attitude.
         let s = &mut self.scratch;
-        for (i, (body, at)) in model.bodies.iter().zip(&mut state.bodies).enumerate() {
+        for (i, at) in state.bodies.iter_mut().enumerate() {
             at.v_WB = s.free[i].v + s.response[i].v;
             at.w_WB = s.free[i].w + s.response[i].w;
-            at.p_WB += at.v_WB * clock.step_s;
-            let L_W = body.I_W(at) * at.w_WB;
-            turn_at_momentum(body, at, &L_W, clock.step_s, &mut s.work);
-            if pushed {
-                at.p_WB += self.pushed[i].v;
-                at.q_WB = exponential(&self.pushed[i].w) * at.q_WB;
-            }
-            if !body.isotropic {
-                at.w_WB = w_from_momentum(body, at, &L_W);
+        }
+        drift(model, state, after_s, &mut s.work);
+        if pushed {
+            for (at, moved) in state.bodies.iter_mut().zip(&self.push.moved) {
+                // With its velocity, which keeps the energy.
+                let turn = exponential(&moved.w);
+                at.p_WB += moved.v;
+                at.q_WB = turn * at.q_WB;
+                at.w_WB = turn * at.w_WB;
             }
         }
         // 5. Time.
         clock.advance(state);
     }
 
-    fn solve_contacts(&mut self, model: &Model, state: &State) {
+    fn solve_contacts(&mut self, model: &Model, state: &State, step_s: f64) {
         let s = &mut self.scratch;
-        s.problem.gather(model, state, &s.free, &s.found);
+        s.problem.gather(model, state, &s.free, &mut s.found, (self.approach, step_s));
         warm_start(&s.found, &self.last, &mut s.impulses);
         s.problem.response(&s.impulses, &mut s.response);
         // Projected Gauss–Seidel only descends: from a start that adds energy it might not come below zero in time.
@@ -112,10 +125,11 @@ impl TimeStepping {
         }
     }
 
-    fn push_out(&mut self, model: &Model) -> bool {
+    fn push_out(&mut self, model: &Model, state: &State, step_s: f64) -> bool {
         let s = &mut self.scratch;
+        let lost_j = || s.problem.dissipated_j(state, &s.free, &s.impulses, &s.response);
         self.position_correction == PositionCorrection::Projection
-            && push_out(&s.problem, &s.found, model, &self.sweeps, &mut self.pushes, &mut self.pushed, &mut s.work)
+            && self.push.find(&s.problem, &s.found, model, (&s.response, step_s), lost_j, &self.sweeps, &mut s.work)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::{close, columns, measured};
 use crate::yaml::{CUBE_IN_BOX, experiment, run};
 use gotai::collide::Contact;
+use gotai::collide::approach::Approach;
 use gotai::experiment::types::Experiment;
 use gotai::model::{Model, build};
 use gotai::plan::Plan;
@@ -29,7 +30,7 @@ fn whole_matrix(experiment: &Experiment, steps: u64) -> DMatrix<f64> {
 
 fn gathered(model: &Model, before: &State, contacts: &[Contact]) -> DMatrix<f64> {
     let mut problem = ContactProblem::default();
-    problem.gather(model, before, &[Twist::ZERO], contacts);
+    problem.gather(model, before, &[Twist::ZERO], &mut contacts.to_vec(), (Approach::Inside, 0.01));
     problem.A()
 }
 

@@ -2,6 +2,7 @@
 
 use super::{close, measured};
 use crate::yaml::{CUBE_IN_BOX, experiment};
+use gotai::collide::approach::Approach;
 use gotai::experiment::types::{Penalty, Rotation, Update};
 use gotai::measure::critical_step::critical_step_s;
 use gotai::model::build;
@@ -91,7 +92,7 @@ fn the_largest_eigenvalue_is_that_of_the_normal_rows() {
         }
         let contacts: Vec<_> = stepper.contacts().iter().map(|solved| solved.contact).collect();
         let mut problem = ContactProblem::default();
-        problem.gather(&model, &before, &[Twist::ZERO], &contacts);
+        problem.gather(&model, &before, &[Twist::ZERO], &mut contacts.clone(), (Approach::Inside, 0.01));
         let normal: Vec<usize> = (0..contacts.len()).map(|i| 3 * i).collect();
         let A_n = problem.A().select_rows(&normal).select_columns(&normal);
         let exact = SymmetricEigen::new(A_n).eigenvalues.max();

@@ -1,6 +1,7 @@
 //! Assemblies of stones with contacts given by hand, solved for one step.
 
 use crate::yaml::experiment;
+use gotai::collide::approach::Approach;
 use gotai::collide::{Contact, SolvedContact};
 use gotai::experiment::types::{Cone, Correction, Iteration};
 use gotai::measure::Push;
@@ -91,7 +92,7 @@ impl Assembly {
         let fall = Vector3::y() * -GRAVITY * STEP_S;
         let free: Vec<Twist> = state.bodies.iter().map(|at| Twist { v: at.v_WB + fall, w: at.w_WB }).collect();
         let mut problem = ContactProblem::default();
-        problem.gather(&model, &state, &free, &self.contacts);
+        problem.gather(&model, &state, &free, &mut self.contacts.clone(), (Approach::Inside, STEP_S));
         Gathered { assembly: self, model, state, problem, free }
     }
 }
@@ -152,7 +153,7 @@ impl Gathered {
                 pushes[i].angular += r_W.cross(impulse_W) * sign;
             }
         }
-        let mut ledger = ResidualLedger::new(true, &self.model);
+        let mut ledger = ResidualLedger::new(true, Approach::Inside, &self.model);
         ledger.observe(&self.model, &self.state, &solved, &pushes, STEP_S);
         ledger.max.unwrap()
     }

@@ -1,7 +1,8 @@
 //! The lecture's method in all its variants (L16–L21).
 
 use crate::yaml::{CUBE_IN_BOX, FREE_BAR, experiment, measured, run};
-use gotai::collide::detect;
+use gotai::collide::approach::Approach;
+use gotai::collide::{Detector, Reach};
 use gotai::measure::work::Work;
 use gotai::row::Outcome;
 use gotai::solve::problem::{ContactProblem, Twist};
@@ -12,14 +13,14 @@ fn problem_with(contacts: usize) -> ContactProblem {
     let sets = ["scene.random=null", "method=free", "scene.bodies.cube.position_m=[0, 0.499, 0]"];
     let (model, state) = gotai::model::build(&experiment(CUBE_IN_BOX, &sets)).unwrap();
     let (mut found, mut work) = (Vec::new(), Work::default());
-    detect(&model, &state, 0.0, &mut found, &mut work);
+    Detector::default().detect(&model, &state, &Reach::INSIDE, &mut found, &mut work);
     assert_eq!(found.len(), 9);
     // Nodes 0, 4, 7: no three in a row.
     let order = [0, 5, 7, 3, 1, 2, 4, 6, 8];
-    let some: Vec<_> = order[..contacts].iter().map(|&i| found[i]).collect();
+    let mut some: Vec<_> = order[..contacts].iter().map(|&i| found[i]).collect();
     let free = [Twist { v: Vector3::new(0.3, -1.0, 0.1), w: Vector3::new(0.5, 0.2, -0.4) }];
     let mut problem = ContactProblem::default();
-    problem.gather(&model, &state, &free, &some);
+    problem.gather(&model, &state, &free, &mut some, (Approach::Inside, 0.01));
     problem
 }
 

@@ -1,7 +1,8 @@
 //! Spring and damper (L15): the critical step is known in closed form.
 
 use crate::yaml::{experiment, run};
-use gotai::collide::{Contact, detect};
+use gotai::collide::approach::Approach;
+use gotai::collide::{Contact, Detector, Reach};
 use gotai::measure::work::Work;
 use gotai::model::{Model, build};
 use gotai::plan::Plan;
@@ -36,16 +37,16 @@ fn at_rest(nodes: u32, sets: &[&str]) -> (Stepper, Model, State) {
 
 fn contacts(model: &Model, state: &State) -> Vec<Contact> {
     let (mut found, mut work) = (Vec::new(), Work::default());
-    detect(model, state, 0.0, &mut found, &mut work);
+    Detector::default().detect(model, state, &Reach::INSIDE, &mut found, &mut work);
     found
 }
 
 /// 2/√λmax of k J_n M⁻¹ J_nᵀ over the nodes of the face.
 fn critical_step(nodes: u32) -> f64 {
     let (_, model, state) = at_rest(nodes, &[]);
-    let found = contacts(&model, &state);
+    let mut found = contacts(&model, &state);
     let mut problem = ContactProblem::default();
-    problem.gather(&model, &state, &[Twist::ZERO], &found);
+    problem.gather(&model, &state, &[Twist::ZERO], &mut found, (Approach::Inside, 0.01));
     let normal: Vec<usize> = (0..found.len()).map(|i| 3 * i).collect();
     let A = problem.A();
     let A_n = A.select_rows(&normal).select_columns(&normal);

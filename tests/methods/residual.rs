@@ -72,7 +72,7 @@ time: {{ step_s: {}, end_s: {} }}
             friction: self.friction,
             restitution: self.restitution,
         };
-        judge.observe(&model, &start, &start, &[SolvedContact { contact, impulse_W }], self.step);
+        judge.observe(&model, [&start; 3], &[SolvedContact { contact, impulse_W }], self.step);
         judge.residual.max.unwrap()
     }
 }

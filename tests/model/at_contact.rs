@@ -1,7 +1,7 @@
 //! `place: at-contact`: a start in the first step of a contact.
 
 use crate::yaml::{CUBE_IN_BOX, experiment, file};
-use gotai::collide::nearest;
+use gotai::collide::faces::nearest;
 use gotai::experiment::types::Experiment;
 use gotai::model::build;
 use gotai::run::clock;

@@ -1,0 +1,62 @@
+//! What the law of contact asks of a contact's normal velocity at the end of a step: Signorini's condition for a gap that
+//! may close within the step, and Newton's law of restitution for one that has closed (J. J. Moreau 1988; the gap as in
+//! D. E. Stewart, J. C. Trinkle, Int. J. Numer. Meth. Engng 39 (1996) 2673).
+
+use super::Contact;
+use crate::experiment::types::{Method, Scheme};
+use crate::model::Model;
+
+/// How a method steps through a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Approach {
+    /// What is inside is reflected, as the lecture's slides have it.
+    Inside,
+    /// Contacts are seen at the start of the step and the new velocity lasts for all of it.
+    Start,
+    /// Contacts are seen in the middle of the step and the new velocity lasts to the middle of the next one.
+    Middle,
+}
+
+/// Of the smaller body's bounding radius: gaps below it, or below what the coordinates can resolve, are closed.
+const CLOSED: f64 = 1e-12;
+const ULPS: f64 = 8.0 * f64::EPSILON;
+
+pub fn rounding_m(model: &Model, contact: &Contact) -> f64 {
+    let size = |(i, ..): (usize, _, _)| model.bodies[i].bounding_radius_m;
+    CLOSED * contact.ends().map(size).fold(f64::INFINITY, f64::min) + ULPS * contact.p_WC.amax()
+}
+
+impl Approach {
+    pub fn of(method: &Method) -> Self {
+        match method {
+            Method::TimeStepping(stepping) => match stepping.scheme {
+                Scheme::SemiImplicit => Approach::Start,
+                Scheme::Moreau => Approach::Middle,
+            },
+            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) => Approach::Inside,
+        }
+    }
+
+    /// The least normal velocity after the step, from the one before it and what forces add in it; none: the contact is
+    /// not there in this step.
+    pub fn least(&self, model: &Model, contact: &Contact, [before, gained]: [f64; 2], step_s: f64) -> Option<f64> {
+        let gap_m = if contact.gap_m > rounding_m(model, contact) { contact.gap_m } else { 0.0 };
+        // The new velocity lasts until the next step's contacts are seen: the gap may close until then.
+        let closing = -gap_m / step_s;
+        let rebound = -contact.restitution * before.min(0.0);
+        let falling = gained.min(0.0);
+        match self {
+            Approach::Inside => Some(rebound),
+            // Forces act during the impact's step as in any other, else it would add m g Δt v of energy.
+            Approach::Start if rebound > 0.0 && before + gained < closing => Some(closing.max(rebound + falling)),
+            Approach::Start => Some(closing),
+            Approach::Middle if gap_m == 0.0 && before < 0.0 => Some(rebound),
+            // A contact that bounces waits until it is inside, one that loses nothing always; any other is caught when its
+            // gap closes. What still opens is let back no faster than it came: no contact adds energy.
+            Approach::Middle => {
+                let rests = contact.restitution < 1.0 && rebound <= -falling;
+                (gap_m == 0.0 || rests).then_some(closing.min(-before.max(0.0)))
+            }
+        }
+    }
+}

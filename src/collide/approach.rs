@@ -5,6 +5,7 @@
 use super::Contact;
 use crate::experiment::types::{Method, Scheme};
 use crate::model::Model;
+use nalgebra::Vector3;
 
 /// How a method steps through a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +16,40 @@ pub enum Approach {
     Start,
     /// Contacts are seen in the middle of the step and the new velocity lasts to the middle of the next one.
     Middle,
+}
+
+/// Leaves those contacts that may close in the step: of every body and face (or other body) none beyond twice the way that
+/// the fastest of them closes by itself, as one that touches may turn the body toward the others. `velocities`: of a body
+/// by its index, before the contacts.
+pub fn foresee(
+    model: &Model,
+    contacts: &mut Vec<Contact>,
+    velocities: impl Fn(usize) -> [Vector3<f64>; 2],
+    step_s: f64,
+) {
+    let closing_m = |contact: &Contact| {
+        let of_point = |(i, r_W, sign): (usize, Vector3<f64>, f64)| {
+            let [v, w] = velocities(i);
+            (v + w.cross(&r_W)) * sign
+        };
+        -step_s * contact.normal.dot(&contact.ends().map(of_point).sum::<Vector3<f64>>())
+    };
+    let with = |contact: &Contact| (contact.body, contact.other, contact.other.map_or(contact.feature.0, |_| 0));
+    let (mut kept, mut from) = (0, 0);
+    while from < contacts.len() {
+        let len = contacts[from..].iter().take_while(|contact| with(contact) == with(&contacts[from])).count();
+        let group = from..from + len;
+        let closes_m = |contact: &Contact| if closing_m(contact) > contact.gap_m { closing_m(contact) } else { 0.0 };
+        let reach_m = 2.0 * contacts[group.clone()].iter().map(closes_m).fold(0.0, f64::max);
+        for i in group {
+            if contacts[i].gap_m <= reach_m.max(rounding_m(model, &contacts[i])) {
+                contacts.swap(kept, i);
+                kept += 1;
+            }
+        }
+        from += len;
+    }
+    contacts.truncate(kept);
 }
 
 /// Of the smaller body's bounding radius: gaps below it, or below what the coordinates can resolve, are closed.

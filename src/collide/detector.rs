@@ -21,7 +21,7 @@ pub struct Reach {
 
 /// Of the smaller body's bounding radius: bodies farther apart are not looked at ahead. The plane between two of them
 /// stands for their surfaces only nearby; a container's faces are planes.
-const NEARBY: f64 = 0.05;
+const NEARBY: f64 = 0.3;
 
 /// Rounding of positions far from the origin.
 const ULPS: f64 = 8.0 * f64::EPSILON;
@@ -63,9 +63,13 @@ impl Reach {
     }
 
     /// Around a body, for the search of pairs; two of them cover `to_body_m`.
-    fn around_m(&self, body: &Body, at: &BodyState) -> f64 {
+    fn around_m(&self, model: &Model, body: &Body, at: &BodyState) -> f64 {
         let margin_m = self.margin_m(body, at);
-        if self.ahead_s == 0.0 { margin_m } else { margin_m + NEARBY * body.bounding_radius_m }
+        if self.ahead_s == 0.0 {
+            return margin_m;
+        }
+        let ahead_m = at.v_WB.norm() * self.ahead_s + self.turning_m(body, at) + self.fall_m(model);
+        margin_m + ahead_m.min(NEARBY * body.bounding_radius_m)
     }
 }
 
@@ -145,7 +149,7 @@ impl Detector {
         for (i, (body, at)) in model.bodies.iter().zip(&state.bodies).enumerate() {
             if body.solid().is_some() {
                 self.solids.push(i);
-                self.bounds.push(Bounds::around(&at.p_WB, body.bounding_radius_m + reach.around_m(body, at)));
+                self.bounds.push(Bounds::around(&at.p_WB, body.bounding_radius_m + reach.around_m(model, body, at)));
             }
         }
         self.broad.pairs(&self.bounds, &mut self.pairs);

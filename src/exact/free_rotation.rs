@@ -33,9 +33,10 @@ pub struct FreeRotation {
 }
 
 #[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant, reason = "boxed, every step of a method would allocate")]
 enum Motion {
     Steady(Steady),
-    Tumbling(Box<Tumbling>),
+    Tumbling(Tumbling),
 }
 
 /// ω is constant in the world but for a spin about an axis without moment, which is constant in the body.
@@ -80,7 +81,7 @@ impl FreeRotation {
         let (moment, rate) = (power_of_two(I_B.amax()), power_of_two(w_W.amax()));
         let body = principal(&(I_B / moment));
         let motion = match Tumbling::new(&body, q_WB, &(w_W / rate), rate) {
-            Some(tumbling) => Motion::Tumbling(Box::new(tumbling)),
+            Some(tumbling) => Motion::Tumbling(tumbling),
             None => Motion::Steady(Steady::new(&body, q_WB, w_W)),
         };
         FreeRotation { motion }

@@ -147,7 +147,10 @@ impl MomentumLedger {
         self.angular_given += loads.angular_impulse;
         if let Some(pushes) = pushes {
             let pivot = self.pivot_m(model, kicked);
-            for (push, at) in pushes.iter().zip(&kicked.bodies) {
+            for ((push, at), body) in pushes.iter().zip(&kicked.bodies).zip(&model.bodies) {
+                if body.driven {
+                    continue;
+                }
                 let about_pivot = (at.p_WB - pivot).cross(&push.linear);
                 self.linear_given += push.linear;
                 self.angular_given += push.angular + about_pivot;

@@ -9,11 +9,11 @@
 
 use super::drift::drift;
 use super::{Clock, Scratch};
-use crate::collide::approach::Approach;
+use crate::collide::approach::{Approach, foresee};
 use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, Reach, SolvedContact};
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, Solver, TimeStepping as Settings};
-use crate::integrate::rotation::exponential;
+use crate::integrate::rotation::{exponential, w_from_momentum};
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::solve::gauss_seidel::{self, Sweeps, Variant};
@@ -71,11 +71,13 @@ impl TimeStepping {
         }
         // 1. Contact test.
         self.scratch.detect(model, state, &Reach { margin: MARGIN, ahead_s: clock.step_s });
+        self.scratch.free_velocities(model, state, clock.step_s);
+        let free = &self.scratch.free;
+        foresee(model, &mut self.scratch.found, |i| [free[i].v, free[i].w], clock.step_s);
         if let Some(reduction) = &mut self.reduction {
             reduction.apply(&mut self.scratch.found);
         }
         // 2. Contact impulses; displacements that remove penetration.
-        self.scratch.free_velocities(model, state, clock.step_s);
         self.solve_contacts(model, state, clock.step_s);
         let pushed = self.push_out(model, state, clock.step_s);
         // 3. Velocities. 4. Position and attitude.
@@ -86,12 +88,13 @@ impl TimeStepping {
         }
         drift(model, state, after_s, &mut s.work);
         if pushed {
-            for (at, moved) in state.bodies.iter_mut().zip(&self.push.moved) {
-                // With its velocity, which keeps the energy.
-                let turn = exponential(&moved.w);
+            for ((body, at), moved) in model.bodies.iter().zip(&mut state.bodies).zip(&self.push.moved) {
+                let L_W = body.I_W(at) * at.w_WB;
                 at.p_WB += moved.v;
-                at.q_WB = turn * at.q_WB;
-                at.w_WB = turn * at.w_WB;
+                at.q_WB = exponential(&moved.w) * at.q_WB;
+                if !body.isotropic && !body.driven {
+                    at.w_WB = w_from_momentum(body, at, &L_W);
+                }
             }
         }
         // 5. Time.

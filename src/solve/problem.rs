@@ -192,6 +192,13 @@ impl ContactProblem {
         }
     }
 
+    /// The same contacts once their bodies' velocities have changed by `u`: b is now c.
+    pub fn after(&self, u: &[Twist]) -> ContactProblem {
+        let mut after = self.clone();
+        after.blocks.iter_mut().for_each(|block| block.b = block.velocity(u));
+        after
+    }
+
     /// A as a dense matrix, 3L × 3L.
     pub fn A(&self) -> DMatrix<f64> {
         let n = self.blocks.len();
@@ -260,7 +267,7 @@ impl Memory {
 
 impl Block {
     /// c = b + J u.
-    fn velocity(&self, u: &[Twist]) -> Vector3<f64> {
+    pub(super) fn velocity(&self, u: &[Twist]) -> Vector3<f64> {
         let own = self.b + self.end.motion(&u[self.end.body]);
         self.other.as_ref().map_or(own, |other| own + other.motion(&u[other.body]))
     }

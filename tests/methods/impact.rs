@@ -60,7 +60,7 @@ fn energy_ratio(at: &Gathered, p: &[Impulse]) -> f64 {
 fn newtons_law_gains_energy_where_a_rod_sticks_and_the_other_laws_do_not() {
     let mut at = rod_on_floor(0.5);
     let mut newtons = at.problem.clone();
-    newtons.blocks[0].b.x += 0.9 * -1.0;
+    newtons.blocks[0].b.x -= 0.9;
     let mut p = [Impulse::zeros()];
     assert!(plastic(&newtons, &mut p));
     // measured: 1.7e-16 and 2.2e-16

@@ -3,7 +3,7 @@
 //! A skip follows from a property that is checked, never from one mesh or scene, and changes no bit of the motion.
 
 use crate::collide::approach::Approach;
-use crate::experiment::types::Method;
+use crate::experiment::types::{Impact, Method};
 use crate::model::Model;
 
 /// Decided once a run.
@@ -17,6 +17,8 @@ pub struct Plan {
     pub friction: bool,
     /// How it steps through a contact.
     pub approach: Approach,
+    /// Restitution is Newton's law.
+    pub newton: bool,
     pub stages: Vec<Stage>,
 }
 
@@ -41,8 +43,16 @@ impl Plan {
             loads(model),
             pins(model),
         ];
+        let newton = !matches!(method, Method::TimeStepping(s) if s.impact != Impact::Newton);
         let constraint = has_contact && !matches!(method, Method::Penalty(_));
-        Plan { contact: has_contact, constraint, friction: has_friction, approach: Approach::of(method), stages }
+        Plan {
+            contact: has_contact,
+            constraint,
+            friction: has_friction,
+            approach: Approach::of(method),
+            newton,
+            stages,
+        }
     }
 }
 

@@ -12,10 +12,21 @@ use nalgebra::Vector3;
 pub enum Approach {
     /// What is inside is reflected, as the lecture's slides have it.
     Inside,
+    /// Nothing is asked for but that it does not come nearer.
+    Touching,
     /// Contacts are seen at the start of the step and the new velocity lasts for all of it.
     Start,
     /// Contacts are seen in the middle of the step and the new velocity lasts to the middle of the next one.
     Middle,
+}
+
+/// Along the contact's normal, from the bodies' velocities and angular velocities by their index.
+pub fn normal_velocity(contact: &Contact, velocities: impl Fn(usize) -> [Vector3<f64>; 2]) -> f64 {
+    let of_point = |(i, r_W, sign): (usize, Vector3<f64>, f64)| {
+        let [v, w] = velocities(i);
+        (v + w.cross(&r_W)) * sign
+    };
+    contact.normal.dot(&contact.ends().map(of_point).sum::<Vector3<f64>>())
 }
 
 /// Leaves those contacts that may close in the step: of every body and face (or other body) none beyond twice the way that
@@ -27,13 +38,7 @@ pub fn foresee(
     velocities: impl Fn(usize) -> [Vector3<f64>; 2],
     step_s: f64,
 ) {
-    let closing_m = |contact: &Contact| {
-        let of_point = |(i, r_W, sign): (usize, Vector3<f64>, f64)| {
-            let [v, w] = velocities(i);
-            (v + w.cross(&r_W)) * sign
-        };
-        -step_s * contact.normal.dot(&contact.ends().map(of_point).sum::<Vector3<f64>>())
-    };
+    let closing_m = |contact: &Contact| -step_s * normal_velocity(contact, &velocities);
     let with = |contact: &Contact| (contact.body, contact.other, contact.other.map_or(contact.feature.0, |_| 0));
     let (mut kept, mut from) = (0, 0);
     while from < contacts.len() {
@@ -61,6 +66,10 @@ pub fn rounding_m(model: &Model, contact: &Contact) -> f64 {
     CLOSED * contact.ends().map(size).fold(f64::INFINITY, f64::min) + ULPS * contact.p_WC.amax()
 }
 
+pub fn is_closed(model: &Model, contact: &Contact) -> bool {
+    contact.gap_m <= rounding_m(model, contact)
+}
+
 impl Approach {
     pub fn of(method: &Method) -> Self {
         match method {
@@ -72,16 +81,28 @@ impl Approach {
         }
     }
 
+    /// Whether this is an impact with a rebound, by whatever law, and not a contact that comes to rest.
+    pub fn strikes(&self, model: &Model, contact: &Contact, [before, gained]: [f64; 2], step_s: f64) -> bool {
+        let gap_m = if is_closed(model, contact) { 0.0 } else { contact.gap_m };
+        let rebounds = -contact.restitution * before.min(0.0) > -gained.min(0.0);
+        match self {
+            Approach::Inside | Approach::Touching => before < 0.0,
+            Approach::Start => rebounds && before + gained < -gap_m / step_s,
+            Approach::Middle => rebounds && gap_m == 0.0,
+        }
+    }
+
     /// The least normal velocity after the step, from the one before it and what forces add in it; none: the contact is
     /// not there in this step.
     pub fn least(&self, model: &Model, contact: &Contact, [before, gained]: [f64; 2], step_s: f64) -> Option<f64> {
-        let gap_m = if contact.gap_m > rounding_m(model, contact) { contact.gap_m } else { 0.0 };
+        let gap_m = if is_closed(model, contact) { 0.0 } else { contact.gap_m };
         // The new velocity lasts until the next step's contacts are seen: the gap may close until then.
         let closing = -gap_m / step_s;
         let rebound = -contact.restitution * before.min(0.0);
         let falling = gained.min(0.0);
         match self {
             Approach::Inside => Some(rebound),
+            Approach::Touching => Some(0.0),
             // Forces act during the impact's step as in any other, else it would add m g Δt v of energy.
             Approach::Start if rebound > 0.0 && before + gained < closing => Some(closing.max(rebound + falling)),
             Approach::Start => Some(closing),

@@ -9,7 +9,6 @@ const LATER: &[(&str, &[&str])] = &[
     ("Container", &["mesh"]),
     ("Shape", &["mesh"]),
     ("Method", &["event-driven", "auto"]),
-    ("Impact", &["poisson", "sequential"]),
 ];
 
 /// Whether a later version knows this word in this type.

@@ -333,8 +333,13 @@ pub enum Scheme {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Impact {
-    /// Multiplied by −e, all contacts at once (Moreau).
+    /// Multiplied by −e, all contacts at once (Moreau). With friction it may gain energy.
     Newton,
+    /// All contacts at once, compression and expansion (Glocker & Pfeiffer). Never gains energy.
+    Poisson,
+    /// One contact after the other, the fastest approach first, by the energy of its own compression (Stronge). Never
+    /// gains energy.
+    Sequential,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

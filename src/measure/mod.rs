@@ -63,7 +63,7 @@ impl Judge {
         Judge {
             energy: EnergyLedger::new(energy),
             momentum: MomentumLedger::new(model, start),
-            residual: ResidualLedger::new(plan.constraint, plan.approach, model),
+            residual: ResidualLedger::new(plan.constraint, plan.approach, plan.newton, model),
             penetration_max_m: plan.contact.then_some(0.0),
             contacts_max: 0,
             pin_gap_max_m: model.pin_gap_m(&start.bodies),

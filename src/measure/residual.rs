@@ -67,6 +67,8 @@ impl Moved {
 /// Impulses of an island: bodies that contacts join.
 #[derive(Clone, Copy, Debug, Default)]
 struct Stakes {
+    /// Some contact strikes.
+    struck: bool,
     /// Largest impulse; largest that would stop an approach; the largest momentum, as an impulse at a contact.
     largest: f64,
     stopping: f64,
@@ -81,6 +83,7 @@ impl Stakes {
     }
 
     fn weigh(&mut self, of: &Seen, impulse_W: &Vector3<f64>) {
+        self.struck |= of.strikes;
         self.largest = self.largest.max(impulse_W.norm());
         self.stopping = self.stopping.max(-of.step_length * of.approach);
         self.momentum = self.momentum.max(of.step_length * of.speed);
@@ -93,6 +96,9 @@ struct Seen {
     step_length: f64,
     /// The normal velocity that the law asks for at least: u_n ≥ least.
     least: f64,
+    /// The same of a contact without restitution; and whether it strikes, so that restitution matters.
+    floor: f64,
+    strikes: bool,
     /// Normal velocity without an impulse, less that.
     approach: f64,
     /// Relative velocity after the contacts.
@@ -108,15 +114,28 @@ impl Seen {
         };
         let before = contact.normal.dot(&relative(|m| &m.before));
         let free = contact.normal.dot(&relative(|m| &m.free));
-        let least = approach.least(model, contact, [before, free - before], step_s).unwrap_or(f64::NAN);
+        let motion = [before, free - before];
+        let least = approach.least(model, contact, motion, step_s).unwrap_or(f64::NAN);
+        let plastic = Contact { restitution: 0.0, ..*contact };
+        let floor = approach.least(model, &plastic, motion, step_s).unwrap_or(f64::NAN);
         let speed = |(i, r, _): (usize, Vector3<f64>, f64)| moved[i].free.v.norm() + moved[i].free.w.norm() * r.norm();
         Seen {
             step_length: 1.0 / contact.ends().map(|(i, r, _)| moved[i].compliance(&r)).sum::<f64>(),
             least,
+            floor,
+            strikes: approach.strikes(model, contact, motion, step_s),
             approach: free - least,
             u: relative(|m| &m.after),
             speed: contact.ends().map(speed).fold(0.0, f64::max),
         }
+    }
+
+    /// Of an impact by another law than Newton's, in impulses: how far p is outside of the cone, and of what would stop the
+    /// approach that is left.
+    fn missed_by_impact(&self, contact: &Contact, impulse_W: &Vector3<f64>) -> f64 {
+        let outside = (impulse_W - in_cone(impulse_W, &contact.normal, contact.friction)).norm();
+        let approach = self.floor - contact.normal.dot(&self.u);
+        outside.max(self.step_length * approach)
     }
 
     /// |p − P_K(p − ρ ũ)|.
@@ -147,6 +166,8 @@ pub struct ResidualLedger {
     /// The method claims to solve the law of contact.
     judged: bool,
     approach: Approach,
+    /// Impacts obey Newton's law; else all that is asked of one is that it stays in its cone and stops the approach.
+    newton: bool,
     moved: Vec<Moved>,
     /// Of every body, the first one of its island.
     island_of: Vec<usize>,
@@ -155,11 +176,12 @@ pub struct ResidualLedger {
 }
 
 impl ResidualLedger {
-    pub fn new(judged: bool, approach: Approach, model: &Model) -> Self {
+    pub fn new(judged: bool, approach: Approach, newton: bool, model: &Model) -> Self {
         let bodies = model.bodies.len();
         ResidualLedger {
             judged,
             approach,
+            newton,
             moved: Vec::with_capacity(bodies),
             island_of: Vec::with_capacity(bodies),
             stakes: Vec::with_capacity(bodies),
@@ -182,8 +204,13 @@ impl ResidualLedger {
             self.stakes[island].weigh(&seen(contact), impulse_W);
         }
         let missed = |SolvedContact { contact, impulse_W }: &SolvedContact| {
-            let scale = self.stakes[self.island(model, contact)].scale();
-            relative(seen(contact).missed(contact, impulse_W), scale)
+            let stakes = &self.stakes[self.island(model, contact)];
+            let missed = if stakes.struck && !self.newton {
+                seen(contact).missed_by_impact(contact, impulse_W)
+            } else {
+                seen(contact).missed(contact, impulse_W)
+            };
+            relative(missed, stakes.scale())
         };
         let largest = contacts.iter().map(missed).fold(0.0, f64::max);
         self.max = Some(self.max.map_or(largest, |max| max.max(largest)));

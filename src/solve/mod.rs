@@ -3,6 +3,7 @@
 mod active_set;
 pub mod exact_contact;
 pub mod gauss_seidel;
+pub mod impact;
 pub mod island;
 pub mod law;
 pub mod newton;

@@ -22,6 +22,15 @@ pub struct Twist {
 impl Twist {
     pub const ZERO: Twist = Twist { v: Vector3::new(0.0, 0.0, 0.0), w: Vector3::new(0.0, 0.0, 0.0) };
 
+    pub fn of(at: &BodyState) -> Self {
+        Twist { v: at.v_WB, w: at.w_WB }
+    }
+
+    /// A part of the way to another one.
+    pub fn toward(&self, other: &Twist, part: f64) -> Twist {
+        Twist { v: self.v + (other.v - self.v) * part, w: self.w + (other.w - self.w) * part }
+    }
+
     pub fn times(&self, factor: f64) -> Twist {
         Twist { v: self.v * factor, w: self.w * factor }
     }
@@ -222,6 +231,18 @@ impl ContactProblem {
         }
     }
 
+    /// b as it was before the bodies' velocities changed by `u`.
+    pub fn take_off(&mut self, u: &[Twist]) {
+        self.blocks.iter_mut().for_each(|block| block.b -= block.motion(u));
+    }
+
+    /// The same contacts once their bodies' velocities have changed by `u`: b is now c.
+    pub fn after(&self, u: &[Twist]) -> ContactProblem {
+        let mut after = self.clone();
+        after.blocks.iter_mut().for_each(|block| block.b = block.velocity(u));
+        after
+    }
+
     /// A as a dense matrix, 3L × 3L.
     pub fn A(&self) -> DMatrix<f64> {
         let n = self.blocks.len();
@@ -291,7 +312,12 @@ impl Memory {
 impl Block {
     /// c = b + J u.
     pub fn velocity(&self, u: &[Twist]) -> Vector3<f64> {
-        let own = self.b + self.end.motion(&u[self.end.body]);
+        self.b + self.motion(u)
+    }
+
+    /// J u.
+    fn motion(&self, u: &[Twist]) -> Vector3<f64> {
+        let own = self.end.motion(&u[self.end.body]);
         self.other.as_ref().map_or(own, |other| own + other.motion(&u[other.body]))
     }
 
@@ -337,7 +363,7 @@ impl Block {
         let mut b = sum(&|end| end.motion(&free[end.body]));
         let before = sum(&|end| {
             let at = &before[end.body];
-            end.motion(&Twist { v: at.v_WB, w: at.w_WB })
+            end.motion(&Twist::of(at))
         });
         let least = approach.least(model, contact, [before.x, b.x - before.x], step_s)?;
         b.x -= least;

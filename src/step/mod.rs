@@ -3,6 +3,7 @@
 //! A `match` on the method picks it, once a run. A free product of integrators and contact solvers would permit
 //! nonsense and forbid substeps and events.
 
+mod blow;
 mod drift;
 mod free;
 mod lecture;

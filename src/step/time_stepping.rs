@@ -7,6 +7,7 @@
 //! A step is a motion, a kick and a motion: `semi-implicit` kicks first and moves for the whole step, `moreau` kicks half-way
 //! (J. J. Moreau, Comput. Methods Appl. Mech. Engrg 177 (1999) 329).
 
+use super::blow::Blow;
 use super::drift::drift;
 use super::{Clock, Scratch};
 use crate::collide::approach::{Approach, foresee};
@@ -14,10 +15,12 @@ use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, Reach, SolvedContact};
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, Solver, TimeStepping as Settings};
 use crate::integrate::rotation::{exponential, w_from_momentum};
+use crate::measure::work::Work;
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::solve::gauss_seidel::{self, Sweeps, Variant};
 use crate::solve::position::Push;
+use crate::solve::problem::{ContactProblem, Twist};
 use crate::solve::{Impulse, newton, nncg};
 use crate::state::State;
 use nalgebra::Vector3;
@@ -34,6 +37,7 @@ pub struct TimeStepping {
     /// Which contact had which impulse in the last step, in the order of contacts.
     last: Vec<(Key, Impulse)>,
     push: Push,
+    blow: Option<Blow>,
     /// Where the last step's impulses acted, if not where the step began.
     pub(super) kicked: Option<State>,
     pub(super) scratch: Scratch,
@@ -57,6 +61,7 @@ impl TimeStepping {
             position_correction: settings.position_correction,
             last: Vec::with_capacity(scratch.contacts()),
             push: Push::with_capacity(scratch.contacts(), scratch.free.capacity()),
+            blow: Blow::new(settings.impact, plan.approach, start),
             kicked: (plan.approach == Approach::Middle).then(|| start.clone()),
             scratch,
         }
@@ -104,21 +109,31 @@ impl TimeStepping {
     fn solve_contacts(&mut self, model: &Model, state: &State, step_s: f64) {
         let s = &mut self.scratch;
         s.problem.gather(model, state, &s.free, &mut s.found, (self.approach, step_s));
+        let solver = self.solver;
+        let struck = self.blow.as_mut().filter(|_| !s.found.is_empty()).and_then(|blow| {
+            let (sweeps, scratch, work) = (&self.sweeps, &mut s.solver, &mut s.work);
+            let mut plastic =
+                |problem: &ContactProblem, p: &mut [Impulse]| solve(solver, problem, sweeps, p, scratch, work);
+            let ended = blow.strike(model, state, &s.free, &s.found, step_s, &mut plastic)?;
+            s.work.unsolved += u64::from(!ended);
+            go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s));
+            Some(blow)
+        });
         warm_start(&s.found, &self.last, &mut s.impulses);
         s.problem.response(&s.impulses, &mut s.response);
         // Projected Gauss–Seidel only descends: from a start that adds energy it might not come below zero in time.
         if s.problem.energy(&s.impulses, &s.response) > 0.0 {
             s.impulses.fill(Impulse::zeros());
         }
-        let solve = match self.solver {
-            Solver::Pgs => gauss_seidel::iterate,
-            Solver::Nncg => nncg::iterate,
-            Solver::Newton => newton::solve,
-        };
-        if !s.found.is_empty() && !solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.solver, &mut s.work) {
+        if !s.found.is_empty() && !solve(solver, &s.problem, &self.sweeps, &mut s.impulses, &mut s.solver, &mut s.work)
+        {
             s.work.unsolved += 1;
             s.problem.response(&s.impulses, &mut s.response);
             s.problem.take_back(&mut s.impulses, &s.response);
+        }
+        if let Some(blow) = struck {
+            s.problem.take_off(&blow.response);
+            s.impulses.iter_mut().zip(&blow.impulses).for_each(|(p, blow)| *p += blow);
         }
         self.last.clear();
         self.last.extend(s.found.iter().zip(&s.impulses).map(|(c, p)| (c.key(), *p)));
@@ -134,6 +149,35 @@ impl TimeStepping {
         self.position_correction == PositionCorrection::Projection
             && self.push.find(&s.problem, &s.found, model, (&s.response, step_s), lost_j, &self.sweeps, &mut s.work)
     }
+}
+
+fn solve(
+    solver: Solver,
+    problem: &ContactProblem,
+    sweeps: &Sweeps,
+    p: &mut [Impulse],
+    scratch: &mut gauss_seidel::Scratch,
+    work: &mut Work,
+) -> bool {
+    match solver {
+        Solver::Pgs => gauss_seidel::iterate(problem, sweeps, p, scratch, work),
+        Solver::Nncg => nncg::iterate(problem, sweeps, p, scratch, work),
+        Solver::Newton => newton::solve(problem, sweeps, p, scratch, work),
+    }
+}
+
+/// The step's contact problem after a blow that took care of all restitution.
+fn go_on_after(
+    blow: &Blow,
+    model: &Model,
+    problem: &mut ContactProblem,
+    free: &[Twist],
+    found: &[Contact],
+    (approach, step_s): (Approach, f64),
+) {
+    let free: Vec<Twist> = free.iter().zip(&blow.response).map(|(a, b)| Twist { v: a.v + b.v, w: a.w + b.w }).collect();
+    let mut plastic: Vec<Contact> = found.iter().map(|contact| Contact { restitution: 0.0, ..*contact }).collect();
+    problem.gather(model, &blow.after, &free, &mut plastic, (approach, step_s));
 }
 
 /// Contacts that were left out are there, without an impulse.

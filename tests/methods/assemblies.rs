@@ -29,7 +29,7 @@ pub struct Stone {
 }
 
 impl Stone {
-    fn new(mass: f64, size: [f64; 3], at: [f64; 3]) -> Self {
+    pub fn new(mass: f64, size: [f64; 3], at: [f64; 3]) -> Self {
         Stone { mass, size, at: at.into(), v: Vector3::zeros(), w: Vector3::zeros() }
     }
 }
@@ -42,12 +42,12 @@ pub struct Assembly {
 }
 
 impl Assembly {
-    fn new(friction: f64) -> Self {
+    pub fn new(friction: f64) -> Self {
         Assembly { friction, ..Default::default() }
     }
 
     /// `normal` from the other one, or the container, to the body.
-    fn touch(&mut self, body: usize, other: Option<usize>, point: Vector3<f64>, normal: Vector3<f64>) {
+    pub fn touch(&mut self, body: usize, other: Option<usize>, point: Vector3<f64>, normal: Vector3<f64>) {
         let (body, other, normal) = match other {
             Some(other) if other < body => (other, Some(body), -normal),
             _ => (body, other, normal),
@@ -88,8 +88,16 @@ impl Assembly {
     }
 
     pub fn gathered(self) -> Gathered {
+        self.after(Vector3::y() * -GRAVITY * STEP_S)
+    }
+
+    /// At an impact: velocities just before it.
+    pub fn struck(self) -> Gathered {
+        self.after(Vector3::zeros())
+    }
+
+    fn after(self, fall: Vector3<f64>) -> Gathered {
         let (model, state) = self.model();
-        let fall = Vector3::y() * -GRAVITY * STEP_S;
         let free: Vec<Twist> = state.bodies.iter().map(|at| Twist { v: at.v_WB + fall, w: at.w_WB }).collect();
         let mut problem = ContactProblem::default();
         problem.gather(&model, &state, &free, &mut self.contacts.clone(), (Approach::Inside, STEP_S));
@@ -113,20 +121,25 @@ pub struct Solved {
     pub work: Work,
 }
 
+/// Of projected Gauss–Seidel with discs.
+pub fn sweeps(most: u32, tolerance: f64, friction: bool) -> Sweeps {
+    Sweeps {
+        iteration: Iteration::GaussSeidel,
+        correction: Correction::PerContact,
+        cone: Cone::Disc,
+        most,
+        tolerance,
+        friction,
+        variant: Variant::default(),
+    }
+}
+
 pub type Solver = fn(&ContactProblem, &Sweeps, &mut [Impulse], &mut Scratch, &mut Work) -> bool;
 
 impl Gathered {
     /// From impulses `p`.
     pub fn solve_from(&self, mut p: Vec<Impulse>, solver: Solver, most: u32, tolerance: f64) -> Solved {
-        let sweeps = Sweeps {
-            iteration: Iteration::GaussSeidel,
-            correction: Correction::PerContact,
-            cone: Cone::Disc,
-            most,
-            tolerance,
-            friction: self.assembly.friction > 0.0,
-            variant: Variant::default(),
-        };
+        let sweeps = sweeps(most, tolerance, self.assembly.friction > 0.0);
         let (mut scratch, mut work) = (Scratch::with_capacity(0, 0), Work::default());
         let says = solver(&self.problem, &sweeps, &mut p, &mut scratch, &mut work);
         Solved { says, p, work }
@@ -153,7 +166,7 @@ impl Gathered {
                 pushes[i].angular += r_W.cross(impulse_W) * sign;
             }
         }
-        let mut ledger = ResidualLedger::new(true, Approach::Inside, &self.model);
+        let mut ledger = ResidualLedger::new(true, Approach::Inside, true, &self.model);
         ledger.observe(&self.model, &self.state, &solved, &pushes, STEP_S);
         ledger.max.unwrap()
     }

@@ -6,6 +6,8 @@ mod contact;
 mod cycles;
 mod divergence;
 mod free;
+mod impact;
+mod impact_energy;
 mod lecture;
 mod loads;
 mod newton;

@@ -1,0 +1,99 @@
+//! Impacts by a law of their own (`solve::impact`), before a step's contact forces: what strikes in the step, together with
+//! what touches, passes through the law from the velocities just before; the step then goes on, plastic, from those just
+//! after.
+
+use crate::collide::Contact;
+use crate::collide::approach::{Approach, is_closed, normal_velocity};
+use crate::experiment::types::Impact;
+use crate::model::Model;
+use crate::solve::Impulse;
+use crate::solve::impact::{self, Law, Plastic};
+use crate::solve::problem::{ContactProblem, Twist};
+use crate::state::State;
+
+pub struct Blow {
+    law: Law,
+    approach: Approach,
+    problem: ContactProblem,
+    /// Those that take part, their places among all, their restitution.
+    contacts: Vec<Contact>,
+    places: Vec<usize>,
+    restitution: Vec<f64>,
+    own: Vec<Impulse>,
+    /// Of all contacts; and what they do to the bodies.
+    pub impulses: Vec<Impulse>,
+    pub response: Vec<Twist>,
+    /// The bodies just after.
+    pub after: State,
+}
+
+impl Blow {
+    /// None: Newton's law, which the targets of the step's own contact problem are.
+    pub fn new(law: Impact, approach: Approach, start: &State) -> Option<Self> {
+        let law = match law {
+            Impact::Newton => return None,
+            Impact::Poisson => Law::Poisson,
+            Impact::Sequential => Law::Sequential,
+        };
+        Some(Blow {
+            law,
+            approach,
+            problem: ContactProblem::default(),
+            contacts: Vec::new(),
+            places: Vec::new(),
+            restitution: Vec::new(),
+            own: Vec::new(),
+            impulses: Vec::new(),
+            response: Vec::new(),
+            after: start.clone(),
+        })
+    }
+
+    /// None if nothing strikes; else whether the law came to its end. `free`: velocities with the forces of the step.
+    pub fn strike(
+        &mut self,
+        model: &Model,
+        state: &State,
+        free: &[Twist],
+        found: &[Contact],
+        step_s: f64,
+        solver: &mut Plastic,
+    ) -> Option<bool> {
+        self.take_part(model, state, free, found, step_s);
+        if self.restitution.iter().all(|e| *e == 0.0) {
+            return None;
+        }
+        // Half-way through the kick of `moreau` half of the forces have acted: with e = 1 no energy is lost.
+        let part = if self.approach == Approach::Middle { 0.5 } else { 0.0 };
+        let before: Vec<Twist> =
+            state.bodies.iter().zip(free).map(|(at, free)| Twist::of(at).toward(free, part)).collect();
+        self.problem.gather(model, state, &before, &mut self.contacts, (Approach::Touching, step_s));
+        let ended = impact::resolve(self.law, &self.problem, &self.restitution, solver, &mut self.own);
+        self.impulses.clear();
+        self.impulses.resize(found.len(), Impulse::zeros());
+        self.places.iter().zip(&self.own).for_each(|(place, p)| self.impulses[*place] = *p);
+        self.problem.response(&self.own, &mut self.response);
+        self.after.copy_from(state);
+        for (at, u) in self.after.bodies.iter_mut().zip(&self.response) {
+            at.v_WB += u.v;
+            at.w_WB += u.w;
+        }
+        Some(ended)
+    }
+
+    fn take_part(&mut self, model: &Model, state: &State, free: &[Twist], found: &[Contact], step_s: f64) {
+        self.contacts.clear();
+        self.places.clear();
+        self.restitution.clear();
+        for (place, contact) in found.iter().enumerate() {
+            let before = normal_velocity(contact, |i| [state.bodies[i].v_WB, state.bodies[i].w_WB]);
+            let gained = normal_velocity(contact, |i| [free[i].v, free[i].w]) - before;
+            let strikes = self.approach.strikes(model, contact, [before, gained], step_s);
+            if strikes || is_closed(model, contact) {
+                self.contacts.push(*contact);
+                self.places.push(place);
+                self.restitution.push(if strikes { contact.restitution } else { 0.0 });
+            }
+        }
+    }
+}

@@ -3,7 +3,7 @@
 //! Spheres by the nearest point of the other surface, capsules among themselves by their segments; everything else by the
 //! axis between the cores (`axis.rs`), then the corners of what lies opposite along it (`manifold.rs`).
 
-use super::axis::{Axis, axis};
+use super::axis::{Axis, Face, axis};
 use super::closest::closest;
 use super::manifold::{Opposite, closest_parts, of_face, of_lines};
 use super::placed::Placed;
@@ -50,7 +50,8 @@ impl Collect<'_> {
 
     fn all(&mut self, axis: &Axis, otherwise: &Vector3<f64>, size_m: f64) {
         let [a, b] = self.placed;
-        of_face(a, b, axis, size_m, &mut |at| self.add(&axis.normal, at));
+        let face = axis.face.or_else(|| nearly_facing(a, b, &axis.normal));
+        of_face(a, b, &Axis { face, ..*axis }, size_m, &mut |at| self.add(&axis.normal, at));
         if !self.visited {
             let normal = if axis.face.is_some() { otherwise } else { &axis.normal };
             of_lines(a, b, normal, size_m, &mut |at| self.add(normal, at));
@@ -66,6 +67,18 @@ impl Collect<'_> {
             self.out.push(Touch { p_W: self.origin_W + middle, normal: *normal, gap_m, feature: at.feature });
         }
     }
+}
+
+/// Where edges cross over a face that lies almost flat, the axis is theirs and the points are the face's: of two, one would
+/// be lost by a last bit, and a body that topples over an edge would twist.
+const NEARLY: f64 = 0.95;
+
+/// The face of either that is nearest to facing along the axis, if it nearly does.
+fn nearly_facing(a: &Placed, b: &Placed, normal: &Vector3<f64>) -> Option<Face> {
+    let of_a = (0..a.faces()).map(|face| (-a.face_normal(face).dot(normal), Face::OfA(face)));
+    let of_b = (0..b.faces()).map(|face| (b.face_normal(face).dot(normal), Face::OfB(face)));
+    let best = of_a.chain(of_b).reduce(|best, next| if next.0 > best.0 { next } else { best });
+    best.filter(|(along, _)| *along > NEARLY).map(|(_, face)| face)
 }
 
 /// `toward`: 1 if the sphere is a, −1 if it is b.

@@ -59,8 +59,7 @@ impl Blow {
         step_s: f64,
         solver: &mut Plastic,
     ) -> Option<bool> {
-        self.take_part(model, state, free, found, step_s);
-        if self.restitution.iter().all(|e| *e == 0.0) {
+        if !self.take_part(model, state, free, found, step_s) {
             return None;
         }
         // Half-way through the kick of `moreau` half of the forces have acted: with e = 1 no energy is lost.
@@ -81,7 +80,9 @@ impl Blow {
         Some(ended)
     }
 
-    fn take_part(&mut self, model: &Model, state: &State, free: &[Twist], found: &[Contact], step_s: f64) {
+    /// Whether anything strikes.
+    fn take_part(&mut self, model: &Model, state: &State, free: &[Twist], found: &[Contact], step_s: f64) -> bool {
+        let mut any = false;
         self.contacts.clear();
         self.places.clear();
         self.restitution.clear();
@@ -89,11 +90,13 @@ impl Blow {
             let before = normal_velocity(contact, |i| [state.bodies[i].v_WB, state.bodies[i].w_WB]);
             let gained = normal_velocity(contact, |i| [free[i].v, free[i].w]) - before;
             let strikes = self.approach.strikes(model, contact, [before, gained], step_s);
+            any |= strikes;
             if strikes || is_closed(model, contact) {
                 self.contacts.push(*contact);
                 self.places.push(place);
-                self.restitution.push(if strikes { contact.restitution } else { 0.0 });
+                self.restitution.push(contact.restitution);
             }
         }
+        any
     }
 }

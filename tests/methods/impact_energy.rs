@@ -4,6 +4,7 @@ use super::assemblies::{Spread, sweeps};
 use super::impact::plastic;
 use crate::yaml::experiment;
 use gotai::collide::Contact;
+use gotai::collide::approach::Approach;
 use gotai::measure::work::Work;
 use gotai::model::Model;
 use gotai::solve::Impulse;
@@ -67,7 +68,7 @@ fn draw(spread: &mut Spread, model: &Model, state: &State, number: usize) -> Dra
     let e = [0.0, 0.5, 0.9, 1.0, -1.0][number / 24 % 5];
     let restitution = contacts.iter().map(|_| if e < 0.0 { unit(spread) } else { e }).collect();
     let mut problem = ContactProblem::default();
-    problem.gather(model, state, &before, &contacts);
+    problem.gather(model, state, &before, &mut contacts.to_vec(), (Approach::Inside, 0.01));
     Drawn { problem, before, restitution }
 }
 

@@ -75,6 +75,9 @@ const NEARLY: f64 = 0.95;
 
 /// The face of either that is nearest to facing along the axis, if it nearly does.
 fn nearly_facing(a: &Placed, b: &Placed, normal: &Vector3<f64>) -> Option<Face> {
+    if !a.is_polytope() || !b.is_polytope() {
+        return None;
+    }
     let of_a = (0..a.faces()).map(|face| (-a.face_normal(face).dot(normal), Face::OfA(face)));
     let of_b = (0..b.faces()).map(|face| (b.face_normal(face).dot(normal), Face::OfB(face)));
     let best = of_a.chain(of_b).reduce(|best, next| if next.0 > best.0 { next } else { best });

@@ -7,10 +7,14 @@ use super::dd::Dd;
 /// Carlson's steps: each but the first few divides what is left by 4. Ends at NaN.
 const MOST: u32 = 100;
 
+/// Steps of the mean: from k′ = 10⁻¹⁵⁰, 15 are made. Ends at NaN.
+const MEANS: usize = 24;
+
 /// sn, cn, dn of one modulus: the steps of the arithmetic-geometric mean of 1 and k′.
 #[derive(Clone, Debug)]
 pub struct Jacobi {
-    means: Vec<(f64, f64)>,
+    means: [(f64, f64); MEANS],
+    used: usize,
     /// π/(2K); 0 if k = 1.
     rate: f64,
 }
@@ -19,18 +23,20 @@ impl Jacobi {
     pub fn new(kc: f64) -> Self {
         /// Convergence is quadratic: the next difference would be below rounding.
         const CLOSE: f64 = 1e-9;
-        let (mut means, mut a, mut g) = (Vec::new(), 1.0, kc);
+        let (mut jacobi, mut a, mut g) = (Jacobi { means: [(0.0, 0.0); MEANS], used: 0, rate: 0.0 }, 1.0, kc);
         if kc == 0.0 {
-            return Jacobi { means, rate: 0.0 };
+            return jacobi;
         }
-        loop {
-            means.push((a, g));
-            let mean = (a + g) / 2.0;
+        for means in &mut jacobi.means {
+            *means = (a, g);
+            jacobi.used += 1;
+            jacobi.rate = (a + g) / 2.0;
             if (a - g).abs() <= CLOSE * a {
-                return Jacobi { means, rate: mean };
+                break;
             }
-            (a, g) = (mean, (a * g).sqrt());
+            (a, g) = (jacobi.rate, (a * g).sqrt());
         }
+        jacobi
     }
 
     /// (sn, cn, dn) at |x| ≤ K.
@@ -47,7 +53,7 @@ impl Jacobi {
         }
         let (mut a, mut dn) = (cos / sin, 1.0);
         let mut c = self.rate * a;
-        for &(mean, root) in self.means.iter().rev() {
+        for &(mean, root) in self.means[..self.used].iter().rev() {
             a *= c;
             c *= dn;
             dn = (root + a) / (mean + a);

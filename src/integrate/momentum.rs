@@ -111,12 +111,13 @@ fn cayley(c: &Vector3<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::from_parts(1.0, *c) / (1.0 + c.norm_squared()).sqrt())
 }
 
-fn momentum_W(body: &Body, q_WB: &UnitQuaternion<f64>, w_WB: &Vector3<f64>) -> Vector3<f64> {
+/// I ω in the world.
+pub fn momentum_W(body: &Body, q_WB: &UnitQuaternion<f64>, w_WB: &Vector3<f64>) -> Vector3<f64> {
     q_WB * (body.I_B * q_WB.inverse_transform_vector(w_WB))
 }
 
 /// The ω whose `momentum_W` is L. I I⁻¹ is not quite 1, and by the same factor in every step.
-fn velocity_W(body: &Body, q_WB: &UnitQuaternion<f64>, L_W: &Vector3<f64>) -> Vector3<f64> {
+pub fn velocity_W(body: &Body, q_WB: &UnitQuaternion<f64>, L_W: &Vector3<f64>) -> Vector3<f64> {
     let inverse = |L_W: &Vector3<f64>| q_WB * (body.I_B_inverse * q_WB.inverse_transform_vector(L_W));
     let w_WB = inverse(L_W);
     w_WB + inverse(&(L_W - momentum_W(body, q_WB, &w_WB)))

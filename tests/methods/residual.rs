@@ -33,7 +33,10 @@ impl Impact {
     /// In closed form: A is diagonal, 1/m and twice 7/2m. The spin is zero, the ball slips with v.
     fn solved(&self) -> Vector3<f64> {
         let [x, y, z] = self.velocity;
-        let approach = y - self.gravity * self.step + self.restitution * y.min(0.0);
+        // Forces act during the step of an impact.
+        let rebound = -self.restitution * y.min(0.0);
+        let least = if rebound > 0.0 { (rebound - self.gravity * self.step).max(0.0) } else { 0.0 };
+        let approach = y - self.gravity * self.step - least;
         let normal = (-self.mass * approach).max(0.0);
         let stick = Vector3::new(-x, 0.0, -z) * (self.mass * 2.0 / 7.0);
         let tangent = stick * (self.friction * normal / stick.norm()).min(1.0);

@@ -75,7 +75,8 @@ const NEARLY: f64 = 0.95;
 
 /// The face of either that is nearest to facing along the axis, if it nearly does.
 fn nearly_facing(a: &Placed, b: &Placed, normal: &Vector3<f64>) -> Option<Face> {
-    if !a.is_polytope() || !b.is_polytope() {
+    let is_polyhedron = |of: &Placed| of.is_polytope() && of.faces() > 0;
+    if !is_polyhedron(a) || !is_polyhedron(b) {
         return None;
     }
     let of_a = (0..a.faces()).map(|face| (-a.face_normal(face).dot(normal), Face::OfA(face)));

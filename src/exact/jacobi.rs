@@ -4,7 +4,7 @@
 
 use super::dd::Dd;
 
-/// Carlson's steps: each but the first few divides what is left by 4. Ends at NaN.
+/// Carlson's steps, and those of `cel`: each but the first few divides what is left by 4. Ends at NaN.
 const MOST: u32 = 100;
 
 /// Steps of the mean: from k′ = 10⁻¹⁵⁰, 15 are made. Ends at NaN.
@@ -69,7 +69,7 @@ pub(super) fn cel(kc: Dd, p: Dd, a: Dd, b: Dd) -> Dd {
     const CLOSE: f64 = 1e-16;
     let (mut a, mut p, mut kc) = (a, p.sqrt(), kc);
     let (mut b, mut e, mut mean) = (b / p, kc, Dd::ONE);
-    loop {
+    for _ in 0..MOST {
         let (f, g) = (a, e / p);
         a = a + b / p;
         b = b + f * g;
@@ -84,6 +84,7 @@ pub(super) fn cel(kc: Dd, p: Dd, a: Dd, b: Dd) -> Dd {
         kc = kc + kc;
         e = kc * mean;
     }
+    Dd::from(f64::NAN)
 }
 
 /// ½ ∫ dt / √((t+x)(t+y)(t+z)) over 0..∞; at most one argument may be zero.

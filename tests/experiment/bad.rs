@@ -33,7 +33,7 @@ const ROWS: &[Row] = &[
     ("copies counted twice", CUBE, "      mass_kg: 1.0\n      copies: { count: 2, grid: [1, 1, 2], step_m: [0, 1, 0] }\n", 11, "scene.bodies.cube.copies.grid", "expected either `count` or `grid`, found both"),
     ("no copies", CUBE, "      mass_kg: 1.0\n      copies: { grid: [3, 0, 3], step_m: [0, 1, 0] }\n", 11, "scene.bodies.cube.copies.grid", "expected 1 to 100000 bodies, found 0"),
     ("too many copies", CUBE, "      mass_kg: 1.0\n      copies: { grid: [1000, 1000, 1000], step_m: [0, 1, 0] }\n", 11, "scene.bodies.cube.copies.grid", "expected 1 to 100000 bodies, found 1000000000"),
-    ("a copy too far", FRICTION, "  pairs: [{ between: ['cube[7]', container], friction: 0.5 }]\n", 2, "scene.pairs.0.between.0", "expected one of cube, container, found `cube[7]`"),
+    ("a copy too far", FRICTION, "  pairs: [{ between: ['cube[7]', container], friction: 0.5 }]\n", 2, "scene.pairs.0.between.0", "expected one of cube, point, container, found `cube[7]`"),
     ("a later key of a sweep", "seed: 7\n", "sweep: { where: [] }\n", 15, "sweep.where", "not available in this version"),
     // Words.
     ("an unknown word", LECTURE, "method: lectur\n", 16, "method", "expected one of free, lecture, penalty, time-stepping, found `lectur`; did you mean `lecture`?"),

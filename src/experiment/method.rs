@@ -342,6 +342,17 @@ pub enum Impact {
     Sequential,
 }
 
+impl Impact {
+    /// Its word in the file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Impact::Newton => "newton",
+            Impact::Poisson => "poisson",
+            Impact::Sequential => "sequential",
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PositionCorrection {

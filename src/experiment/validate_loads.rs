@@ -2,7 +2,7 @@
 
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
-use super::method::{Integrator, Method};
+use super::method::{Impact, Integrator, Method};
 use super::types::{Air, Body, Course, Experiment, Force, Pin, Scene, Shape};
 use super::validate::{Result, not_negative, unexpected};
 
@@ -16,8 +16,14 @@ pub fn validate_loads(experiment: &Experiment, at: Path) -> Result<()> {
         Method::Free(free) if free.integrator == Integrator::Taylor => no_quadratic_drag(scene, at.key("air")),
         Method::Free(_) => Ok(()),
         _ if scene.pins.is_empty() => Ok(()),
+        Method::TimeStepping(stepping) if stepping.impact == Impact::Newton => Ok(()),
+        Method::TimeStepping(stepping) => {
+            let feature = format!("a pin with the law of impact `{}` (`newton` has pins)", stepping.impact.word());
+            Err(ExperimentError::feature_not_available(pins.to_key_path(), &feature))
+        }
         method => {
-            let feature = format!("a pin with the method `{}` (the method `free` has pins)", method.word());
+            let feature =
+                format!("a pin with the method `{}` (the methods `free` and `time-stepping` have pins)", method.word());
             Err(ExperimentError::feature_not_available(pins.to_key_path(), &feature))
         }
     }

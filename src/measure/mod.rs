@@ -90,7 +90,7 @@ impl Judge {
             self.watched.observe(kicked, contacts);
         }
         self.watched.observe_step(before, after, step_s);
-        self.residual.observe(model, kicked, contacts, &self.pushes, step_s);
+        self.residual.observe(model, [kicked, after], contacts, &self.pushes, step_s);
         let pivot = |state: &State| self.momentum.pivot_m(model, state);
         let done = loads::done(model, [before, after], &mut self.middle, pivot, step_s);
         self.energy.observe(energy, done.work_j);

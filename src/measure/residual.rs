@@ -44,7 +44,8 @@ struct Moved {
 }
 
 impl Moved {
-    fn new(model: &Model, index: usize, before: &State, push: &Push, step_s: f64) -> Self {
+    /// With pins, whose impulses nobody tells, the motion after is that of the state after; turning freely keeps I ω.
+    fn new(model: &Model, index: usize, [before, after]: [&State; 2], push: &Push, step_s: f64) -> Self {
         let (body, at) = (&model.bodies[index], &before.bodies[index]);
         let (v, w) = model.gained(index, before.time_s, at, step_s);
         let before = Motion { v: at.v_WB, w: at.w_WB };
@@ -53,7 +54,12 @@ impl Moved {
             return Moved { before, free, after: free, mass_kg: f64::INFINITY, I_W_inverse: Matrix3::zeros() };
         }
         let I_W_inverse = body.I_W_inverse(at);
-        let after = Motion { v: free.v + push.linear / body.mass_kg, w: free.w + I_W_inverse * push.angular };
+        let after = if model.pins.is_empty() {
+            Motion { v: free.v + push.linear / body.mass_kg, w: free.w + I_W_inverse * push.angular }
+        } else {
+            let at = &after.bodies[index];
+            Motion { v: at.v_WB, w: I_W_inverse * (body.I_W(at) * at.w_WB) }
+        };
         Moved { before, free, after, mass_kg: body.mass_kg, I_W_inverse }
     }
 
@@ -189,12 +195,20 @@ impl ResidualLedger {
         }
     }
 
-    pub fn observe(&mut self, model: &Model, before: &State, contacts: &[SolvedContact], pushes: &[Push], step_s: f64) {
+    /// `states`: where the impulses acted, and after the step.
+    pub fn observe(
+        &mut self,
+        model: &Model,
+        states: [&State; 2],
+        contacts: &[SolvedContact],
+        pushes: &[Push],
+        step_s: f64,
+    ) {
         if !self.judged || contacts.is_empty() {
             return;
         }
         self.moved.clear();
-        self.moved.extend(pushes.iter().enumerate().map(|(i, push)| Moved::new(model, i, before, push, step_s)));
+        self.moved.extend(pushes.iter().enumerate().map(|(i, push)| Moved::new(model, i, states, push, step_s)));
         self.find_islands(model, contacts);
         self.stakes.clear();
         self.stakes.resize(pushes.len(), Stakes::default());

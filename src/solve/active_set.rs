@@ -8,7 +8,7 @@
 
 use super::Impulse;
 use super::island::{Island, Touch};
-use super::law::{self, Place};
+use super::law::{self, Law, Place};
 use nalgebra::{Matrix3, RowVector3, Vector3};
 
 const ETA: f64 = 1e-8;
@@ -52,11 +52,12 @@ struct Linear {
 
 impl Linear {
     fn new(touch: &Touch, p: &Impulse, u: &Vector3<f64>) -> Self {
-        let friction = touch.friction;
+        let friction = touch.law.friction();
         let normal = RowVector3::new(1.0, 0.0, 0.0);
         let stay = |K| Linear { jump: Impulse::zeros(), K, slips: false };
-        match law::place(&(p - law::dual(u, friction)), friction) {
+        match law::place(&(p - law::dual(u, touch.law)), touch.law) {
             Place::Tip => Linear { jump: -p, K: Matrix3::zeros(), slips: false },
+            _ if touch.law == Law::Pin => stay(Matrix3::identity() / ETA),
             _ if friction == 0.0 => stay(normal.transpose() * normal / ETA),
             Place::Inside => stay(Matrix3::identity() / ETA),
             Place::Side { t, .. } => {
@@ -76,10 +77,10 @@ fn step(island: &Island, p: &[Impulse]) -> Option<Vec<Impulse>> {
         island.touches.iter().zip(p).zip(&u).map(|((touch, p), u)| Linear::new(touch, p, u)).collect();
     let K: Vec<Matrix3<f64>> = linear.iter().map(|linear| linear.K).collect();
     let at_rest: Vec<Impulse> = linear.iter().zip(&u).map(|(linear, u)| linear.jump - linear.K * u).collect();
-    let change = island.matrix(&K).lu().solve(&island.pushed(&at_rest))?;
+    let change = island.system(&K)?.solve(&island.pushed(&at_rest))?;
     let moved = |(((touch, linear), p), u): (((&Touch, &Linear), &Impulse), &Vector3<f64>)| {
         let new = p + linear.jump - linear.K * (u + touch.motion(&change));
-        if linear.slips { onto_cone(&new, touch.friction) } else { new }
+        if linear.slips { onto_cone(&new, touch.law.friction()) } else { new }
     };
     Some(island.touches.iter().zip(&linear).zip(p).zip(&u).map(moved).collect())
 }

@@ -92,7 +92,7 @@ pub fn iterate(
 /// Puts every impulse back into its cone.
 pub fn correct_all(problem: &ContactProblem, cone: Cone, p: &mut [Impulse]) {
     for (block, p) in problem.blocks.iter().zip(p) {
-        *p = corrected(p, block.friction, cone);
+        *p = block.corrected(p, cone);
     }
 }
 
@@ -132,7 +132,7 @@ pub(super) fn sweep(
         (Iteration::Jacobi, _) => jacobi(problem, coupling, cone, before, p),
         (Iteration::GaussSeidel, Correction::AfterSweep) => {
             in_place(problem, coupling, p, 0..before.len(), three_rows);
-            in_place(problem, coupling, p, 0..before.len(), |block, _, p| corrected(p, block.friction, cone));
+            in_place(problem, coupling, p, 0..before.len(), |block, _, p| block.corrected(p, cone));
         }
         (Iteration::GaussSeidel, Correction::PerContact) if sweeps.variant.order == Order::Fixed => {
             per_contact(problem, coupling, p, 0..before.len(), sweeps);
@@ -181,7 +181,7 @@ fn shuffle(order: &mut [usize], sweep: u32) {
 
 /// One pass over the contacts, each seeing what the ones before it have become.
 ///
-/// With `AfterSweep` the rows pass through uncorrected: later contacts see pulling and sticking forces of earlier ones,
+/// A pin's three rows are solved together. With `AfterSweep` the rows pass through uncorrected: later contacts see pulling and sticking forces of earlier ones,
 /// and that error grows with the number of contacts.
 #[inline(always)]
 fn in_place(
@@ -194,7 +194,7 @@ fn in_place(
     for i in order {
         let block = &problem.blocks[i];
         let c = coupling.velocity(i, block, p);
-        let new = improve(block, &c, &p[i]);
+        let new = block.pin.map_or_else(|| improve(block, &c, &p[i]), |inverse| p[i] - inverse * c);
         coupling.moved(block, &(new - p[i]));
         p[i] = new;
     }
@@ -204,7 +204,7 @@ fn in_place(
 fn jacobi(problem: &ContactProblem, coupling: &mut impl Coupling, cone: Cone, before: &[Impulse], p: &mut [Impulse]) {
     for (i, block) in problem.blocks.iter().enumerate() {
         let c = coupling.velocity(i, block, before);
-        p[i] = corrected(&(before[i] - c.component_mul(&block.inverse_diagonal)), block.friction, cone);
+        p[i] = block.corrected(&(before[i] - c.component_mul(&block.inverse_diagonal)), cone);
     }
     for (i, block) in problem.blocks.iter().enumerate() {
         coupling.moved(block, &(p[i] - before[i]));

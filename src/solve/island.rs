@@ -5,9 +5,10 @@
 //! σ, its own block of A having the trace 1/σ²: velocities are σ u, impulses p/σ, and Coulomb's cone stays what it is.
 
 use super::Impulse;
-use super::law;
+use super::block_lu::{BlockMatrix, Factors, Pattern};
+use super::law::{self, Law};
 use super::problem::{Block, ContactProblem, End, Inertia};
-use nalgebra::{DMatrix, DVector, Matrix3, Matrix3x6, Vector3};
+use nalgebra::{DVector, Matrix3, Matrix3x6, Vector3};
 
 /// The rows of G of one of a contact's bodies.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +23,7 @@ struct Side {
 pub struct Touch {
     /// Its place in the problem.
     pub index: usize,
-    pub friction: f64,
+    pub law: Law,
     /// σ.
     pub scale: f64,
     /// Velocity without impulses.
@@ -36,6 +37,7 @@ pub struct Island {
     pub touches: Vec<Touch>,
     /// Of y: six a body.
     pub unknowns: usize,
+    pattern: Pattern,
 }
 
 /// All islands that something can move, in the order of their first bodies.
@@ -58,7 +60,7 @@ pub fn islands(problem: &ContactProblem) -> Vec<Island> {
         let first = root(&root_of, body);
         if first == body {
             island_of[body] = islands.len();
-            islands.push(Island { touches: Vec::new(), unknowns: 0 });
+            islands.push(Island { touches: Vec::new(), unknowns: 0, pattern: Pattern::default() });
         }
         let island = &mut islands[island_of[first]];
         at[body] = island.unknowns;
@@ -68,6 +70,10 @@ pub fn islands(problem: &ContactProblem) -> Vec<Island> {
         if let Some(end) = block.ends().find(moves) {
             islands[island_of[root(&root_of, end.body)]].touches.push(Touch::new(index, block, &whitened, &at));
         }
+    }
+    for island in &mut islands {
+        let pairs = island.touches.iter().filter_map(Touch::pair);
+        island.pattern = Pattern::new(island.unknowns / 6, pairs);
     }
     islands
 }
@@ -107,7 +113,13 @@ impl Touch {
             whitened[end.body].moves.then_some(Side { at: at[end.body], rows })
         };
         let sides = [side(&block.end), block.other.as_ref().and_then(side)];
-        Touch { index, friction: block.friction, scale, b: block.b * scale, sides }
+        Touch { index, law: block.law(), scale, b: block.b * scale, sides }
+    }
+
+    /// The two bodies that it couples.
+    fn pair(&self) -> Option<(usize, usize)> {
+        let [a, b] = self.sides.each_ref().map(|side| side.as_ref().map(|side| side.at / 6));
+        a.zip(b)
     }
 
     /// G y.
@@ -132,22 +144,19 @@ impl Island {
         y
     }
 
-    /// E + Gᵀ D G, with the 3×3 blocks of D.
-    pub fn matrix(&self, D: &[Matrix3<f64>]) -> DMatrix<f64> {
-        let mut H = self.coupled(D);
-        (0..self.unknowns).for_each(|i| H[(i, i)] += 1.0);
-        H
+    /// E + Gᵀ D G in factors, with the 3×3 blocks of D.
+    pub fn system(&self, D: &[Matrix3<f64>]) -> Option<Factors<'_>> {
+        self.coupled(D, 1.0).factors()
     }
 
-    /// Gᵀ D G.
-    pub fn coupled(&self, D: &[Matrix3<f64>]) -> DMatrix<f64> {
-        let mut H = DMatrix::zeros(self.unknowns, self.unknowns);
-        for (touch, D) in self.touches.iter().zip(D) {
+    /// Gᵀ D G with so much more on the diagonal.
+    pub fn coupled(&self, D: &[Matrix3<f64>], on_diagonal: f64) -> BlockMatrix<'_> {
+        let mut H = BlockMatrix::diagonal(&self.pattern, on_diagonal);
+        for (touch, D) in self.touches.iter().zip(D).filter(|(_, D)| **D != Matrix3::zeros()) {
             for a in touch.sides.iter().flatten() {
                 let left = a.rows.tr_mul(D);
                 for b in touch.sides.iter().flatten() {
-                    let mut block = H.fixed_view_mut::<6, 6>(a.at, b.at);
-                    block += left * b.rows;
+                    H.add(a.at / 6, b.at / 6, &(left * b.rows));
                 }
             }
         }
@@ -175,7 +184,8 @@ impl Island {
         const SMALL: f64 = 1.5e-8;
         let most = |of: &dyn Fn((&Touch, &Impulse)) -> f64| self.touches.iter().zip(p).map(of).fold(0.0, f64::max);
         let largest = most(&|(touch, p)| touch.scale * p.norm());
-        let stopping = most(&|(touch, _)| touch.scale * -touch.b.x);
+        let stopping =
+            most(&|(touch, _)| touch.scale * if touch.law == Law::Pin { touch.b.norm() } else { -touch.b.x });
         let moving = most(&|(touch, _)| touch.scale * touch.b.norm());
         (if largest > 0.0 { largest } else { stopping }).max(SMALL * moving)
     }
@@ -184,7 +194,7 @@ impl Island {
     pub fn residual(&self, p: &[Impulse]) -> f64 {
         let u = self.velocities(&self.pushed(p));
         let missed = |((touch, p), u): ((&Touch, &Impulse), &Vector3<f64>)| {
-            let missed = touch.scale * law::missed(p, u, touch.friction);
+            let missed = touch.scale * law::missed(p, u, touch.law);
             if missed.is_nan() { f64::INFINITY } else { missed }
         };
         let worst = self.touches.iter().zip(p).zip(&u).map(missed).fold(0.0, f64::max);

@@ -1,9 +1,11 @@
 //! Contact solvers: a `ContactProblem` (plain data) becomes impulses, one method a file, each owning its scratch.
 
 mod active_set;
+mod block_lu;
 pub mod exact_contact;
 pub mod gauss_seidel;
 pub mod impact;
+mod interior;
 pub mod island;
 pub mod law;
 pub mod newton;

@@ -1,21 +1,24 @@
 //! The exact contact solver: the law of contact (`law.rs`) of all contacts of an island at once, to rounding.
 //!
-//! After some sweeps of projected Gauss–Seidel, which settle most small problems, proximal problems with a falling η come
-//! nearer to the solution (`proximal.rs`: from anywhere, at any mass ratio), and after each of them Newton's method on the
-//! law itself has a try (`active_set.rs`: quadratic, once it is known which contacts stick and slip). All of them work on six
-//! velocities a body; contacts may be as redundant as they like. Last, of all impulses that make these velocities the
-//! smallest are taken (`smallest.rs`), wherever the iteration started.
+//! Impulses that are near (last step's, mostly) go straight to Newton's method on the law itself (`active_set.rs`: quadratic,
+//! once it is known which contacts stick and slip). Otherwise an interior-point method (`interior.rs`) comes near from
+//! nothing. Where friction wedges bodies and its path turns back, proximal problems with a falling η go on from there
+//! (`proximal.rs`), and where one of those is not solved, sweeps of exact projected Gauss–Seidel. All of them work on six
+//! velocities a body, in sparse blocks; contacts may be as redundant as they like, and pins are among them. Last, of all
+//! impulses that make these velocities the smallest are taken (`smallest.rs`), wherever the iteration started.
 //!
 //! Allocates. Residuals are the judge's (`measure::residual`), worked out from J and M⁻¹ as the solver has them.
 
-use super::gauss_seidel::{self, Sweeps};
+use super::gauss_seidel::{self, Sweeps, Variant};
 use super::island::{Island, islands};
 use super::problem::ContactProblem;
-use super::{Impulse, active_set, proximal, smallest};
+use super::{Impulse, active_set, interior, proximal, smallest};
+use crate::experiment::types::{Local, Order};
 use crate::measure::work::Work;
 
-/// Sweeps to begin with: each costs a thousandth of a Newton step of a large island.
-const SWEEPS: u32 = 100;
+/// Sweeps to begin with, and between two tries where nothing else helps.
+const SWEEPS: u32 = 20;
+const MORE_SWEEPS: u32 = 300;
 
 /// η of the first proximal problem and least, contacts having blocks of trace 1 (rounding of a velocity is felt as 1/η of
 /// it); what it is multiplied by when the problem was solved, and when it was not.
@@ -23,6 +26,9 @@ const FIRST_ETA: f64 = 0.1;
 const LEAST_ETA: f64 = 1e-8;
 const ON: f64 = 0.5;
 const BACK: f64 = 4.0;
+
+/// A residual from which Newton's method is worth a try before anything else.
+const NEAR: f64 = 1e-2;
 
 /// Improves `p` until the residual of every island is below the tolerance, by at most `sweeps.most` proximal problems each,
 /// and makes it the smallest. Whether it is solved.
@@ -33,39 +39,70 @@ pub fn solve(
     scratch: &mut gauss_seidel::Scratch,
     work: &mut Work,
 ) -> bool {
-    gauss_seidel::iterate(problem, &Sweeps { most: SWEEPS, tolerance: 0.0, ..*sweeps }, p, scratch, work);
+    let mut sweep = |p: &mut [Impulse], most: u32, variant: Variant, work: &mut Work| {
+        let sweeps = Sweeps { most, tolerance: 0.0, variant, ..*sweeps };
+        gauss_seidel::iterate(problem, &sweeps, p, scratch, work);
+    };
+    let islands = islands(problem);
+    let near = |island: &Island| island.residual(&island.impulses(p)) <= NEAR;
+    if !islands.iter().all(near) {
+        sweep(p, SWEEPS, sweeps.variant, work);
+    }
     let mut solved = true;
-    for island in islands(problem) {
+    for island in islands {
         let mut own = island.impulses(p);
-        solved &= solve_island(&island, sweeps, &mut own, &mut work.newton_steps) <= sweeps.tolerance;
+        let mut others = p.to_vec();
+        let shuffled = Variant { local: Local::Exact, order: Order::Shuffled, ..Variant::default() };
+        let more = |own: &mut Vec<Impulse>, work: &mut Work| {
+            island.put(own, &mut others);
+            sweep(&mut others, MORE_SWEEPS, shuffled, work);
+            *own = island.impulses(&others);
+        };
+        solved &= solve_island(&island, sweeps, &mut own, more, work) <= sweeps.tolerance;
         island.put(&own, p);
     }
     solved
 }
 
-fn solve_island(island: &Island, goal: &Sweeps, p: &mut Vec<Impulse>, steps: &mut u64) -> f64 {
-    let mut best = active_set::improve(island, p, goal.tolerance, steps);
+fn solve_island(
+    island: &Island,
+    goal: &Sweeps,
+    p: &mut Vec<Impulse>,
+    mut sweep: impl FnMut(&mut Vec<Impulse>, &mut Work),
+    work: &mut Work,
+) -> f64 {
+    let mut best = island.residual(p);
+    let keep = |best: &mut f64, p: &mut Vec<Impulse>, mut tried: Vec<Impulse>, work: &mut Work| {
+        let residual = active_set::improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
+        if residual < *best {
+            (*best, *p) = (residual, tried);
+        }
+    };
+    if best <= NEAR {
+        keep(&mut best, p, p.clone(), work);
+    }
+    if best > goal.tolerance
+        && let Some(found) = interior::solve(island, &mut work.newton_steps)
+    {
+        keep(&mut best, p, found, work);
+    }
     let (mut centre, mut eta) = (p.clone(), FIRST_ETA);
     for _ in 0..goal.most {
         if best <= goal.tolerance {
             break;
         }
-        let Some(next) = proximal::solve(island, &centre, eta, steps) else {
+        if let Some(next) = proximal::solve(island, &centre, eta, &mut work.newton_steps) {
+            eta = (eta * ON).max(LEAST_ETA);
+            centre = next;
+        } else {
             eta *= BACK;
-            continue;
-        };
-        eta = (eta * ON).max(LEAST_ETA);
-        centre.clone_from(&next);
-        let mut tried = next;
-        let residual = active_set::improve(island, &mut tried, goal.tolerance, steps);
-        if residual < best {
-            best = residual;
-            *p = tried;
+            sweep(&mut centre, work);
         }
+        keep(&mut best, p, centre.clone(), work);
     }
     // A velocity that so exact impulses leave is rounding.
     let small = (100.0 * best).clamp(1e-13, 1e-10);
-    let (least, residual) = smallest::impulses(island, p, small, steps);
+    let (least, residual) = smallest::impulses(island, p, small, &mut work.newton_steps);
     if residual > best.max(goal.tolerance) {
         return best;
     }

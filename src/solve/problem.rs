@@ -6,11 +6,13 @@
 
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
+use crate::experiment::types::Cone;
 use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-use super::Impulse;
+use super::law::Law;
+use super::{Impulse, corrected};
 
 /// Velocity of a body, or a change of it: the lecture's generalised V (L13).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,7 +111,7 @@ impl Inertia {
     }
 }
 
-/// One contact: its three rows, its 3×3 block of A, its part of b.
+/// One contact or pin: its three rows, its 3×3 block of A, its part of b.
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
     pub end: End,
@@ -126,6 +128,27 @@ pub struct Block {
     pub least: f64,
     /// Normal and two tangents, world axes.
     pub frame: [Vector3<f64>; 3],
+    /// A⁻¹ of a pin, which takes any impulse; none: a contact.
+    pub pin: Option<Matrix3<f64>>,
+}
+
+/// A point of a body that is held, or follows a point of another body: v_rel + A p = `velocity_W`, p any impulse, in world
+/// axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Pin {
+    pub end: PinEnd,
+    pub other: Option<PinEnd>,
+    /// Wanted, of the first end's point against the other's times their signs.
+    pub velocity_W: Vector3<f64>,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct PinEnd {
+    pub body: usize,
+    /// Of the pin's impulse on this body.
+    pub sign: f64,
+    /// From the centre of mass to the point, world axes.
+    pub r_W: Vector3<f64>,
 }
 
 /// All contacts of a step.
@@ -172,8 +195,21 @@ impl ContactProblem {
             self.blocks.extend(block);
             block.is_some()
         });
+        self.couple();
+    }
+
+    /// Adds pins to the contacts gathered; their impulses are the last ones.
+    pub fn pin(&mut self, model: &Model, state: &State, free: &[Twist], pins: &[Pin]) {
+        if self.inertias.is_empty() {
+            self.inertias.extend(model.bodies.iter().zip(&state.bodies).map(|(body, at)| Inertia::of(body, at)));
+        }
+        self.blocks.extend(pins.iter().map(|pin| Block::of_pin(pin, free, &self.inertias)));
+        self.couple();
+    }
+
+    fn couple(&mut self) {
         self.A_blocks.clear();
-        if contacts.len() <= DENSE {
+        if self.blocks.len() <= DENSE {
             let blocks = &self.blocks;
             self.A_blocks.extend(blocks.iter().flat_map(|row| blocks.iter().map(|column| row.coupling(column))));
         }
@@ -378,7 +414,37 @@ impl Block {
             b,
             least,
             frame,
+            pin: None,
         })
+    }
+
+    fn of_pin(pin: &Pin, free: &[Twist], inertias: &[Inertia]) -> Self {
+        let frame = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let end = |end: &PinEnd| End::new(end.body, end.sign, &end.r_W, &frame, &inertias[end.body]);
+        let (end, other) = (end(&pin.end), pin.other.as_ref().map(end));
+        let ends = || std::iter::once(&end).chain(&other);
+        let A = ends().filter_map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
+        Block {
+            end,
+            other,
+            friction: 0.0,
+            A,
+            inverse_diagonal: A.diagonal().map(|d| 1.0 / d),
+            tangent_step: 1.0 / largest_eigenvalue(A[(1, 1)], A[(2, 2)], A[(1, 2)]),
+            b: ends().map(|end| end.motion(&free[end.body])).sum::<Vector3<f64>>() - pin.velocity_W,
+            frame,
+            pin: Some(A.try_inverse().unwrap_or_default()),
+            least: 0.0,
+        }
+    }
+
+    pub(super) fn law(&self) -> Law {
+        if self.pin.is_some() { Law::Pin } else { Law::Contact { friction: self.friction } }
+    }
+
+    /// The impulse back in its cone.
+    pub(super) fn corrected(&self, p: &Impulse, cone: Cone) -> Impulse {
+        if self.pin.is_some() { *p } else { corrected(p, self.friction, cone) }
     }
 
     /// An impulse in world axes.

@@ -35,9 +35,9 @@ impl At {
     fn new(island: &Island, centre: &[Impulse], eta: f64, y: DVector<f64>) -> Self {
         let u = island.velocities(&y);
         let touches = || island.touches.iter();
-        let point = |((touch, p), u): ((&Touch, &Impulse), &Vector3<f64>)| p - law::dual(u, touch.friction) / eta;
+        let point = |((touch, p), u): ((&Touch, &Impulse), &Vector3<f64>)| p - law::dual(u, touch.law) / eta;
         let z: Vec<_> = touches().zip(centre).zip(&u).map(point).collect();
-        let p: Vec<_> = touches().zip(&z).map(|(touch, z)| law::in_cone(z, touch.friction)).collect();
+        let p: Vec<_> = touches().zip(&z).map(|(touch, z)| law::in_cone(z, touch.law)).collect();
         let missing = &y - island.pushed(&p);
         At { y, u, z, p, missing }
     }
@@ -45,7 +45,7 @@ impl At {
     /// What p(y) changes with −u.
     fn slopes(&self, island: &Island, eta: f64) -> Vec<Matrix3<f64>> {
         let slope = |((touch, z), u): ((&Touch, &Vector3<f64>), &Vector3<f64>)| {
-            law::in_cone_slope(z, touch.friction) / eta * law::dual_slope(u, touch.friction)
+            law::in_cone_slope(z, touch.law) / eta * law::dual_slope(u, touch.law)
         };
         island.touches.iter().zip(&self.z).zip(&self.u).map(slope).collect()
     }
@@ -59,7 +59,7 @@ pub fn solve(island: &Island, centre: &[Impulse], eta: f64, steps: &mut u64) -> 
             return Some(at.p);
         }
         *steps += 1;
-        let change = island.matrix(&at.slopes(island, eta)).lu().solve(&-&at.missing)?;
+        let change = island.system(&at.slopes(island, eta))?.solve(&-&at.missing)?;
         at = descend(island, centre, eta, &at, &change)?;
     }
     None

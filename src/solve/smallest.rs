@@ -2,12 +2,12 @@
 //! force evenly, and symmetric scenes have symmetric forces.
 //!
 //! With the velocities given the law leaves every contact a convex cone F: none where it separates, the ray opposite to the
-//! slip where it slips, all of K where it sticks. The smallest p in F with Gᵀ p = y is p = P_F(G w), and w is the root of
+//! slip where it slips, all of K where it sticks (and at a pin). The smallest p in F with Gᵀ p = y is p = P_F(G w), and w is the root of
 //! the slope of a convex function, Gᵀ P_F(G w) = y: Newton's method in six numbers a body.
 
 use super::Impulse;
 use super::island::{Island, Touch};
-use super::law;
+use super::law::{self, Law};
 use nalgebra::{DVector, Matrix3, Vector3};
 
 const MOST: usize = 60;
@@ -31,29 +31,31 @@ impl Face {
     /// `small`: a velocity that is rounding.
     fn new(touch: &Touch, u: &Vector3<f64>, small: f64) -> Self {
         let slip = (u.y * u.y + u.z * u.z).sqrt();
-        if u.x > small {
+        if touch.law == Law::Pin {
+            Face::Cone
+        } else if u.x > small {
             Face::Open
-        } else if touch.friction == 0.0 {
+        } else if touch.law.friction() == 0.0 {
             Face::Ray(Vector3::x())
         } else if slip > small {
-            Face::Ray(law::edge(&(-u / slip), touch.friction))
+            Face::Ray(law::edge(&(-u / slip), touch.law.friction()))
         } else {
             Face::Cone
         }
     }
 
-    fn nearest(&self, z: &Vector3<f64>, friction: f64) -> Impulse {
+    fn nearest(&self, z: &Vector3<f64>, law: Law) -> Impulse {
         match self {
             Face::Open => Impulse::zeros(),
             Face::Ray(along) => along * (along.dot(z) / along.norm_squared()).max(0.0),
-            Face::Cone => law::in_cone(z, friction),
+            Face::Cone => law::in_cone(z, law),
         }
     }
 
     /// What `nearest` changes with z.
-    fn slope(&self, z: &Vector3<f64>, friction: f64) -> Matrix3<f64> {
+    fn slope(&self, z: &Vector3<f64>, law: Law) -> Matrix3<f64> {
         match self {
-            Face::Cone => law::in_cone_slope(z, friction),
+            Face::Cone => law::in_cone_slope(z, law),
             Face::Ray(along) if along.dot(z) <= 0.0 => Matrix3::zeros(),
             _ => self.span(),
         }
@@ -120,7 +122,7 @@ impl<'a> Faces<'a> {
     }
 
     fn at(&self, z: Vec<Vector3<f64>>) -> At {
-        let nearest = |((face, touch), z): ((&Face, &Touch), &Vector3<f64>)| face.nearest(z, touch.friction);
+        let nearest = |((face, touch), z): ((&Face, &Touch), &Vector3<f64>)| face.nearest(z, touch.law);
         let p: Vec<Impulse> = self.faces.iter().zip(&self.island.touches).zip(&z).map(nearest).collect();
         let missing = &self.wanted - self.island.pushed(&p);
         At { z, p, missing }
@@ -130,14 +132,13 @@ impl<'a> Faces<'a> {
     fn step(&self, at: &At, first: bool) -> Option<At> {
         let touches = || self.island.touches.iter().zip(&self.faces).zip(&self.weights);
         let slope = |(((touch, face), weight), z): (((&Touch, &Face), &f64), &Vector3<f64>)| {
-            let slope = if first { face.span() } else { face.slope(z, touch.friction) };
+            let slope = if first { face.span() } else { face.slope(z, touch.law) };
             slope * *weight
         };
         let slopes: Vec<Matrix3<f64>> = touches().zip(&at.z).map(slope).collect();
-        let mut H = self.island.coupled(&slopes);
-        let regular = REGULAR * H.diagonal().amax();
-        (0..H.nrows()).for_each(|i| H[(i, i)] += regular);
-        let change = H.cholesky()?.solve(&at.missing);
+        let mut H = self.island.coupled(&slopes, 0.0);
+        H.add_on_diagonal(REGULAR * H.largest());
+        let change = H.factors()?.solve(&at.missing)?;
         let mut part = 1.0;
         for _ in 0..HALVINGS {
             let moved = |(((touch, _), weight), z): (((&Touch, &Face), &f64), &Vector3<f64>)| {

@@ -6,6 +6,7 @@
 mod blow;
 mod drift;
 mod free;
+mod hold;
 mod lecture;
 mod penalty;
 mod time_stepping;

@@ -9,6 +9,7 @@
 
 use super::blow::Blow;
 use super::drift::drift;
+use super::hold::pins;
 use super::{Clock, Scratch};
 use crate::collide::approach::{Approach, foresee};
 use crate::collide::reduce::Reduction;
@@ -20,7 +21,7 @@ use crate::model::Model;
 use crate::plan::Plan;
 use crate::solve::gauss_seidel::{self, Sweeps, Variant};
 use crate::solve::position::Push;
-use crate::solve::problem::{ContactProblem, Twist};
+use crate::solve::problem::{ContactProblem, Pin, Twist};
 use crate::solve::{Impulse, newton, nncg};
 use crate::state::State;
 use nalgebra::Vector3;
@@ -36,6 +37,8 @@ pub struct TimeStepping {
     position_correction: PositionCorrection,
     /// Which contact had which impulse in the last step, in the order of contacts.
     last: Vec<(Key, Impulse)>,
+    pins: Vec<Pin>,
+    last_pins: Vec<Impulse>,
     push: Push,
     blow: Option<Blow>,
     /// Where the last step's impulses acted, if not where the step began.
@@ -60,6 +63,8 @@ impl TimeStepping {
             reduction: settings.contacts_per_face.map(|most| Reduction::new(most, scratch.contacts())),
             position_correction: settings.position_correction,
             last: Vec::with_capacity(scratch.contacts()),
+            pins: Vec::new(),
+            last_pins: Vec::new(),
             push: Push::with_capacity(scratch.contacts(), scratch.free.capacity()),
             blow: Blow::new(settings.impact, plan.approach, start),
             kicked: (plan.approach == Approach::Middle).then(|| start.clone()),
@@ -109,6 +114,10 @@ impl TimeStepping {
     fn solve_contacts(&mut self, model: &Model, state: &State, step_s: f64) {
         let s = &mut self.scratch;
         s.problem.gather(model, state, &s.free, &mut s.found, (self.approach, step_s));
+        if !model.pins.is_empty() {
+            pins(model, state, step_s, &mut self.pins);
+            s.problem.pin(model, state, &s.free, &self.pins);
+        }
         let solver = self.solver;
         let struck = self.blow.as_mut().filter(|_| !s.found.is_empty()).and_then(|blow| {
             let (sweeps, scratch, work) = (&self.sweeps, &mut s.solver, &mut s.work);
@@ -120,12 +129,15 @@ impl TimeStepping {
             Some(blow)
         });
         warm_start(&s.found, &self.last, &mut s.impulses);
+        s.impulses.extend(&self.last_pins);
+        s.impulses.resize(s.problem.blocks.len(), Impulse::zeros());
         s.problem.response(&s.impulses, &mut s.response);
         // Projected Gauss–Seidel only descends: from a start that adds energy it might not come below zero in time.
         if s.problem.energy(&s.impulses, &s.response) > 0.0 {
             s.impulses.fill(Impulse::zeros());
         }
-        if !s.found.is_empty() && !solve(solver, &s.problem, &self.sweeps, &mut s.impulses, &mut s.solver, &mut s.work)
+        if !s.problem.blocks.is_empty()
+            && !solve(solver, &s.problem, &self.sweeps, &mut s.impulses, &mut s.solver, &mut s.work)
         {
             s.work.unsolved += 1;
             s.problem.response(&s.impulses, &mut s.response);
@@ -137,6 +149,8 @@ impl TimeStepping {
         }
         self.last.clear();
         self.last.extend(s.found.iter().zip(&s.impulses).map(|(c, p)| (c.key(), *p)));
+        self.last_pins.clear();
+        self.last_pins.extend_from_slice(&s.impulses[s.found.len()..]);
         s.take_solution();
         if let Some(reduction) = &self.reduction {
             show(&reduction.left_out, &mut s.solved);

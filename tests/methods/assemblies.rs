@@ -10,7 +10,7 @@ use gotai::measure::work::Work;
 use gotai::model::Model;
 use gotai::solve::Impulse;
 use gotai::solve::gauss_seidel::{Scratch, Sweeps, Variant};
-use gotai::solve::problem::{ContactProblem, Twist};
+use gotai::solve::problem::{Block, ContactProblem, Pin, PinEnd, Twist};
 use gotai::state::State;
 use nalgebra::Vector3;
 use std::fmt::Write;
@@ -38,6 +38,7 @@ impl Stone {
 pub struct Assembly {
     pub stones: Vec<Stone>,
     contacts: Vec<Contact>,
+    pins: Vec<Pin>,
     friction: f64,
 }
 
@@ -65,6 +66,13 @@ impl Assembly {
             friction: self.friction,
             restitution: 0.0,
         });
+    }
+
+    /// A point of a stone that another one, or the container, holds.
+    fn hold(&mut self, body: usize, other: Option<usize>, point: Vector3<f64>) {
+        let end = |body: usize, sign: f64| PinEnd { body, sign, r_W: point - self.stones[body].at };
+        let pin = Pin { end: end(body, 1.0), other: other.map(|i| end(i, -1.0)), velocity_W: Vector3::zeros() };
+        self.pins.push(pin);
     }
 
     fn model(&self) -> (Model, State) {
@@ -101,6 +109,7 @@ impl Assembly {
         let free: Vec<Twist> = state.bodies.iter().map(|at| Twist { v: at.v_WB + fall, w: at.w_WB }).collect();
         let mut problem = ContactProblem::default();
         problem.gather(&model, &state, &free, &mut self.contacts.clone(), (Approach::Inside, STEP_S));
+        problem.pin(&model, &state, &free, &self.pins);
         Gathered { assembly: self, model, state, problem, free }
     }
 }
@@ -167,8 +176,32 @@ impl Gathered {
             }
         }
         let mut ledger = ResidualLedger::new(true, Approach::Inside, true, &self.model);
-        ledger.observe(&self.model, &self.state, &solved, &pushes, STEP_S);
+        ledger.observe(&self.model, [&self.state; 2], &solved, &pushes, STEP_S);
         ledger.max.unwrap()
+    }
+
+    /// How far pinned points are from rest against each other, in m/s.
+    pub fn pin_error(&self, p: &[Impulse]) -> f64 {
+        let after = self.after(p);
+        let speed = |end: &PinEnd| (after[end.body].v + after[end.body].w.cross(&end.r_W)) * end.sign;
+        let error = |pin: &Pin| (speed(&pin.end) + pin.other.as_ref().map_or_else(Vector3::zeros, speed)).norm();
+        self.assembly.pins.iter().map(error).fold(0.0, f64::max)
+    }
+
+    /// How far contacts are from Signorini's and Coulomb's law, in N s and m/s.
+    pub fn law_error(&self, p: &[Impulse]) -> f64 {
+        let after = self.after(p);
+        let error = |(contact, (block, p)): (&Contact, (&Block, &Impulse))| {
+            let point = |(i, r_W, sign): (usize, Vector3<f64>, f64)| (after[i].v + after[i].w.cross(&r_W)) * sign;
+            let u_W: Vector3<f64> = contact.ends().map(point).sum();
+            let u = Vector3::from_fn(|i, _| block.frame[i].dot(&u_W));
+            let (slip, held) = (u.yz().norm(), p.yz().norm());
+            let signorini = [-u.x, -p.x, (u.x * p.x).abs(), held - contact.friction * p.x];
+            // Against the slip, and as large as can be.
+            let dissipation = (p.yz() * slip + u.yz() * (contact.friction * p.x)).norm();
+            signorini.into_iter().fold(dissipation, f64::max)
+        };
+        self.assembly.contacts.iter().zip(self.problem.blocks.iter().zip(p)).map(error).fold(0.0, f64::max)
     }
 
     /// Velocities of all bodies after the contacts.
@@ -224,11 +257,16 @@ impl Spread {
 
 /// n³ stones of different masses thrown against each other and the floor, so many points where neighbours meet.
 pub fn heap(n: usize, points: usize, friction: f64, seed: u64) -> Assembly {
+    heap_of(n, points, friction, seed, |x| 1.0 + 0.9 * x)
+}
+
+/// The same with masses of `mass` of numbers in [−1, 1).
+pub fn heap_of(n: usize, points: usize, friction: f64, seed: u64, mass: impl Fn(f64) -> f64) -> Assembly {
     let (mut spread, mut all) = (Spread(seed), Assembly::new(friction));
     let place = |i: usize| [i % n, (i / n) % n, i / (n * n)];
     for i in 0..n * n * n {
         let [x, y, z] = place(i).map(|k| k as f64);
-        let mut stone = Stone::new(1.0 + 0.9 * spread.next(), [1.0; 3], [x, y + 0.5, z]);
+        let mut stone = Stone::new(mass(spread.next()), [1.0; 3], [x, y + 0.5, z]);
         stone.at += spread.vector() * 0.1;
         (stone.v, stone.w) = (spread.vector(), spread.vector());
         all.stones.push(stone);
@@ -276,6 +314,38 @@ pub fn arch(stones: usize, friction: f64) -> Assembly {
                 _ => all.touch(k, Some(k - 1), point, onward),
             }
         }
+    }
+    all
+}
+
+/// A box that swings on its upper corner edge's middle and leans against a wall with four points of a face.
+pub fn pendulum_at_a_wall(friction: f64) -> Assembly {
+    let mut all = Assembly::new(friction);
+    let mut stone = Stone::new(2.0, [1.0, 1.0, 1.0], [0.5, -0.5, 0.0]);
+    (stone.v, stone.w) = (Vector3::new(-1.0, 0.2, 0.3), Vector3::new(0.1, 0.2, -0.4));
+    all.stones.push(stone);
+    all.hold(0, None, Vector3::new(0.5, 0.0, 0.0));
+    for (y, z) in [(-1.0, -0.5), (-1.0, 0.5), (-0.1, -0.5), (-0.1, 0.5)] {
+        all.touch(0, None, Vector3::new(0.0, y, z), Vector3::x());
+    }
+    all
+}
+
+/// Three boxes in a chain from a fixed point, the last of which slides on the floor.
+pub fn chain_to_the_floor(friction: f64) -> Assembly {
+    let mut all = Assembly::new(friction);
+    for (i, mass) in [1.0, 3.0, 0.5].into_iter().enumerate() {
+        let mut stone = Stone::new(mass, [1.0, 0.5, 0.5], [i as f64, 2.0 - 0.75 * i as f64, 0.0]);
+        stone.v = Vector3::new(0.3, -0.5, 0.2 * i as f64);
+        all.stones.push(stone);
+    }
+    all.hold(0, None, Vector3::new(-0.5, 2.0, 0.0));
+    for i in 1..3 {
+        let between = (all.stones[i - 1].at + all.stones[i].at) / 2.0;
+        all.hold(i, Some(i - 1), between);
+    }
+    for (x, z) in [(1.5, -0.25), (1.5, 0.25), (2.5, -0.25), (2.5, 0.25)] {
+        all.touch(2, None, Vector3::new(x, 0.25, z), Vector3::y());
     }
     all
 }

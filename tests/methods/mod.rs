@@ -13,6 +13,8 @@ mod loads;
 mod newton;
 mod orders;
 mod penalty;
+mod piles;
+mod pins_by_hand;
 mod residual;
 mod skipping;
 mod taylor;

@@ -1,0 +1,159 @@
+//! Sparse linear systems of 6×6 blocks, a block a pair of bodies in contact: LU factors in the order of least degree
+//! (W. F. Tinney, J. W. Walker, Proc. IEEE 55 (1967) 1801), found once a pattern.
+//!
+//! The pattern is symmetric, the numbers need not be. Rows are exchanged within a body's own six only: the systems here are
+//! E + Gᵀ D G, whose blocks on the diagonal hold what their body's contacts add. Own code, as libraries for it choose their
+//! vector instructions, and with them their rounding, by the machine.
+
+use nalgebra::{DVector, LU, Matrix6, U6, Vector6};
+
+/// Which blocks the factors have.
+#[derive(Clone, Debug, Default)]
+pub struct Pattern {
+    /// Of every body, when it is eliminated.
+    place: Vec<usize>,
+    /// Of every place, the later ones it is coupled with, ascending, and where its blocks begin among all.
+    later: Vec<Vec<usize>>,
+    first: Vec<usize>,
+    /// Blocks above the diagonal.
+    blocks: usize,
+}
+
+impl Pattern {
+    /// `pairs`: of bodies that are coupled.
+    pub fn new(bodies: usize, pairs: impl Iterator<Item = (usize, usize)>) -> Self {
+        let mut near = vec![std::collections::BTreeSet::new(); bodies];
+        for (a, b) in pairs.filter(|(a, b)| a != b) {
+            near[a].insert(b);
+            near[b].insert(a);
+        }
+        let (mut place, mut fronts) = (vec![usize::MAX; bodies], Vec::with_capacity(bodies));
+        for now in 0..bodies {
+            let left = (0..bodies).filter(|body| place[*body] == usize::MAX);
+            let Some(body) = left.min_by_key(|body| near[*body].len()) else { break };
+            place[body] = now;
+            let front = std::mem::take(&mut near[body]);
+            for a in &front {
+                near[*a].remove(&body);
+                near[*a].extend(front.iter().filter(|b| *b != a));
+            }
+            fronts.push(front);
+        }
+        let ascending = |front: &std::collections::BTreeSet<usize>| {
+            let mut later: Vec<usize> = front.iter().map(|body| place[*body]).collect();
+            later.sort_unstable();
+            later
+        };
+        let later: Vec<Vec<usize>> = fronts.iter().map(ascending).collect();
+        let before = |blocks: &mut usize, later: &Vec<usize>| {
+            *blocks += later.len();
+            Some(*blocks - later.len())
+        };
+        let first: Vec<usize> = later.iter().scan(0, before).collect();
+        let blocks = later.iter().map(Vec::len).sum();
+        Pattern { place, later, first, blocks }
+    }
+
+    /// Where the block of places i < j is.
+    fn slot(&self, i: usize, j: usize) -> usize {
+        self.first[i] + self.later[i].partition_point(|later| *later < j)
+    }
+}
+
+/// A matrix of a pattern.
+pub struct BlockMatrix<'a> {
+    pattern: &'a Pattern,
+    diagonal: Vec<Matrix6<f64>>,
+    upper: Vec<Matrix6<f64>>,
+    lower: Vec<Matrix6<f64>>,
+}
+
+impl<'a> BlockMatrix<'a> {
+    /// The identity times `on_diagonal`.
+    pub fn diagonal(pattern: &'a Pattern, on_diagonal: f64) -> Self {
+        let zeros = vec![Matrix6::zeros(); pattern.blocks];
+        let diagonal = vec![Matrix6::identity() * on_diagonal; pattern.place.len()];
+        BlockMatrix { pattern, diagonal, upper: zeros.clone(), lower: zeros }
+    }
+
+    /// Adds to the block of two bodies that are coupled.
+    pub fn add(&mut self, row: usize, column: usize, block: &Matrix6<f64>) {
+        let (i, j) = (self.pattern.place[row], self.pattern.place[column]);
+        match i.cmp(&j) {
+            std::cmp::Ordering::Equal => self.diagonal[i] += block,
+            std::cmp::Ordering::Less => self.upper[self.pattern.slot(i, j)] += block,
+            std::cmp::Ordering::Greater => self.lower[self.pattern.slot(j, i)] += block,
+        }
+    }
+
+    /// The largest element of the diagonal.
+    pub fn largest(&self) -> f64 {
+        self.diagonal.iter().map(|block| block.diagonal().amax()).fold(0.0, f64::max)
+    }
+
+    pub fn add_on_diagonal(&mut self, value: f64) {
+        self.diagonal.iter_mut().for_each(|block| *block += Matrix6::identity() * value);
+    }
+
+    /// None: singular.
+    pub fn factors(mut self) -> Option<Factors<'a>> {
+        let pattern = self.pattern;
+        let mut pivots = Vec::with_capacity(self.diagonal.len());
+        for (k, later) in pattern.later.iter().enumerate() {
+            let pivot = self.diagonal[k].lu();
+            for own in pattern.first[k]..pattern.first[k] + later.len() {
+                pivot.solve_mut(&mut self.upper[own]).then_some(())?;
+            }
+            for (a, i) in later.iter().enumerate() {
+                let (left, above) = (self.lower[pattern.first[k] + a], self.upper[pattern.first[k] + a]);
+                self.diagonal[*i] -= left * above;
+                // Those later than k and later than i are among those later than i.
+                let mut slot = pattern.first[*i];
+                for (b, j) in later.iter().enumerate().skip(a + 1) {
+                    slot += pattern.later[*i][slot - pattern.first[*i]..].partition_point(|later| later < j);
+                    let (L, U) = (self.lower[pattern.first[k] + b], self.upper[pattern.first[k] + b]);
+                    self.upper[slot] -= left * U;
+                    self.lower[slot] -= L * above;
+                }
+            }
+            pivots.push(pivot);
+        }
+        let regular = pivots.iter().all(LU::is_invertible);
+        regular.then_some(Factors { pattern, pivots, upper: self.upper, lower: self.lower })
+    }
+}
+
+/// L and U, U's diagonal being 1.
+pub struct Factors<'a> {
+    pattern: &'a Pattern,
+    pivots: Vec<LU<f64, U6, U6>>,
+    upper: Vec<Matrix6<f64>>,
+    lower: Vec<Matrix6<f64>>,
+}
+
+impl Factors<'_> {
+    /// None: not a number.
+    pub fn solve(&self, right: &DVector<f64>) -> Option<DVector<f64>> {
+        let pattern = self.pattern;
+        let mut x = vec![Vector6::zeros(); pattern.place.len()];
+        for (body, place) in pattern.place.iter().enumerate() {
+            x[*place].copy_from(&right.fixed_rows::<6>(6 * body));
+        }
+        for (k, later) in pattern.later.iter().enumerate() {
+            let mut own = x[k];
+            self.pivots[k].solve_mut(&mut own).then_some(())?;
+            x[k] = own;
+            later.iter().zip(&self.lower[pattern.first[k]..]).for_each(|(i, L)| x[*i] -= L * own);
+        }
+        for (k, later) in pattern.later.iter().enumerate().rev() {
+            let above = later.iter().zip(&self.upper[pattern.first[k]..]).map(|(j, U)| U * x[*j]);
+            let above: Vector6<f64> = above.sum();
+            x[k] -= above;
+        }
+        let mut solution = DVector::zeros(right.len());
+        for (body, place) in pattern.place.iter().enumerate() {
+            solution.fixed_rows_mut::<6>(6 * body).copy_from(&x[*place]);
+        }
+        solution.iter().all(|x| x.is_finite()).then_some(solution)
+    }
+}

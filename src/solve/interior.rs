@@ -1,6 +1,7 @@
 //! An interior-point method for the law of contact of an island, from nothing to near the solution in a few dozen linear
-//! systems whatever the number of contacts (V. Acary, P. Armand, H. Minh Nguyen, M. Shpakovych, Optim. Methods Softw. 38
-//! (2023) 1084, where ũ's slip is kept in the equations): p and ũ stay inside their cones while p ∘ ũ falls.
+//! systems whatever the number of contacts: p and ũ stay inside their cones while p ∘ ũ falls (for a given slip V. Acary,
+//! P. Armand, H. M. Nguyen, M. Shpakovych, Second-order cone programming for frictional contact mechanics using interior
+//! point algorithm, Optim. Methods Softw. 2024; here the slip in ũ changes with p).
 //!
 //! With x = (μ p_n, p_t) and z = (ũ_n/μ, ũ_t) both cones are Lorentz's. The steps are Nesterov and Todd's with Mehrotra's
 //! predictor and corrector (L. Vandenberghe, The CVXOPT linear and quadratic cone program solvers, 2010). Without friction

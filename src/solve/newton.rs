@@ -16,8 +16,9 @@ use super::{Impulse, active_set, interior, proximal, smallest};
 use crate::experiment::types::{Local, Order};
 use crate::measure::work::Work;
 
-/// Sweeps to begin with, and between two tries where nothing else helps.
+/// Sweeps to begin with: few contacts are mostly settled by them. And sweeps between two tries where nothing else helps.
 const SWEEPS: u32 = 20;
+const SWEEPS_OF_FEW: u32 = 100;
 const MORE_SWEEPS: u32 = 300;
 
 /// η of the first proximal problem and least, contacts having blocks of trace 1 (rounding of a velocity is felt as 1/η of
@@ -46,7 +47,8 @@ pub fn solve(
     let islands = islands(problem);
     let near = |island: &Island| island.residual(&island.impulses(p)) <= NEAR;
     if !islands.iter().all(near) {
-        sweep(p, SWEEPS, sweeps.variant, work);
+        let most = if problem.is_dense() { SWEEPS_OF_FEW } else { SWEEPS };
+        sweep(p, most, sweeps.variant, work);
     }
     let mut solved = true;
     for island in islands {

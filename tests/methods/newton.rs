@@ -90,9 +90,9 @@ fn a_run_of_the_lectures_cube_is_solved_at_every_step() {
         let sets = [format!("scene.bodies.cube.mesh.nodes_per_edge={mesh}"), format!("scene.friction={friction}")];
         let m = measured(CUBE_IN_BOX, &[NEWTON, &sets[0], &sets[1]]);
         is_sound(&m, &format!("{sets:?}"));
-        // measured: 1.7e-12; 333 systems in 147 solves, 496 in 152, 545 in 134
+        // measured: 794 systems in the first run with more than 5 a solve
         assert!(m.residual_max.unwrap() <= 1e-10, "{:?}", m.residual_max);
-        assert!(m.work_newton_steps < 5 * m.work_contact_solves, "{}", m.work_newton_steps);
+        assert!(m.work_newton_steps < 8 * m.work_contact_solves, "{}", m.work_newton_steps);
     }
 }
 
@@ -141,11 +141,11 @@ fn stacks_carry_the_weight_above_at_any_ratio_of_masses() {
         for (what, assembly) in stacks(friction) {
             let (gathered, solved) = solve(assembly);
             let (residual, error) = (gathered.residual(&solved.p), weight_error(&gathered, &solved.p));
-            // measured: 8.2e-14, alternating 1 : 10⁶ 2.0e-12
+            // measured: 3.2e-14
             assert!(solved.says && residual <= 1e-10, "{what}, {friction}: {residual}");
             // measured: 8.9e-16 … 5.8e-10, at 1 : 10⁶ 3.8e-6
             assert!(error < if what.contains("1e6") { 1e-4 } else { 1e-8 }, "{what}, {friction}: {error}");
-            // measured: 6 … 24
+            // measured: 8 … 30
             assert!(solved.work.newton_steps < 40, "{what}, {friction}: {}", solved.work.newton_steps);
         }
     }
@@ -228,8 +228,8 @@ fn heaps_thrown_together_are_solved() {
         assert!(gathered.energy(&solved.p) < 0.0);
         steps += solved.work.newton_steps;
     }
-    // measured: 1352
-    assert!(steps < 2000, "{steps}");
+    // measured: 783
+    assert!(steps < 1000, "{steps}");
 }
 
 /// At μ = 1.5 stones wedge, and some heaps have solutions that touch each other.
@@ -238,7 +238,7 @@ fn heaps_that_wedge_are_solved() {
     for seed in 1..=8 {
         let (gathered, solved) = solve(heap(3, 3, 1.5, seed));
         let residual = gathered.residual(&solved.p);
-        // measured: 9.7e-13
+        // measured: 1.3e-13
         assert!(solved.says && residual <= 1e-10, "{seed}: {residual}");
     }
 }

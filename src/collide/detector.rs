@@ -118,8 +118,8 @@ impl Detector {
             let pair = [self.solids[a as usize], self.solids[b as usize]];
             let bodies = pair.map(|i| &model.bodies[i]);
             let at = pair.map(|i| &state.bodies[i]);
-            let ([Some((solid_a, centre_a)), Some((solid_b, centre_b))], false) =
-                (bodies.map(Body::solid), bodies[0].driven && bodies[1].driven)
+            let left_out = (bodies[0].driven && bodies[1].driven) || model.are_pinned(pair);
+            let ([Some((solid_a, centre_a)), Some((solid_b, centre_b))], false) = (bodies.map(Body::solid), left_out)
             else {
                 continue;
             };

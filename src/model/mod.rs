@@ -44,6 +44,12 @@ pub struct Model {
 }
 
 impl Model {
+    /// Two bodies on one pin do not touch: they meet where they are pinned.
+    pub fn are_pinned(&self, [a, b]: [usize; 2]) -> bool {
+        let joins = |pin: &Pin, a, b| pin.body == a && matches!(pin.anchor, pins::Anchor::Body(other, _) if other == b);
+        self.pins.iter().any(|pin| joins(pin, a, b) || joins(pin, b, a))
+    }
+
     /// Of the body at `p_WB`: −m g·(p − p₀).
     pub fn potential_j(&self, body: &Body, p_WB: &Vector3<f64>) -> f64 {
         -body.mass_kg * self.gravity_m_s2.dot(&(p_WB - self.potential_zero_m))

@@ -260,7 +260,8 @@ impl ContactProblem {
     /// them is kept which takes the most. The cones allow it, as they are cones; approaches that remain are next step's.
     pub fn take_back(&self, impulses: &mut [Impulse], u: &[Twist]) {
         let added = self.energy(impulses, u);
-        if added > 0.0 {
+        // What holds a pin is no cone's to choose a part of.
+        if added > 0.0 && self.blocks.iter().all(|block| block.pin.is_none()) {
             let linear: f64 = self.blocks.iter().zip(&*impulses).map(|(block, p)| p.dot(&block.b)).sum();
             let part = (-linear / (2.0 * (added - linear))).max(0.0);
             impulses.iter_mut().for_each(|p| *p *= part);

@@ -16,7 +16,9 @@ mod penalty;
 mod piles;
 mod pins_by_hand;
 mod residual;
+mod scenes;
 mod skipping;
+mod symmetries;
 mod taylor;
 
 /// The fitted order.

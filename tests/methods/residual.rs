@@ -101,6 +101,13 @@ fn an_exact_impulse_has_no_residual() {
     }
 }
 
+/// Without friction the cone is a line: what is on its other half is outside.
+#[test]
+fn a_contact_that_pulls_is_found() {
+    let leaving = Impact { velocity: [0.0, 1.0, 0.0], friction: 0.0, ..IMPACT };
+    assert!(leaving.residual(Vector3::new(0.0, -2.7, 0.0)) > 0.1);
+}
+
 #[test]
 fn a_wrong_impulse_is_found() {
     let exact = IMPACT.solved();

@@ -53,13 +53,13 @@ const METHODS: [Line; 4] = [
     ),
     (
         "time-stepping",
-        "solver: pgs (default) | nncg | newton; scheme: semi-implicit (default); impact: newton (default); sweeps: 50; tolerance: 1e-12 (newton: \
-         1e-10); \
+        "solver: pgs (default) | nncg | newton; scheme: semi-implicit (default) | moreau; impact: newton (default) | poisson \
+         | sequential; sweeps: 50; tolerance: 1e-12 (newton: 1e-10); \
          position_correction: projection (default) | none; local: common (default) | rows | exact; relaxation: 1; order: \
          fixed (default) | shuffled; contacts_per_face: all (default) or at least 3",
-        "velocity–impulse with projected Gauss–Seidel, its conjugate gradients or the exact law of contact; momentum-conserving rotation; \
-         order 1; the default method",
-        "Moreau 1988; Stewart & Trinkle 1996; Anitescu & Potra 1997",
+        "velocity–impulse with projected Gauss–Seidel, its conjugate gradients or the exact law of contact; gaps close to \
+         zero and no further; free rotation in closed form; order 1, between impacts 2 with `moreau`; the default method",
+        "Moreau 1988, 1999; Stewart & Trinkle 1996; Anitescu & Potra 1997; Glocker & Pfeiffer 1995; Stronge 1990",
     ),
 ];
 

@@ -86,7 +86,8 @@ fn half_turn(
     Some((cayley(&(c / (1.0 + (1.0 + c.norm_squared()).sqrt()))), c * (2.0 / h)))
 }
 
-fn turn(
+/// The Cayley vector of a turn without torque; none if the equation has no solution.
+pub fn turn(
     equation: Equation,
     body: &Body,
     q_WB: &UnitQuaternion<f64>,
@@ -107,7 +108,7 @@ pub fn half_turned(g: &Vector3<f64>, c: &Vector3<f64>) -> (Vector3<f64>, Matrix3
     (value, g.cross_matrix() + Matrix3::from_diagonal_element(g.dot(c)) + c * g.transpose())
 }
 
-fn cayley(c: &Vector3<f64>) -> UnitQuaternion<f64> {
+pub fn cayley(c: &Vector3<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::from_parts(1.0, *c) / (1.0 + c.norm_squared()).sqrt())
 }
 

@@ -67,7 +67,7 @@ fn time_stepping_comes_near_every_closed_form() {
             let m = run(&experiment(&scene(which), &[&format!("time.step_s={step_s}")])).measured;
             m.error_position_m.unwrap().max(m.error_orientation_rad.unwrap())
         });
-        println!("{}: {errors:?}", which.word());
+        // measured: 1.3e-2 and 2.0e-3 for the ball, 4e-3 and a tenth of it for the others
         assert!(errors[0] < 2e-2 && errors[1] < 0.2 * errors[0] + 1e-9, "{}: {errors:?}", which.word());
     }
 }

@@ -46,7 +46,8 @@ fn it_rocks_as_small_steps_say() {
             let (_, tilt, rate) = block.at(end_s);
             let other = by_steps(alpha, p, left, start, end_s);
             let off = (tilt - other[0]).abs().max((rate - other[1]).abs());
-            assert!(off < 1e-11, "{alpha} {start:?} {end_s}: {tilt} {rate} {other:?}");
+            // measured: 2.0e-13 near overturning, else 1.7e-14
+            assert!(off < 2e-12, "{alpha} {start:?} {end_s}: {tilt} {rate} {other:?}");
         }
     }
 }

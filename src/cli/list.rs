@@ -74,7 +74,7 @@ const SHAPES: [Line; 7] = [
 ];
 
 /// The settings column says of which scenes.
-const EXACT: [Line; 6] = [
+const EXACT: [Line; 12] = [
     (
         Exact::FreeMotion.word(),
         "gravity, and constant or cosine forces of the world at the centre of mass; no air, no pins, no contact",
@@ -110,6 +110,45 @@ const EXACT: [Line; 6] = [
         "gravity; every body on one pin to the world, turning about a horizontal principal axis of the pin",
         "the compound plane pendulum at any amplitude, by elliptic functions",
         "Whittaker, Analytical Dynamics, 44",
+    ),
+    (
+        Exact::Rest.word(),
+        "every body at rest at the start; for piles and slopes that hold",
+        "all bodies stay where they are",
+        "Newton's first law",
+    ),
+    (
+        Exact::Sliding.word(),
+        "gravity, constant forces of the world at the centre of mass; one body flat on a container of one plane, without \
+         spin, moving along the line of slope or on a level plane; too low to tip",
+        "sliding to a stop, sticking, or starting back down; Coulomb friction",
+        "Goldstein, Classical Mechanics, 1.5",
+    ),
+    (
+        Exact::Ball.word(),
+        "the same forces; one sphere and a container of one plane; where it slips, along the line of slope or on a level \
+         plane",
+        "flights, impacts with restitution and friction up to Zeno's point, sliding, rolling",
+        "Walton 1993; Routh, Advanced Rigid Dynamics, 240",
+    ),
+    (
+        Exact::Turntable.word(),
+        "a sphere that rolls on a level box or cylinder with a kinematic spin about its vertical axis; no container",
+        "circles at k/(1 + k) of the table's rate, k = I/(m r²): 2/7 of it for a homogeneous ball",
+        "Routh, Advanced Rigid Dynamics, 224; Weltner, Am. J. Phys. 47 (1979) 984",
+    ),
+    (
+        Exact::RockingBlock.word(),
+        "one box on a container of one level plane, restitution 0, friction that holds; tilted about a lower edge, or turning \
+         about it, not enough to overturn",
+        "elliptic functions from impact to impact, until it stands",
+        "Housner, Bull. Seism. Soc. Am. 53 (1963) 403",
+    ),
+    (
+        Exact::FallingRod.word(),
+        "one capsule leaning at rest, one end on a container of one level plane; no friction, restitution 0",
+        "its centre falls straight down, by a quadrature; then flat at rest",
+        "Routh, Elementary Rigid Dynamics, 136",
     ),
 ];
 

@@ -1,6 +1,11 @@
 //! Closed forms and references: `state_at(t)`, one case a file, cited; `scene` says which scenes they are the motion of.
 
+pub mod arc;
+mod attitude;
+pub mod ball;
+mod contact_scene;
 pub mod dd;
+pub mod falling_rod;
 pub mod free_rotation;
 pub mod heavy_top;
 pub mod jacobi;
@@ -9,10 +14,14 @@ pub mod pendulum;
 pub mod point_motion;
 mod principal;
 pub mod quadratic_drag;
+pub mod rocking_block;
 mod scene;
+pub mod sliding;
 pub mod symmetric_body;
 mod top_phase;
 mod top_roots;
+mod toppling_scene;
+pub mod turntable;
 
 use crate::experiment::types::{Exact, Experiment, Integrator, Method};
 use crate::model::Model;
@@ -28,7 +37,7 @@ impl Reference {
     /// # Errors
     /// What the scene should have, if it is not one of the closed form's.
     pub fn new(which: Exact, model: &Model, start: &State) -> Result<Self, Lacks> {
-        let bodies = start.bodies.iter().enumerate().map(|(i, at)| scene::motion(which, model, i, at));
+        let bodies = (0..start.bodies.len()).map(|i| scene::motion(which, model, start, i));
         Ok(Reference { bodies: bodies.collect::<Result<_, _>>()? })
     }
 

@@ -1,5 +1,7 @@
-//! From a scene to the closed form that is its motion: every body's way and turning, or what a pin leaves of them.
+//! From a scene to the closed form that is its motion: every body's way and turning, or what a pin leaves of them; bodies
+//! that touch something: `contact_scene.rs`.
 
+use super::contact_scene::{self, Touching};
 use super::free_rotation::FreeRotation;
 use super::heavy_top::{HeavyTop, Top};
 use super::linear_drag::LinearDrag;
@@ -11,7 +13,7 @@ use crate::experiment::types::Exact;
 use crate::model::loads::AppliedForce;
 use crate::model::pins::Anchor;
 use crate::model::{Body, Model};
-use crate::state::BodyState;
+use crate::state::{BodyState, State};
 use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
 
 /// The exact motion of one body.
@@ -25,6 +27,7 @@ pub enum Motion {
         r_B: Vector3<f64>,
     },
     Pendulum(Swing),
+    Touching(Touching),
 }
 
 /// Of the centre of mass.
@@ -72,6 +75,7 @@ impl Motion {
                 BodyState { p_WB: pin_W - r_W, q_WB, v_WB: -w_WB.cross(&r_W), w_WB }
             }
             Motion::Pendulum(swing) => swing.at(t_s),
+            Motion::Touching(touching) => touching.at(t_s),
         }
     }
 }
@@ -89,9 +93,9 @@ impl Swing {
 pub type Lacks = String;
 
 /// The motion of one of the model's bodies from its start.
-pub fn motion(which: Exact, model: &Model, index: usize, at: &BodyState) -> Result<Motion, Lacks> {
-    let body = &model.bodies[index];
-    if body.driven {
+pub fn motion(which: Exact, model: &Model, start: &State, index: usize) -> Result<Motion, Lacks> {
+    let (body, at) = (&model.bodies[index], &start.bodies[index]);
+    if body.driven && which != Exact::Rest {
         return Ok(driven(at));
     }
     match which {
@@ -106,6 +110,7 @@ pub fn motion(which: Exact, model: &Model, index: usize, at: &BodyState) -> Resu
             let turning = SymmetricBody::new(transverse, axial, &axis, &at.q_WB, &at.w_WB);
             Ok(Motion::Free(Way::Point(point(model, index, at)?), Turning::Symmetric(turning)))
         }
+        _ => contact_scene::motion(which, model, start, index).map(Motion::Touching),
     }
 }
 
@@ -165,7 +170,7 @@ fn quadratic(model: &Model, index: usize, at: &BodyState) -> Result<QuadraticDra
         .ok_or_else(|| format!("`{}` moving along the line of its weight, or without one", body.name))
 }
 
-fn constant_acceleration(model: &Model, index: usize) -> Result<Vector3<f64>, Lacks> {
+pub(super) fn constant_acceleration(model: &Model, index: usize) -> Result<Vector3<f64>, Lacks> {
     let mut acceleration = model.gravity_m_s2;
     for force in central_forces(model, index)? {
         if force.cosine.is_some() {
@@ -176,11 +181,8 @@ fn constant_acceleration(model: &Model, index: usize) -> Result<Vector3<f64>, La
     Ok(acceleration)
 }
 
-fn unpinned(model: &Model, index: usize) -> Result<&Body, Lacks> {
-    let holds = |pin: &crate::model::pins::Pin| {
-        pin.body == index || matches!(pin.anchor, Anchor::Body(other, _) if other == index)
-    };
-    if model.pins.iter().any(holds) { Err("no `pins`".into()) } else { Ok(&model.bodies[index]) }
+pub(super) fn unpinned(model: &Model, index: usize) -> Result<&Body, Lacks> {
+    if model.pins.iter().any(|pin| pin.holds(index)) { Err("no `pins`".into()) } else { Ok(&model.bodies[index]) }
 }
 
 /// Forces that do not turn the body.
@@ -203,10 +205,9 @@ fn only_pin(model: &Model, index: usize) -> Result<(Vector3<f64>, Vector3<f64>),
     if !body.drag.is_none() || model.forces.iter().any(|force| force.body == index) {
         return Err("no `forces` and no `air`".into());
     }
-    let held = || model.pins.iter().filter(|pin| pin.body == index);
-    let shared = model.pins.iter().any(|pin| matches!(pin.anchor, Anchor::Body(other, _) if other == index));
+    let held = || model.pins.iter().filter(|pin| pin.holds(index));
     match (held().next(), held().count()) {
-        (Some(pin), 1) if !shared => match pin.anchor {
+        (Some(pin), 1) if pin.body == index => match pin.anchor {
             Anchor::World(p_W) => Ok((p_W, pin.r_B)),
             Anchor::Body(..) => Err(format!("`{}` pinned to the world", body.name)),
         },
@@ -258,7 +259,7 @@ fn pendulum(model: &Model, index: usize, at: &BodyState) -> Result<Motion, Lacks
 }
 
 /// Moments, directions and lengths that differ by less, relative, are the same: what is written with ten digits is.
-const SAME: f64 = 1e-10;
+pub(super) const SAME: f64 = 1e-10;
 
 /// Inertia about a point at `r_B` from the centre of mass.
 fn about(body: &Body, r_B: &Vector3<f64>) -> Matrix3<f64> {

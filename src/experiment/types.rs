@@ -437,17 +437,35 @@ pub enum Exact {
     HeavyTop,
     /// A body on a pin that swings in a plane.
     Pendulum,
+    /// Bodies that stay where they are.
+    Rest,
+    /// A body that slides on a plane without turning.
+    Sliding,
+    /// A ball that bounces, slides and rolls on a plane.
+    Ball,
+    /// A ball that rolls on a level table that turns.
+    Turntable,
+    /// A box that rocks on two edges.
+    RockingBlock,
+    /// A capsule that falls over on a smooth floor.
+    FallingRod,
 }
 
 impl Exact {
     /// All of them, as written above; a test holds this against the parser's own list.
-    pub const ALL: [Exact; 6] = [
+    pub const ALL: [Exact; 12] = [
         Exact::FreeMotion,
         Exact::SymmetricBody,
         Exact::LinearDrag,
         Exact::QuadraticDrag,
         Exact::HeavyTop,
         Exact::Pendulum,
+        Exact::Rest,
+        Exact::Sliding,
+        Exact::Ball,
+        Exact::Turntable,
+        Exact::RockingBlock,
+        Exact::FallingRod,
     ];
 
     /// Its word in the file.
@@ -459,6 +477,22 @@ impl Exact {
             Exact::QuadraticDrag => "quadratic-drag",
             Exact::HeavyTop => "heavy-top",
             Exact::Pendulum => "pendulum",
+            Exact::Rest => "rest",
+            Exact::Sliding => "sliding",
+            Exact::Ball => "ball",
+            Exact::Turntable => "turntable",
+            Exact::RockingBlock => "rocking-block",
+            Exact::FallingRod => "falling-rod",
+        }
+    }
+
+    /// A motion of bodies in contact; the others meet nothing.
+    pub const fn touches(self) -> bool {
+        match self {
+            Exact::FreeMotion | Exact::SymmetricBody | Exact::LinearDrag | Exact::QuadraticDrag => false,
+            Exact::HeavyTop | Exact::Pendulum => false,
+            Exact::Rest | Exact::Sliding | Exact::Ball => true,
+            Exact::Turntable | Exact::RockingBlock | Exact::FallingRod => true,
         }
     }
 }

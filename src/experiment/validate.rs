@@ -206,9 +206,14 @@ fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
 fn validate_exact(experiment: &Experiment, at: Path) -> Result<()> {
     let scene = &experiment.scene;
     let touches = scene.container.is_some() && scene.bodies.iter().any(|body| body.shape != Shape::None);
+    let free = matches!(experiment.method, Method::Free(_));
     match experiment.exact {
-        Some(exact) if touches && !matches!(experiment.method, Method::Free(_)) => {
-            let expected = "no exact motion, or the method `free`: a body may touch the container";
+        Some(exact) if exact.touches() && free => {
+            let expected = "a motion without contact, or a method with contact: `free` has none";
+            Err(unexpected(at, expected, &format!("`{}`", exact.word())))
+        }
+        Some(exact) if !exact.touches() && touches && !free => {
+            let expected = "an exact motion with contact, none, or the method `free`: a body may touch the container";
             Err(unexpected(at, expected, &format!("`{}`", exact.word())))
         }
         _ => Ok(()),

@@ -24,6 +24,11 @@ pub enum Anchor {
 }
 
 impl Pin {
+    /// On either side.
+    pub fn holds(&self, index: usize) -> bool {
+        self.body == index || matches!(self.anchor, Anchor::Body(other, _) if other == index)
+    }
+
     /// Distance between the two points that it holds together.
     pub fn gap_m(&self, bodies: &[BodyState]) -> f64 {
         let point = |index: usize, r_B: &Vector3<f64>| bodies[index].p_WB + bodies[index].q_WB * r_B;
@@ -80,7 +85,7 @@ pub fn build_pins(scene: &file::Scene, bodies: &[Body], states: &mut [BodyState]
 fn follow(scene: &file::Scene, bodies: &[Body], pins: &[Pin], states: &mut [BodyState]) {
     let drawn = scene.random.as_ref().is_some_and(|random| random.speed_m_s.is_some());
     let given = |i: usize| bodies[i].driven || (!drawn && scene.bodies[i].velocity_m_s.is_some());
-    let pinned = |i: usize| pins.iter().any(|pin| pin.body == i || matches!(pin.anchor, Anchor::Body(b, _) if b == i));
+    let pinned = |i: usize| pins.iter().any(|pin| pin.holds(i));
     let mut known: Vec<bool> = (0..bodies.len()).map(|i| given(i) || !pinned(i)).collect();
     loop {
         let mut changed = false;

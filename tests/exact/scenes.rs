@@ -42,13 +42,14 @@ fn scene(which: Exact) -> String {
                 .into(),
             "pins: [{ body: b, point_m: [0, 0.5, 0] }]",
         ),
+        _ => return super::contact::scene(which),
     };
     format!("scene:\n  bodies: [{{ name: b, {body} }}]\n  {more}\n{TIME}exact: {}\n", which.word())
 }
 
 #[test]
 fn an_accurate_run_meets_every_closed_form() {
-    for which in Exact::ALL {
+    for which in Exact::ALL.into_iter().filter(|which| !which.touches()) {
         let sets = ["method.free={integrator: dop853, tolerance: 1e-14}"];
         let m = run(&experiment(&scene(which), &sets)).measured;
         let errors =

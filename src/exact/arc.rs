@@ -1,0 +1,51 @@
+//! Motion under constant acceleration and constant angular acceleration (world axes), and its succession: what a body does
+//! between events. The attitude is elementary where the axis stays, else by `attitude.rs`.
+
+use super::attitude::{TERMS, turned};
+use crate::state::BodyState;
+use nalgebra::{UnitQuaternion, Vector3};
+
+#[derive(Clone, Debug)]
+pub struct Arc {
+    /// When it begins.
+    pub t_s: f64,
+    pub from: BodyState,
+    pub acceleration_m_s2: Vector3<f64>,
+    pub angular_rad_s2: Vector3<f64>,
+}
+
+impl Arc {
+    /// Of a body that does not begin to turn.
+    pub fn straight(t_s: f64, from: BodyState, acceleration_m_s2: Vector3<f64>) -> Self {
+        Arc { t_s, from, acceleration_m_s2, angular_rad_s2: Vector3::zeros() }
+    }
+
+    pub fn at(&self, t_s: f64) -> BodyState {
+        let (t, from) = (t_s - self.t_s, &self.from);
+        BodyState {
+            p_WB: from.p_WB + (from.v_WB + self.acceleration_m_s2 * (t / 2.0)) * t,
+            q_WB: self.attitude(t),
+            v_WB: from.v_WB + self.acceleration_m_s2 * t,
+            w_WB: from.w_WB + self.angular_rad_s2 * t,
+        }
+    }
+
+    fn attitude(&self, t: f64) -> UnitQuaternion<f64> {
+        let (w, alpha) = (self.from.w_WB, self.angular_rad_s2);
+        if w.cross(&alpha).norm() <= f64::EPSILON * w.norm() * alpha.norm() {
+            return UnitQuaternion::from_scaled_axis((w + alpha * (t / 2.0)) * t) * self.from.q_WB;
+        }
+        let rate = w.norm() + alpha.norm() * t.abs();
+        turned(&self.from.q_WB, t, rate, |t| {
+            let mut series = [Vector3::zeros(); TERMS];
+            (series[0], series[1]) = (w + alpha * t, alpha);
+            series
+        })
+    }
+}
+
+/// Of arcs that follow one another; the first is taken before its beginning as well.
+pub fn at(arcs: &[Arc], t_s: f64) -> BodyState {
+    let begun = arcs.partition_point(|arc| arc.t_s <= t_s);
+    arcs[begun.max(1) - 1].at(t_s)
+}

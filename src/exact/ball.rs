@@ -1,0 +1,232 @@
+//! A ball and a plane, with restitution e and Coulomb friction μ: flights, impacts, sliding, rolling. SI units.
+//!
+//! - Impact (Walton, in Particulate Two-Phase Flow, 1993, ch. 25; without tangential restitution): the normal speed w
+//!   becomes e w; with k = I/(m r²) the tangential impulse −s k/(1 + k) ends the slip s, if that is at most μ(1 + e) w, else
+//!   μ(1 + e) w acts against s. The slip of a sphere does not change its direction in an impact.
+//! - Impacts after the first, of the normal speed w, come 2we/g_n (1 − eⁿ)/(1 − e) later; the last one (Zeno's) after
+//!   2we/(g_n (1 − e)).
+//! - On the plane the slip ends after |s|/((1 + 1/k) μ g_n − g_t·s/|s|); then the ball rolls with g_t/(1 + k), if that
+//!   takes no more friction than μ g_n, else it slides down (Routh, Advanced Rigid Dynamics, § 240; 5/7 g sin θ for a
+//!   homogeneous ball). The spin about the normal never changes.
+//!
+//! The attitude is by `arc.rs`. Known limits: the error grows by some ulp with every impact before t.
+
+use super::arc::{self, Arc};
+use super::scene::SAME;
+use crate::state::BodyState;
+use nalgebra::Vector3;
+
+/// Impacts weaker than this part of the first one are left out: their times differ by less than rounding.
+const WEAKEST: f64 = 1e-18;
+
+/// Of |v| + r|ω|: what is left of a slip that has ended.
+const NO_SLIP: f64 = 1e-12;
+
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// Unit, towards the ball.
+    pub normal: Vector3<f64>,
+    /// In flight.
+    pub acceleration_m_s2: Vector3<f64>,
+    pub radius_m: f64,
+    /// k = I/(m r²).
+    pub inertia: f64,
+    pub friction: f64,
+    pub restitution: f64,
+}
+
+#[derive(Clone, Debug)]
+pub struct Ball {
+    setting: Setting,
+    start: BodyState,
+    bounces: Option<Bounces>,
+    /// After the last impact.
+    after: Vec<Arc>,
+}
+
+/// All impacts.
+#[derive(Clone, Debug)]
+struct Bounces {
+    first_s: f64,
+    /// w of the first.
+    speed_m_s: f64,
+    restitution: f64,
+    /// g_n.
+    press_m_s2: f64,
+    /// The height of the plane, of the centre.
+    offset_m: f64,
+}
+
+impl Ball {
+    /// From a height above the plane, which is 0 on it. None if the ball slides on a curve at some time.
+    pub fn new(setting: Setting, start: &BodyState, height_m: f64) -> Option<Self> {
+        let press = setting.press_m_s2();
+        let normal_speed = setting.normal.dot(&start.v_WB);
+        let on_plane = height_m == 0.0 && press > 0.0 && normal_speed.abs() <= SAME * start.v_WB.norm();
+        let mut ball = Ball { setting, start: *start, bounces: None, after: Vec::new() };
+        if on_plane {
+            ball.after = ball.setting.on_plane(0.0, *start)?;
+            return Some(ball);
+        }
+        ball.bounces = impact(height_m, normal_speed, press).map(|(first_s, speed_m_s)| Bounces {
+            first_s,
+            speed_m_s,
+            restitution: ball.setting.restitution,
+            press_m_s2: press,
+            offset_m: ball.setting.normal.dot(&start.p_WB) - height_m,
+        });
+        let end_s = ball.end_s();
+        if end_s < f64::INFINITY {
+            let landed = ball.flight(end_s).at(end_s);
+            ball.after = ball.setting.on_plane(end_s, landed)?;
+        }
+        Some(ball)
+    }
+
+    pub fn at(&self, t_s: f64) -> BodyState {
+        if t_s < self.end_s() { self.flight(t_s).at(t_s) } else { arc::at(&self.after, t_s) }
+    }
+
+    /// When the ball has flown for the last time.
+    pub fn end_s(&self) -> f64 {
+        match &self.bounces {
+            None if self.after.is_empty() => f64::INFINITY,
+            None => 0.0,
+            Some(bounces) => bounces.end_s(),
+        }
+    }
+
+    /// At or before a time.
+    fn flight(&self, t_s: f64) -> Arc {
+        let g = self.setting.acceleration_m_s2;
+        let mut arc = Arc::straight(0.0, self.start, g);
+        let Some(bounces) = &self.bounces else { return arc };
+        for n in 0..bounces.count() {
+            let impact_s = bounces.time_s(n);
+            if impact_s > t_s {
+                break;
+            }
+            let mut at = arc.at(impact_s);
+            let normal = &self.setting.normal;
+            at.p_WB += normal * (bounces.offset_m - normal.dot(&at.p_WB));
+            self.setting.strike(&mut at, bounces.speed_m_s(n));
+            arc = Arc::straight(impact_s, at, g);
+        }
+        arc
+    }
+}
+
+/// Time and normal speed of the first impact.
+fn impact(height_m: f64, normal_speed: f64, press: f64) -> Option<(f64, f64)> {
+    let squared = normal_speed * normal_speed + 2.0 * press * height_m;
+    if squared < 0.0 || (press <= 0.0 && normal_speed >= 0.0) {
+        return None;
+    }
+    let speed = squared.sqrt();
+    let time =
+        if normal_speed > 0.0 { (normal_speed + speed) / press } else { 2.0 * height_m / (speed - normal_speed) };
+    Some((time, speed))
+}
+
+impl Bounces {
+    fn count(&self) -> u64 {
+        match self.restitution {
+            _ if self.press_m_s2 <= 0.0 => 1,
+            0.0 => 1,
+            1.0 => u64::MAX,
+            e => libm::ceil(libm::log(WEAKEST) / libm::log(e)) as u64,
+        }
+    }
+
+    fn time_s(&self, n: u64) -> f64 {
+        let e = self.restitution;
+        let sum = match (n, e) {
+            (0, _) => return self.first_s,
+            (_, 1.0) => n as f64,
+            (_, 0.0) => 1.0,
+            _ => -libm::expm1(n as f64 * libm::log(e)) / (1.0 - e),
+        };
+        self.first_s + 2.0 * self.speed_m_s * e / self.press_m_s2 * sum
+    }
+
+    fn speed_m_s(&self, n: u64) -> f64 {
+        self.speed_m_s * libm::pow(self.restitution, n as f64)
+    }
+
+    fn end_s(&self) -> f64 {
+        let e = self.restitution;
+        if self.press_m_s2 <= 0.0 || e == 1.0 {
+            return f64::INFINITY;
+        }
+        self.first_s + 2.0 * self.speed_m_s * e / (self.press_m_s2 * (1.0 - e))
+    }
+}
+
+impl Setting {
+    /// g_n.
+    fn press_m_s2(&self) -> f64 {
+        -self.normal.dot(&self.acceleration_m_s2)
+    }
+
+    fn along(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        v - self.normal * self.normal.dot(v)
+    }
+
+    /// Velocity of the point of contact along the plane.
+    fn slip(&self, at: &BodyState) -> Vector3<f64> {
+        self.along(&at.v_WB) - at.w_WB.cross(&self.normal) * self.radius_m
+    }
+
+    /// What friction, of a unit mass, does to the spin.
+    fn turning(&self, friction: &Vector3<f64>) -> Vector3<f64> {
+        -self.normal.cross(friction) / (self.inertia * self.radius_m)
+    }
+
+    fn strike(&self, at: &mut BodyState, speed: f64) {
+        let (slip, limit) = (self.slip(at), self.friction * (1.0 + self.restitution) * speed);
+        let stopping = -slip * (self.inertia / (1.0 + self.inertia));
+        let needed = stopping.norm();
+        let push = if needed <= limit { stopping } else { stopping * (limit / needed) };
+        at.v_WB = self.along(&at.v_WB) + push + self.normal * (self.restitution * speed);
+        at.w_WB += self.turning(&push);
+    }
+
+    /// Sliding, and what comes after it.
+    fn on_plane(&self, t_s: f64, mut at: BodyState) -> Option<Vec<Arc>> {
+        at.v_WB = self.along(&at.v_WB);
+        let (limit, k) = (self.friction * self.press_m_s2(), self.inertia);
+        let mut pull = self.along(&self.acceleration_m_s2);
+        if pull.norm() <= 4.0 * f64::EPSILON * self.acceleration_m_s2.norm() {
+            pull = Vector3::zeros();
+        }
+        let arc = |t_s: f64, from: BodyState, friction: Vector3<f64>| Arc {
+            t_s,
+            from,
+            acceleration_m_s2: pull + friction,
+            angular_rad_s2: self.turning(&friction),
+        };
+        if limit == 0.0 {
+            return Some(vec![arc(t_s, at, Vector3::zeros())]);
+        }
+        let (mut t_s, mut arcs, slip) = (t_s, Vec::new(), self.slip(&at));
+        let speed = slip.norm();
+        if speed > NO_SLIP * (at.v_WB.norm() + at.w_WB.norm() * self.radius_m) {
+            let direction = slip / speed;
+            if pull.cross(&direction).norm() > SAME * pull.norm() {
+                return None;
+            }
+            let sliding = arc(t_s, at, -direction * limit);
+            let slowing = (1.0 + 1.0 / k) * limit - pull.dot(&direction);
+            if slowing <= 0.0 {
+                return Some(vec![sliding]);
+            }
+            t_s += speed / slowing;
+            at = sliding.at(t_s);
+            arcs.push(sliding);
+        }
+        let rolling = -pull * (k / (1.0 + k));
+        let needed = rolling.norm();
+        arcs.push(arc(t_s, at, if needed <= limit { rolling } else { rolling * (limit / needed) }));
+        Some(arcs)
+    }
+}

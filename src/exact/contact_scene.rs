@@ -1,0 +1,237 @@
+//! From a scene of bodies that touch to the closed form that is its motion. A container of one plane: nothing else is hit.
+
+use super::ball::{Ball, Setting};
+use super::scene::{Lacks, SAME, constant_acceleration, unpinned};
+use super::sliding::Sliding;
+use super::toppling_scene::{self, Block, Rod};
+use super::turntable::Turntable;
+use crate::collide::faces;
+use crate::collide::solid::Solid;
+use crate::experiment::types::Exact;
+use crate::model::container::Face;
+use crate::model::{Body, Geometry, Model};
+use crate::state::{BodyState, State};
+use nalgebra::Vector3;
+
+/// The exact motion of one body.
+#[derive(Clone, Debug)]
+pub enum Touching {
+    Rest(BodyState),
+    Sliding(Sliding),
+    Ball(Box<Ball>),
+    Turntable(Turntable),
+    Block(Box<Block>),
+    Rod(Box<Rod>),
+}
+
+impl Touching {
+    pub fn at(&self, t_s: f64) -> BodyState {
+        match self {
+            Touching::Rest(at) => *at,
+            Touching::Sliding(sliding) => sliding.at(t_s),
+            Touching::Ball(ball) => ball.at(t_s),
+            Touching::Turntable(turntable) => turntable.at(t_s),
+            Touching::Block(block) => block.at(t_s),
+            Touching::Rod(rod) => rod.at(t_s),
+        }
+    }
+}
+
+/// The motion of one of the model's bodies, of a closed form with contact.
+pub fn motion(which: Exact, model: &Model, start: &State, index: usize) -> Result<Touching, Lacks> {
+    let at = &start.bodies[index];
+    match which {
+        Exact::Sliding => sliding(model, index, at),
+        Exact::Ball => ball(model, index, at),
+        Exact::Turntable => turntable(model, start, index),
+        Exact::RockingBlock => toppling_scene::block(model, index, at).map(|block| Touching::Block(Box::new(block))),
+        Exact::FallingRod => toppling_scene::rod(model, index, at).map(|rod| Touching::Rod(Box::new(rod))),
+        _ => rest(&model.bodies[index], at),
+    }
+}
+
+fn rest(body: &Body, at: &BodyState) -> Result<Touching, Lacks> {
+    let still = at.v_WB == Vector3::zeros() && at.w_WB == Vector3::zeros();
+    if still { Ok(Touching::Rest(*at)) } else { Err(format!("`{}` at rest at the start", body.name)) }
+}
+
+/// The only thing that it touches, and the acceleration by all that acts on it but the contact.
+pub(super) fn on_its_own(model: &Model, index: usize) -> Result<(Face, Vector3<f64>), Lacks> {
+    if model.touching_pairs {
+        return Err("one body with a shape".into());
+    }
+    let acceleration = unhindered(model, index)?;
+    match model.container.as_ref().map(|container| container.faces.as_slice()) {
+        Some([face]) => Ok((*face, acceleration)),
+        _ => Err("a `container` of one plane".into()),
+    }
+}
+
+fn unhindered(model: &Model, index: usize) -> Result<Vector3<f64>, Lacks> {
+    if !unpinned(model, index)?.drag.is_none() {
+        return Err("no `air`".into());
+    }
+    constant_acceleration(model, index)
+}
+
+fn sliding(model: &Model, index: usize, at: &BodyState) -> Result<Touching, Lacks> {
+    let (face, acceleration) = on_its_own(model, index)?;
+    let body = &model.bodies[index];
+    let speed = at.v_WB.norm();
+    let across = face.normal.dot(&at.v_WB).abs() > SAME * speed;
+    if across || at.w_WB != Vector3::zeros() {
+        return Err(format!("`{}` moving along the plane without turning", body.name));
+    }
+    let feet = feet(body, at, &face);
+    if !spread(&feet, &face.normal, body.bounding_radius_m) {
+        return Err(format!("`{}` lying flat on the plane, on three points or more", body.name));
+    }
+    let press = -face.normal.dot(&acceleration);
+    if press <= 0.0 {
+        return Err(format!("`{}` pressed on the plane", body.name));
+    }
+    let pull = along(&acceleration, &face.normal, acceleration.norm());
+    let start = BodyState { v_WB: at.v_WB - face.normal * face.normal.dot(&at.v_WB), ..*at };
+    let sliding = Sliding::new(&start, pull, press, model.pair(index, None).friction)
+        .ok_or_else(|| format!("`{}` moving along the line of slope, or on a level plane", body.name))?;
+    // The contact presses where its force has no moment about the centre of mass.
+    let height = -face.normal.dot(&feet[0]);
+    let upright = |a: Vector3<f64>| covers(&feet, &face.normal, &((pull - a) * (height / press)));
+    if !sliding.accelerations().all(upright) {
+        return Err(format!("`{}` too low to tip: the resultant within its base", body.name));
+    }
+    Ok(Touching::Sliding(sliding))
+}
+
+/// What is nearer to a plane, of the size of the body and of the distance from the origin, is on it.
+const ON: f64 = 1e-9;
+
+fn rounding_m(size_m: f64, at: &BodyState) -> f64 {
+    ON * size_m + 8.0 * f64::EPSILON * at.p_WB.amax()
+}
+
+/// From the centre of mass to the points on the plane.
+pub(super) fn feet(body: &Body, at: &BodyState, face: &Face) -> Vec<Vector3<f64>> {
+    let near_m = rounding_m(body.bounding_radius_m, at);
+    let mut feet = Vec::new();
+    faces::each_near(body, at, face, near_m, |_, r_W, gap_m| {
+        if gap_m > -near_m {
+            feet.push(r_W);
+        }
+    });
+    feet
+}
+
+/// A vector along the plane; none if it is rounding of `scale`.
+pub(super) fn along(v: &Vector3<f64>, normal: &Vector3<f64>, scale: f64) -> Vector3<f64> {
+    let along = v - normal * normal.dot(v);
+    if along.norm() <= 4.0 * f64::EPSILON * scale { Vector3::zeros() } else { along }
+}
+
+/// Not on one line.
+fn spread(points: &[Vector3<f64>], normal: &Vector3<f64>, size_m: f64) -> bool {
+    let Some(first) = points.first() else { return false };
+    let apart = |p: &&Vector3<f64>| (**p - first).norm();
+    let Some(far) = points.iter().max_by(|a, b| apart(a).total_cmp(&apart(b))) else { return false };
+    points.iter().any(|p| normal.dot(&(far - first).cross(&(p - first))).abs() > SAME * size_m * size_m)
+}
+
+/// Whether the convex hull of points on a plane has the point on it: seen from there, they leave no half-plane free.
+fn covers(points: &[Vector3<f64>], normal: &Vector3<f64>, point: &Vector3<f64>) -> bool {
+    let e_1 = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
+    let e_2 = normal.cross(&e_1);
+    let seen = |p: &Vector3<f64>| libm::atan2((p - point).dot(&e_2), (p - point).dot(&e_1));
+    let mut angles: Vec<f64> = points.iter().map(seen).collect();
+    angles.sort_by(f64::total_cmp);
+    let turn = 2.0 * std::f64::consts::PI;
+    let next = angles.iter().skip(1).copied().chain(angles.first().map(|first| first + turn));
+    let widest = angles.iter().zip(next).map(|(a, b)| b - a).fold(0.0, f64::max);
+    widest <= turn / 2.0 + ON
+}
+
+/// Radius and k = I/(m r²) of a homogeneous ball, or one with its mass about its centre.
+fn sphere(body: &Body) -> Result<(f64, f64), Lacks> {
+    match &body.geometry {
+        Geometry::Solid { solid: Solid::Sphere { radius_m }, centre }
+            if body.isotropic && centre.norm() <= ON * radius_m =>
+        {
+            Ok((*radius_m, body.I_B[(0, 0)] / (body.mass_kg * radius_m * radius_m)))
+        }
+        _ => Err(format!("`{}` a sphere without a mesh, its mass about its centre", body.name)),
+    }
+}
+
+fn ball(model: &Model, index: usize, at: &BodyState) -> Result<Touching, Lacks> {
+    let (face, acceleration_m_s2) = on_its_own(model, index)?;
+    let body = &model.bodies[index];
+    let (radius_m, inertia) = sphere(body)?;
+    let gap_m = face.gap_m(&at.p_WB) - radius_m;
+    let near_m = rounding_m(radius_m, at);
+    if gap_m < -near_m {
+        return Err(format!("`{}` outside the plane", body.name));
+    }
+    let surface = model.pair(index, None);
+    let setting = Setting {
+        normal: face.normal,
+        acceleration_m_s2,
+        radius_m,
+        inertia,
+        friction: surface.friction,
+        restitution: surface.restitution,
+    };
+    let height_m = if gap_m <= near_m { 0.0 } else { gap_m };
+    let ball = Ball::new(setting, at, height_m)
+        .ok_or_else(|| format!("`{}` slipping along the line of slope, or on a level plane", body.name))?;
+    Ok(Touching::Ball(Box::new(ball)))
+}
+
+fn turntable(model: &Model, start: &State, index: usize) -> Result<Touching, Lacks> {
+    let (body, at) = (&model.bodies[index], &start.bodies[index]);
+    let (radius_m, inertia) = sphere(body)?;
+    let acceleration = unhindered(model, index)?;
+    let others: Vec<usize> = (0..model.bodies.len()).filter(|i| *i != index).collect();
+    let [table] = others[..] else { return Err("a ball and a table".into()) };
+    if model.container.is_some() {
+        return Err("no `container`".into());
+    }
+    let level = || format!("`{}` turning about the vertical axis through its middle", model.bodies[table].name);
+    let press = acceleration.norm();
+    let up = (-acceleration).try_normalize(0.0).ok_or("gravity")?;
+    let (table_body, table_at) = (&model.bodies[table], &start.bodies[table]);
+    let (height_m, reach_m) = table_top(table_body, table_at, &up).ok_or_else(level)?;
+    let w = table_at.w_WB;
+    if !table_body.driven || w.cross(&up).norm() > SAME * w.norm() || table_at.v_WB != Vector3::zeros() {
+        return Err(level());
+    }
+    let to_ball = at.p_WB - table_at.p_WB;
+    let from_axis = to_ball - up * up.dot(&to_ball);
+    let gap_m = up.dot(&to_ball) - height_m - radius_m;
+    let slip = at.v_WB - at.w_WB.cross(&up) * radius_m - w.cross(&from_axis);
+    let speeds = at.v_WB.norm() + at.w_WB.norm() * radius_m + w.norm() * from_axis.norm();
+    if gap_m.abs() > rounding_m(radius_m, at) || slip.norm() > SAME * speeds {
+        return Err(format!("`{}` rolling on the table", body.name));
+    }
+    let turntable = Turntable::new(at, up, up.dot(&w), from_axis, radius_m, inertia);
+    if turntable.acceleration_m_s2() > model.pair(index, Some(table)).friction * press {
+        return Err("more friction than rolling takes".into());
+    }
+    let circle_m = (from_axis + turntable.to_centre_m()).norm() + turntable.radius_m();
+    if w.norm() > 0.0 && circle_m > reach_m {
+        return Err(format!("`{}` staying on the table", body.name));
+    }
+    Ok(Touching::Turntable(turntable))
+}
+
+/// Height of a level top above the centre of mass, and how far from the axis it is there in every direction.
+fn table_top(body: &Body, at: &BodyState, up: &Vector3<f64>) -> Option<(f64, f64)> {
+    let Geometry::Solid { solid, centre } = &body.geometry else { return None };
+    let up_B = at.q_WB.inverse_transform_vector(up);
+    let axis = up_B.iamax();
+    let level = (up_B.abs() - Vector3::ith(axis, 1.0)).norm() <= SAME;
+    let (half_m, reach_m) = match solid {
+        Solid::Box { half_m } => (half_m[axis], half_m[(axis + 1) % 3].min(half_m[(axis + 2) % 3])),
+        Solid::Cylinder { radius_m, half_height_m } if axis == 1 => (*half_height_m, *radius_m),
+        _ => return None,
+    };
+    (level && centre.norm() <= ON * half_m).then_some((half_m, reach_m))
+}

@@ -15,8 +15,9 @@ use crate::model::Model;
 use crate::state::State;
 use nalgebra::{Matrix3, Vector3};
 
-/// Impulses below this part of a body's momentum, √ε, are half rounding: they are not asked to obey to the last digit.
-const SMALL: f64 = 1.5e-8;
+/// Impulses below this part of a body's momentum, as of a gap that just closes, are not asked to obey to the last digit: the
+/// rounding of velocities, 1e-15, is then 1e-10 of them.
+const SMALL: f64 = 1e-5;
 
 #[derive(Clone, Copy, Debug)]
 struct Motion {

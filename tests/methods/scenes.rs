@@ -184,7 +184,7 @@ fn copies_are_the_bodies_that_they_stand_for() {
 
 #[test]
 fn bodies_that_overlap_at_the_start_are_named() {
-    let text = STACK.replace("step_m: [0, 1, 0]", "step_m: [0, 0.9, 0]");
+    let text = STACK.replace("count: 10, step_m: [0, 1, 0]", "count: 2, step_m: [0, 0.9, 0]");
     let error = gotai::sweep::plan::single_case(&file(&text, &[])).unwrap_err().to_string();
     let wanted = "scene.bodies.cube.position_m: expected no overlap with `cube[1]` at the start, \
                   found cube[0] and cube[1] inside each other by 1.000e-1 m";

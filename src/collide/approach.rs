@@ -62,8 +62,12 @@ const CLOSED: f64 = 1e-12;
 const ULPS: f64 = 8.0 * f64::EPSILON;
 
 pub fn rounding_m(model: &Model, contact: &Contact) -> f64 {
-    let size = |(i, ..): (usize, _, _)| model.bodies[i].bounding_radius_m;
-    CLOSED * contact.ends().map(size).fold(f64::INFINITY, f64::min) + ULPS * contact.p_WC.amax()
+    CLOSED * size_m(model, contact) + ULPS * contact.p_WC.amax()
+}
+
+/// Bounding radius of the smaller body.
+pub fn size_m(model: &Model, contact: &Contact) -> f64 {
+    contact.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).fold(f64::INFINITY, f64::min)
 }
 
 pub fn is_closed(model: &Model, contact: &Contact) -> bool {

@@ -43,7 +43,7 @@ impl Reach {
         at.w_WB.norm() * body.bounding_radius_m * self.ahead_s
     }
 
-    fn to_face_m(&self, model: &Model, body: &Body, at: &BodyState, normal: &Vector3<f64>) -> f64 {
+    fn face_reach_m(&self, model: &Model, body: &Body, at: &BodyState, normal: &Vector3<f64>) -> f64 {
         let margin_m = self.margin_m(body, at);
         if self.ahead_s == 0.0 {
             return margin_m;
@@ -52,7 +52,7 @@ impl Reach {
         margin_m + (closing_m + self.turning_m(body, at) + self.fall_m(model)).max(0.0)
     }
 
-    fn to_body_m(&self, model: &Model, bodies: [&Body; 2], at: [&BodyState; 2]) -> f64 {
+    fn body_reach_m(&self, model: &Model, bodies: [&Body; 2], at: [&BodyState; 2]) -> f64 {
         let [a, b] = [0, 1].map(|i| self.margin_m(bodies[i], at[i]));
         if self.ahead_s == 0.0 {
             return a.max(b);
@@ -62,7 +62,7 @@ impl Reach {
         a.max(b) + ahead_m.min(NEARBY * bodies[0].bounding_radius_m.min(bodies[1].bounding_radius_m))
     }
 
-    /// Around a body, for the search of pairs; two of them cover `to_body_m`.
+    /// Around a body, for the search of pairs; two of them cover `body_reach_m`.
     fn around_m(&self, model: &Model, body: &Body, at: &BodyState) -> f64 {
         let margin_m = self.margin_m(body, at);
         if self.ahead_s == 0.0 {
@@ -125,7 +125,7 @@ impl Detector {
             };
             work.contact_tests += 1;
             self.touches.clear();
-            let limit_m = reach.to_body_m(model, bodies, at);
+            let limit_m = reach.body_reach_m(model, bodies, at);
             touches(solid_a, &pose(centre_a, at[0]), solid_b, &pose(centre_b, at[1]), limit_m, &mut self.touches);
             let Surface { friction, restitution } = model.pair(pair[0], Some(pair[1]));
             contacts.extend(self.touches.iter().map(|touch| Contact {
@@ -164,7 +164,7 @@ fn with_container(model: &Model, state: &State, reach: &Reach, contacts: &mut Ve
         }
         let Surface { friction, restitution } = model.pair(index, None);
         for (f, face) in container.faces.iter().enumerate() {
-            let limit_m = reach.to_face_m(model, body, at, &face.normal);
+            let limit_m = reach.face_reach_m(model, body, at, &face.normal);
             work.contact_tests += faces::each_near(body, at, face, limit_m, |node, r_BC_W, gap_m| {
                 contacts.push(Contact {
                     body: index,

@@ -26,7 +26,7 @@ pub enum Motion {
         pin_W: Vector3<f64>,
         r_B: Vector3<f64>,
     },
-    Pendulum(Swing),
+    Pendulum(Box<Swing>),
     Touching(Touching),
 }
 
@@ -40,7 +40,7 @@ pub enum Way {
 
 #[derive(Clone, Debug)]
 pub enum Turning {
-    Free(FreeRotation),
+    Free(Box<FreeRotation>),
     Symmetric(SymmetricBody),
 }
 
@@ -118,11 +118,11 @@ pub fn motion(which: Exact, model: &Model, start: &State, index: usize) -> Resul
 fn driven(at: &BodyState) -> Motion {
     let still = Vector3::zeros();
     let way = PointMotion { position_m: at.p_WB, velocity_m_s: at.v_WB, constant_m_s2: still, harmonics: Vec::new() };
-    Motion::Free(Way::Point(way), Turning::Free(FreeRotation::new(&Matrix3::identity(), &at.q_WB, &at.w_WB)))
+    Motion::Free(Way::Point(way), Turning::Free(Box::new(FreeRotation::new(&Matrix3::identity(), &at.q_WB, &at.w_WB))))
 }
 
 fn free_turning(body: &Body, at: &BodyState) -> Turning {
-    Turning::Free(FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB))
+    Turning::Free(Box::new(FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB)))
 }
 
 /// Gravity, and forces of the world at the centre of mass.
@@ -255,7 +255,7 @@ fn pendulum(model: &Model, index: usize, at: &BodyState) -> Result<Motion, Lacks
     let angle = libm::atan2(sine.dot(&axis_W), down.dot(&r_W));
     let moment = body.mass_kg * model.gravity_m_s2.norm() * length;
     let pendulum = Pendulum::new(moment, inertia, angle, at.w_WB.dot(&axis_W));
-    Ok(Motion::Pendulum(Swing { pendulum, start: *at, angle, axis_W, pin_W }))
+    Ok(Motion::Pendulum(Box::new(Swing { pendulum, start: *at, angle, axis_W, pin_W })))
 }
 
 /// Moments, directions and lengths that differ by less, relative, are the same: what is written with ten digits is.

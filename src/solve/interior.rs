@@ -98,7 +98,7 @@ fn part_within(x: &Vector3<f64>, change: &Vector3<f64>, most: f64) -> f64 {
     } else {
         f64::INFINITY
     };
-    let at = if at > 0.0 || at == 0.0 { at } else { f64::INFINITY };
+    let at = if at >= 0.0 { at } else { f64::INFINITY };
     let tip = if change.x < 0.0 { -x.x / change.x } else { f64::INFINITY };
     at.min(tip).min(most)
 }

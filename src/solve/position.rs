@@ -8,16 +8,22 @@
 use super::gauss_seidel::Sweeps;
 use super::problem::{Block, ContactProblem, Twist};
 use crate::collide::Contact;
-use crate::collide::approach::rounding_m;
+use crate::collide::approach::{rounding_m, size_m};
 use crate::measure::work::Work;
 use crate::model::{Body, Model};
 
-/// Part of the depth that is removed in a step whatever it costs: 10 steps for 90 %.
+/// Part of the depth that is removed in a step whatever it costs, and of a greater depth at most: 10 steps for 90 %. All of
+/// it at once would turn bodies so far that they leave the contacts that hold them, and a pile would shake.
 const PART: f64 = 0.2;
+
+/// Of the smaller body's bounding radius.
+const SHALLOW: f64 = 2e-3;
 
 /// Multipliers of the contacts and displacements of the bodies, kept to spare the allocator.
 #[derive(Clone, Debug)]
 pub struct Push {
+    most: u32,
+    tolerance: f64,
     multipliers: Vec<f64>,
     /// Motion out that is asked for at least; of a contact with room to spare, less than nothing.
     wanted_m: Vec<f64>,
@@ -25,8 +31,11 @@ pub struct Push {
 }
 
 impl Push {
-    pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
+    /// By so many sweeps, until none changes a multiplier by more than this part of the largest.
+    pub fn new(sweeps: &Sweeps, contacts: usize, bodies: usize) -> Self {
         Push {
+            most: sweeps.most,
+            tolerance: sweeps.tolerance,
             multipliers: Vec::with_capacity(contacts),
             wanted_m: Vec::with_capacity(contacts),
             moved: Vec::with_capacity(bodies),
@@ -43,14 +52,14 @@ impl Push {
         model: &Model,
         (response, step_s): (&[Twist], f64),
         lost_j: impl FnOnce() -> f64,
-        sweeps: &Sweeps,
         work: &mut Work,
     ) -> bool {
         let wanted_m = |block: &Block, contact: &Contact| {
             let moves_m = step_s * (block.velocity(response).x + block.least);
             let inside_m = -(contact.gap_m + moves_m.max(0.0));
             let is_pushed = contact.restitution < 1.0 && inside_m > rounding_m(model, contact);
-            if is_pushed { inside_m } else { -(contact.gap_m + moves_m).max(0.0) }
+            let at_once_m = SHALLOW * size_m(model, contact);
+            if is_pushed { inside_m.min(at_once_m.max(PART * inside_m)) } else { -(contact.gap_m + moves_m).max(0.0) }
         };
         self.wanted_m.clear();
         self.wanted_m.extend(problem.blocks.iter().zip(contacts).map(|(block, contact)| wanted_m(block, contact)));
@@ -61,9 +70,9 @@ impl Push {
         self.multipliers.resize(contacts.len(), 0.0);
         self.moved.clear();
         self.moved.resize(model.bodies.len(), Twist::ZERO);
-        for _ in 0..sweeps.most {
+        for _ in 0..self.most {
             work.sweeps += 1;
-            if self.sweep(problem) <= sweeps.tolerance {
+            if self.sweep(problem) <= self.tolerance {
                 break;
             }
         }

@@ -71,7 +71,7 @@ enum Method {
     Free(free::Free),
     Lecture(lecture::Lecture),
     Penalty(penalty::Penalty),
-    TimeStepping(time_stepping::TimeStepping),
+    TimeStepping(Box<time_stepping::TimeStepping>),
 }
 
 /// A body at constant velocities, by its index, from its start.
@@ -93,7 +93,7 @@ impl Stepper {
             Settings::Lecture(settings) => Method::Lecture(lecture::Lecture::new(settings, scratch())),
             Settings::Penalty(settings) => Method::Penalty(penalty::Penalty::new(settings, scratch())),
             Settings::TimeStepping(settings) => {
-                Method::TimeStepping(time_stepping::TimeStepping::new(settings, plan, start, scratch()))
+                Method::TimeStepping(Box::new(time_stepping::TimeStepping::new(settings, plan, start, scratch())))
             }
         };
         let driven = model.bodies.iter().zip(&start.bodies).enumerate().filter(|(_, (body, _))| body.driven);

@@ -48,24 +48,25 @@ pub struct TimeStepping {
 
 impl TimeStepping {
     pub(super) fn new(settings: &Settings, plan: &Plan, start: &State, scratch: Scratch) -> Self {
+        let sweeps = Sweeps {
+            iteration: Iteration::GaussSeidel,
+            correction: Correction::PerContact,
+            cone: Cone::Disc,
+            most: settings.sweeps,
+            tolerance: settings.tolerance(),
+            friction: plan.friction,
+            variant: Variant { local: settings.local, relaxation: settings.relaxation, order: settings.order },
+        };
         TimeStepping {
             solver: settings.solver,
             approach: plan.approach,
-            sweeps: Sweeps {
-                iteration: Iteration::GaussSeidel,
-                correction: Correction::PerContact,
-                cone: Cone::Disc,
-                most: settings.sweeps,
-                tolerance: settings.tolerance(),
-                friction: plan.friction,
-                variant: Variant { local: settings.local, relaxation: settings.relaxation, order: settings.order },
-            },
+            sweeps,
             reduction: settings.contacts_per_face.map(|most| Reduction::new(most, scratch.contacts())),
             position_correction: settings.position_correction,
             last: Vec::with_capacity(scratch.contacts()),
             pins: Vec::new(),
             last_pins: Vec::new(),
-            push: Push::with_capacity(scratch.contacts(), scratch.free.capacity()),
+            push: Push::new(&sweeps, scratch.contacts(), scratch.free.capacity()),
             blow: Blow::new(settings.impact, plan.approach, start),
             kicked: (plan.approach == Approach::Middle).then(|| start.clone()),
             scratch,
@@ -161,7 +162,7 @@ impl TimeStepping {
         let s = &mut self.scratch;
         let lost_j = || s.problem.dissipated_j(state, &s.free, &s.impulses, &s.response);
         self.position_correction == PositionCorrection::Projection
-            && self.push.find(&s.problem, &s.found, model, (&s.response, step_s), lost_j, &self.sweeps, &mut s.work)
+            && self.push.find(&s.problem, &s.found, model, (&s.response, step_s), lost_j, &mut s.work)
     }
 }
 

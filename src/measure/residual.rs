@@ -108,8 +108,9 @@ struct Seen {
     strikes: bool,
     /// Normal velocity without an impulse, less that.
     approach: f64,
-    /// Relative velocity after the contacts.
+    /// Relative velocity after the contacts, and before them.
     u: Vector3<f64>,
+    u_before: Vector3<f64>,
     /// Largest of its bodies' before the contacts.
     speed: f64,
 }
@@ -119,7 +120,8 @@ impl Seen {
         let relative = |motion: fn(&Moved) -> &Motion| -> Vector3<f64> {
             contact.ends().map(|(i, r, sign)| motion(&moved[i]).of_point(&r) * sign).sum()
         };
-        let before = contact.normal.dot(&relative(|m| &m.before));
+        let u_before = relative(|m| &m.before);
+        let before = contact.normal.dot(&u_before);
         let free = contact.normal.dot(&relative(|m| &m.free));
         let motion = [before, free - before];
         let least = approach.least(model, contact, motion, step_s).unwrap_or(f64::NAN);
@@ -133,6 +135,7 @@ impl Seen {
             strikes: approach.strikes(model, contact, motion, step_s),
             approach: free - least,
             u: relative(|m| &m.after),
+            u_before,
             speed: contact.ends().map(speed).fold(0.0, f64::max),
         }
     }
@@ -145,11 +148,21 @@ impl Seen {
         outside.max(self.step_length * approach)
     }
 
+    /// Friction is against the velocity after; a kick half-way through the motion may put it against the mean instead.
+    fn missed(&self, contact: &Contact, impulse_W: &Vector3<f64>, approach: Approach) -> f64 {
+        let missed = self.missed_at(&self.u, contact, impulse_W);
+        if approach != Approach::Middle {
+            return missed;
+        }
+        let tangent = self.u_before - contact.normal * contact.normal.dot(&self.u_before);
+        missed.min(self.missed_at(&(self.u + tangent), contact, impulse_W))
+    }
+
     /// |p − P_K(p − ρ ũ)|.
-    fn missed(&self, contact: &Contact, impulse_W: &Vector3<f64>) -> f64 {
+    fn missed_at(&self, u: &Vector3<f64>, contact: &Contact, impulse_W: &Vector3<f64>) -> f64 {
         let Contact { normal, friction, .. } = contact;
-        let slip = (self.u - normal * normal.dot(&self.u)).norm();
-        let dual = self.u + normal * (friction * slip - self.least);
+        let slip = (u - normal * normal.dot(u)).norm();
+        let dual = u + normal * (friction * slip - self.least);
         let wanted = in_cone(&(impulse_W - dual * self.step_length), normal, *friction);
         (impulse_W - wanted).norm()
     }
@@ -223,7 +236,7 @@ impl ResidualLedger {
             let missed = if stakes.struck && !self.newton {
                 seen(contact).missed_by_impact(contact, impulse_W)
             } else {
-                seen(contact).missed(contact, impulse_W)
+                seen(contact).missed(contact, impulse_W, self.approach)
             };
             relative(missed, stakes.scale())
         };

@@ -126,6 +126,8 @@ pub struct Block {
     pub b: Vector3<f64>,
     /// The normal velocity that is asked for at least; b's normal row is relative to it.
     pub least: f64,
+    /// Relative velocity before the step, in the contact's frame.
+    pub before: Vector3<f64>,
     /// Normal and two tangents, world axes.
     pub frame: [Vector3<f64>; 3],
     /// A⁻¹ of a pin, which takes any impulse; none: a contact.
@@ -414,6 +416,7 @@ impl Block {
             tangent_step: 1.0 / largest_eigenvalue(A[(1, 1)], A[(2, 2)], A[(1, 2)]),
             b,
             least,
+            before,
             frame,
             pin: None,
         })
@@ -436,6 +439,7 @@ impl Block {
             frame,
             pin: Some(A.try_inverse().unwrap_or_default()),
             least: 0.0,
+            before: Vector3::zeros(),
         }
     }
 

@@ -26,6 +26,9 @@ use crate::solve::{Impulse, newton, nncg};
 use crate::state::State;
 use nalgebra::Vector3;
 
+/// Of the greatest friction: what is below it sticks.
+const STUCK: f64 = 1.0 - 1e-9;
+
 /// Of a body's bounding radius: a body resting at gap zero is in contact whatever its last bit says.
 const MARGIN: f64 = 1e-9;
 
@@ -130,6 +133,9 @@ impl TimeStepping {
             Some(blow)
         });
         warm_start(&s.found, &self.last, &mut s.impulses);
+        if self.approach == Approach::Middle && struck.is_none() {
+            hold_half_way(&mut s.problem, &s.impulses);
+        }
         s.impulses.extend(&self.last_pins);
         s.impulses.resize(s.problem.blocks.len(), Impulse::zeros());
         s.problem.response(&s.impulses, &mut s.response);
@@ -193,6 +199,18 @@ fn go_on_after(
     let free: Vec<Twist> = free.iter().zip(&blow.response).map(|(a, b)| Twist { v: a.v + b.v, w: a.w + b.w }).collect();
     let mut plastic: Vec<Contact> = found.iter().map(|contact| Contact { restitution: 0.0, ..*contact }).collect();
     problem.gather(model, &blow.after, &free, &mut plastic, (approach, step_s));
+}
+
+/// What has stuck before sticks on in the mean of the velocities before and after the kick, c⁺ = −c⁻, where c⁻ is what the
+/// way since the last kick has turned: friction then does no work, and rolling along a curve is of order 2 (R. McLachlan, M.
+/// Perlmutter, J. Nonlinear Sci. 16 (2006) 283). `last`: the impulses of the step before.
+fn hold_half_way(problem: &mut ContactProblem, last: &[Impulse]) {
+    for (block, p) in problem.blocks.iter_mut().zip(last) {
+        if p.yz().norm() < STUCK * block.friction * p.x {
+            block.b.y += block.before.y;
+            block.b.z += block.before.z;
+        }
+    }
 }
 
 /// Contacts that were left out are there, without an impulse.

@@ -8,6 +8,7 @@ mod divergence;
 mod free;
 mod impact;
 mod impact_energy;
+mod known_problems;
 mod lecture;
 mod loads;
 mod newton;

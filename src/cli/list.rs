@@ -54,7 +54,7 @@ const METHODS: [Line; 4] = [
     (
         "time-stepping",
         "solver: pgs (default) | nncg | newton; scheme: semi-implicit (default) | moreau; impact: newton (default) | poisson \
-         | sequential; sweeps: 50; tolerance: 1e-12 (newton: 1e-10); \
+         | sequential; sweeps: 50 (newton: 500); tolerance: 1e-12 (newton: 1e-10); \
          position_correction: projection (default) | none; local: common (default) | rows | exact; relaxation: 1; order: \
          fixed (default) | shuffled; contacts_per_face: all (default) or at least 3",
         "velocity–impulse with projected Gauss–Seidel, its conjugate gradients or the exact law of contact; gaps close to \

@@ -141,7 +141,7 @@ fn validate_method(method: &Method, at: Path) -> Result<()> {
 }
 
 fn validate_time_stepping(stepping: &TimeStepping, at: Path) -> Result<()> {
-    at_least_one(stepping.sweeps, at.key("sweeps"))?;
+    stepping.sweeps.map_or(Ok(()), |sweeps| at_least_one(sweeps, at.key("sweeps")))?;
     stepping.tolerance.map_or(Ok(()), |tolerance| not_negative(tolerance, at.key("tolerance")))?;
     relaxation(stepping.relaxation, at.key("relaxation"))?;
     if stepping.solver == Solver::Newton {

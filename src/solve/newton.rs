@@ -53,9 +53,9 @@ pub fn solve(
     let mut solved = true;
     for island in islands {
         let mut own = island.impulses(p);
-        let mut others = p.to_vec();
         let shuffled = Variant { local: Local::Exact, order: Order::Shuffled, ..Variant::default() };
         let more = |own: &mut Vec<Impulse>, work: &mut Work| {
+            let mut others = p.to_vec();
             island.put(own, &mut others);
             sweep(&mut others, MORE_SWEEPS, shuffled, work);
             *own = island.impulses(&others);

@@ -5,7 +5,6 @@
 //! The law of contact lets gaps close to zero and no further, so that there is little to remove: what a linear forecast of
 //! the gap misses, and impacts that were seen late. A contact that loses no energy (e = 1) is left to leave by itself.
 
-use super::gauss_seidel::Sweeps;
 use super::problem::{Block, ContactProblem, Twist};
 use crate::collide::Contact;
 use crate::collide::approach::{rounding_m, size_m};
@@ -16,13 +15,15 @@ use crate::model::{Body, Model};
 /// it at once would turn bodies so far that they leave the contacts that hold them, and a pile would shake.
 const PART: f64 = 0.2;
 
+/// Sweeps; what they leave is the next step's.
+const MOST: u32 = 50;
+
 /// Of the smaller body's bounding radius.
 const SHALLOW: f64 = 2e-3;
 
 /// Multipliers of the contacts and displacements of the bodies, kept to spare the allocator.
 #[derive(Clone, Debug)]
 pub struct Push {
-    most: u32,
     tolerance: f64,
     multipliers: Vec<f64>,
     /// Motion out that is asked for at least; of a contact with room to spare, less than nothing.
@@ -31,11 +32,10 @@ pub struct Push {
 }
 
 impl Push {
-    /// By so many sweeps, until none changes a multiplier by more than this part of the largest.
-    pub fn new(sweeps: &Sweeps, contacts: usize, bodies: usize) -> Self {
+    /// Sweeps end when none changes a multiplier by more than this part of the largest.
+    pub fn new(tolerance: f64, contacts: usize, bodies: usize) -> Self {
         Push {
-            most: sweeps.most,
-            tolerance: sweeps.tolerance,
+            tolerance,
             multipliers: Vec::with_capacity(contacts),
             wanted_m: Vec::with_capacity(contacts),
             moved: Vec::with_capacity(bodies),
@@ -70,7 +70,7 @@ impl Push {
         self.multipliers.resize(contacts.len(), 0.0);
         self.moved.clear();
         self.moved.resize(model.bodies.len(), Twist::ZERO);
-        for _ in 0..self.most {
+        for _ in 0..MOST {
             work.sweeps += 1;
             if self.sweep(problem) <= self.tolerance {
                 break;

@@ -57,7 +57,7 @@ fn missing_sections_are_created() {
 fn the_last_set_of_a_path_wins() {
     assert_eq!(experiment(BASE, &["seed=1", "seed=2"]).unwrap().seed, 2);
     let method = experiment(BASE, &["method=time-stepping", "method.time-stepping.sweeps=3"]).unwrap().method;
-    assert_eq!(method, Method::TimeStepping(TimeStepping { sweeps: 3, ..TimeStepping::default() }));
+    assert_eq!(method, Method::TimeStepping(TimeStepping { sweeps: Some(3), ..TimeStepping::default() }));
 }
 
 #[test]

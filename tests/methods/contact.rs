@@ -74,7 +74,7 @@ time: { step_s: 1e-4, end_s: 1 }
     // measured: 0.6398
     assert!((height - 0.64).abs() < 2e-3, "{height}");
     let dead = run(&experiment(text, &["scene.restitution=0"])).state.bodies[0];
-    // measured: 0 and 1.4e-17, without a slop
+    // measured: 0 and 0, without a slop
     assert!(dead.v_WB.norm() < 1e-12 && (dead.p_WB.y - 0.1).abs() < 1e-13, "{dead:?}");
 }
 

@@ -20,15 +20,6 @@ pub enum Approach {
     Middle,
 }
 
-/// Along the contact's normal, from the bodies' velocities and angular velocities by their index.
-pub fn normal_velocity(contact: &Contact, velocities: impl Fn(usize) -> [Vector3<f64>; 2]) -> f64 {
-    let of_point = |(i, r_W, sign): (usize, Vector3<f64>, f64)| {
-        let [v, w] = velocities(i);
-        (v + w.cross(&r_W)) * sign
-    };
-    contact.normal.dot(&contact.ends().map(of_point).sum::<Vector3<f64>>())
-}
-
 /// Leaves those contacts that may close in the step: of every body and face (or other body) none beyond twice the way that
 /// the fastest of them closes by itself, as one that touches may turn the body toward the others. `velocities`: of a body
 /// by its index, before the contacts.
@@ -38,7 +29,7 @@ pub fn foresee(
     velocities: impl Fn(usize) -> [Vector3<f64>; 2],
     step_s: f64,
 ) {
-    let closing_m = |contact: &Contact| -step_s * normal_velocity(contact, &velocities);
+    let closing_m = |contact: &Contact| -step_s * contact.normal.dot(&contact.velocity(&velocities));
     let with = |contact: &Contact| (contact.body, contact.other, contact.other.map_or(contact.feature.0, |_| 0));
     let (mut kept, mut from) = (0, 0);
     while from < contacts.len() {
@@ -59,7 +50,7 @@ pub fn foresee(
 
 /// Of the smaller body's bounding radius: gaps below it, or below what the coordinates can resolve, are closed.
 const CLOSED: f64 = 1e-12;
-const ULPS: f64 = 8.0 * f64::EPSILON;
+pub(super) const ULPS: f64 = 8.0 * f64::EPSILON;
 
 pub fn rounding_m(model: &Model, contact: &Contact) -> f64 {
     CLOSED * size_m(model, contact) + ULPS * contact.p_WC.amax()

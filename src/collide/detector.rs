@@ -1,5 +1,6 @@
 //! The contact test of a whole state, with its memory.
 
+use super::approach::ULPS;
 use super::broad::{Bounds, Broad};
 use super::pair::touches;
 use super::solid::{Pose, Touch};
@@ -22,9 +23,6 @@ pub struct Reach {
 /// Of the smaller body's bounding radius: bodies farther apart are not looked at ahead. The plane between two of them
 /// stands for their surfaces only nearby; a container's faces are planes.
 const NEARBY: f64 = 0.3;
-
-/// Rounding of positions far from the origin.
-const ULPS: f64 = 8.0 * f64::EPSILON;
 
 impl Reach {
     /// What is inside.

@@ -55,6 +55,15 @@ impl Contact {
         std::iter::once((self.body, self.r_BC_W, 1.0)).chain(other)
     }
 
+    /// Of the body's point against the other's, from the bodies' velocities and angular velocities by their index.
+    pub fn velocity(&self, of: impl Fn(usize) -> [Vector3<f64>; 2]) -> Vector3<f64> {
+        let of_point = |(i, r_W, sign): (usize, Vector3<f64>, f64)| {
+            let [v, w] = of(i);
+            (v + w.cross(&r_W)) * sign
+        };
+        self.ends().map(of_point).sum()
+    }
+
     /// e₁ = n and two tangents; for the faces of a box the tangents are the other coordinate axes.
     pub fn frame(&self) -> [Vector3<f64>; 3] {
         let normal = self.normal;

@@ -25,13 +25,6 @@ struct Motion {
     w: Vector3<f64>,
 }
 
-impl Motion {
-    /// Velocity of the point `r` from the centre of mass.
-    fn of_point(&self, r: &Vector3<f64>) -> Vector3<f64> {
-        self.v + self.w.cross(r)
-    }
-}
-
 /// One body in one step.
 #[derive(Clone, Copy, Debug)]
 struct Moved {
@@ -118,7 +111,7 @@ struct Seen {
 impl Seen {
     fn new(model: &Model, contact: &Contact, moved: &[Moved], (approach, step_s): (Approach, f64)) -> Self {
         let relative = |motion: fn(&Moved) -> &Motion| -> Vector3<f64> {
-            contact.ends().map(|(i, r, sign)| motion(&moved[i]).of_point(&r) * sign).sum()
+            contact.velocity(|i| [motion(&moved[i]).v, motion(&moved[i]).w])
         };
         let u_before = relative(|m| &m.before);
         let before = contact.normal.dot(&u_before);

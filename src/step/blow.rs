@@ -3,7 +3,7 @@
 //! after.
 
 use crate::collide::Contact;
-use crate::collide::approach::{Approach, is_closed, normal_velocity};
+use crate::collide::approach::{Approach, is_closed};
 use crate::experiment::types::Impact;
 use crate::model::Model;
 use crate::solve::Impulse;
@@ -87,8 +87,8 @@ impl Blow {
         self.places.clear();
         self.restitution.clear();
         for (place, contact) in found.iter().enumerate() {
-            let before = normal_velocity(contact, |i| [state.bodies[i].v_WB, state.bodies[i].w_WB]);
-            let gained = normal_velocity(contact, |i| [free[i].v, free[i].w]) - before;
+            let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
+            let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
             let strikes = self.approach.strikes(model, contact, [before, gained], step_s);
             any |= strikes;
             if strikes || is_closed(model, contact) {

@@ -47,8 +47,7 @@ impl Penalty {
 
 /// k depth − c v_n, never pulling; μ f_n against the slip, linear in it below `slip_speed_m_s`.
 fn force(settings: &Settings, contact: &Contact, bodies: &[BodyState]) -> Vector3<f64> {
-    let of_point = |(i, r_W, sign): (usize, Vector3<f64>, f64)| (bodies[i].v_WB + bodies[i].w_WB.cross(&r_W)) * sign;
-    let velocity: Vector3<f64> = contact.ends().map(of_point).sum();
+    let velocity = contact.velocity(|i| [bodies[i].v_WB, bodies[i].w_WB]);
     let along = velocity.dot(&contact.normal);
     let push = (-settings.stiffness_n_m * contact.gap_m - settings.damping_n_s_m * along).max(0.0);
     let slip = velocity - contact.normal * along;

@@ -43,7 +43,7 @@ impl Plan {
             loads(model),
             pins(model),
         ];
-        let newton = !matches!(method, Method::TimeStepping(s) if s.impact != Impact::Newton);
+        let newton = method.impact() == Impact::Newton;
         let constraint = has_contact && !matches!(method, Method::Penalty(_));
         Plan {
             contact: has_contact,

@@ -80,6 +80,8 @@ pub struct Measured {
     pub work_gyroscopic: u64,
     pub work_pin_solves: u64,
     pub work_inner_steps: u64,
+    pub work_events: u64,
+    pub work_fallbacks: u64,
     pub wall_s: Option<f64>,
     /// Columns that only some experiments have: `measure:`, the bracket of a search.
     #[serde(flatten)]
@@ -125,6 +127,8 @@ impl Measured {
             work_gyroscopic: 0,
             work_pin_solves: 0,
             work_inner_steps: 0,
+            work_events: 0,
+            work_fallbacks: 0,
             wall_s: None,
             more: Map::new(),
         }
@@ -147,6 +151,8 @@ impl Measured {
         self.work_gyroscopic = work.gyroscopic;
         self.work_pin_solves = work.pin_solves;
         self.work_inner_steps = work.inner_steps;
+        self.work_events = work.events;
+        self.work_fallbacks = work.fallbacks;
     }
 
     /// The same but for the time it took: what two runs of one case must agree in.

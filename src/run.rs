@@ -12,7 +12,7 @@ use crate::plan::Plan;
 use crate::record::sampler::Sampler;
 use crate::row::{Measured, Outcome, finite};
 use crate::state::State;
-use crate::step::{Clock, Stepper};
+use crate::step::{Clock, Span, Stepper};
 use std::time::{Duration, Instant};
 
 /// What a run leaves behind.
@@ -39,29 +39,29 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     if let Some(sampler) = &mut sampler {
         sampler.sample(model, &state, &[], clock.step_s);
     }
-    while state.step < clock.steps && stopped.is_none() {
+    let mut shown = Shown::new(experiment, &state);
+    while !stepper.is_done(&state, &clock) && stopped.is_none() {
         before.copy_from(&state);
         let started = Instant::now();
         stepper.step(model, &mut state, &clock);
         stepping += started.elapsed();
         let stalled = stepper.stalled();
-        stopped = if stalled {
+        stopped = if let Some(criterion) = stalled {
             state.copy_from(&before);
-            Some((Outcome::Stalled, Criterion::NotConverged))
+            Some((Outcome::Stalled, criterion))
         } else {
-            let diverged = judge.observe(
-                model,
-                [&before, stepper.kicked().unwrap_or(&before), &state],
-                stepper.contacts(),
-                clock.step_s,
-            );
+            let diverged = observe(&mut judge, &mut stepper, model, [&before, &state], &clock);
             diverged.map(|criterion| (Outcome::Diverged, criterion))
         };
         if let Some(sampler) = &mut sampler {
-            let last = stopped.is_some() || state.step == clock.steps;
+            let last = stopped.is_some() || stepper.is_done(&state, &clock);
+            if experiment.method.follows_events() {
+                shown.show(sampler, &mut stepper, model, &state, last);
+                continue;
+            }
             let due = sampler.is_due(state.step);
             // A stalled run is back at a state that has been sampled if it was due.
-            let wanted = if stalled { !due } else { due || last };
+            let wanted = if stalled.is_some() { !due } else { due || last };
             if wanted {
                 sampler.sample(model, &state, stepper.contacts(), clock.step_s);
             }
@@ -75,7 +75,75 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     if let Some(sampler) = &mut sampler {
         sampler.end(&state, &measured);
     }
-    Ended { measured, contacts: stepper.contacts().to_vec(), state, step_s: clock.step_s }
+    let (contacts, step_s) = if experiment.method.follows_events() {
+        (stepper.forces_at(model, &state), 1.0)
+    } else {
+        (stepper.contacts().to_vec(), clock.step_s)
+    };
+    Ended { measured, contacts, state, step_s }
+}
+
+/// Shows a step to the judge.
+fn observe(
+    judge: &mut Judge,
+    stepper: &mut Stepper,
+    model: &Model,
+    [before, after]: [&State; 2],
+    clock: &Clock,
+) -> Option<Criterion> {
+    match stepper.span() {
+        Span::Step => {
+            let kicked = stepper.kicked().unwrap_or(before);
+            judge.observe(model, [before, kicked, after], stepper.contacts(), clock.step_s)
+        }
+        Span::Blow => judge.observe(model, [before, before, after], stepper.contacts(), 0.0),
+        Span::Motion => judge.observe_motion(model, [before, after], &stepper.moments(model, [before, after])),
+    }
+}
+
+/// Samples of a method that goes from event to event, at times that mean nothing to it: the motion is the same without.
+struct Shown {
+    ticks: Clock,
+    every_event: bool,
+    /// Ticks that have been shown.
+    count: u64,
+    state: State,
+}
+
+impl Shown {
+    fn new(experiment: &Experiment, start: &State) -> Self {
+        let every_event = experiment.record.every_s == 0.0;
+        Shown { ticks: ticks(experiment), every_event, count: 0, state: start.clone() }
+    }
+
+    /// What is due in the last stretch, and its end if that is wanted.
+    fn show(&mut self, sampler: &mut Sampler, stepper: &mut Stepper, model: &Model, end: &State, last: bool) {
+        loop {
+            let due_s = self.ticks.end_s * (self.count + 1) as f64 / self.ticks.steps as f64;
+            if self.every_event || due_s > end.time_s || (last && due_s == end.time_s) {
+                break;
+            }
+            self.count += 1;
+            self.state.copy_from(end);
+            self.state.time_s = due_s;
+            stepper.state_at(model, &mut self.state);
+            let forces = stepper.forces_at(model, &self.state);
+            sampler.sample(model, &self.state, &forces, 1.0);
+        }
+        if last || self.every_event {
+            let forces = stepper.forces_at(model, end);
+            sampler.sample(model, end, &forces, 1.0);
+        }
+    }
+}
+
+/// When samples are due, of a method that makes no steps of the clock; else its steps.
+pub fn ticks(experiment: &Experiment) -> Clock {
+    let every_s = experiment.record.every_s;
+    if experiment.method.follows_events() && every_s > 0.0 {
+        return Clock::new(every_s, experiment.time.end_s);
+    }
+    clock(experiment)
 }
 
 /// Without a step: one to the end, of a method that needs none.
@@ -99,7 +167,7 @@ fn summarize(
         criterion: stopped.map(|(_, criterion)| criterion.name().to_string()),
         end_time_s: finite(state.time_s),
         steps: state.step,
-        step_used_s: finite(clock.step_s),
+        step_used_s: finite(stepper.step_used_s(state, clock)),
         energy_start_j: finite(judge.energy.start_j()),
         energy_end_j: finite(judge.energy.end_j()),
         energy_drift_rel: finite(judge.energy.drift_rel()),

@@ -126,7 +126,7 @@ pub fn run(trial: &Trial, bench: &Bench, scene: &str) -> std::result::Result<Row
         Err(panic) => (Measured::failed(panics::message(panic.as_ref()).to_string()), None),
     };
     let steps = match experiment.method.accuracy() {
-        Accuracy::Tolerance(_) => measured.work_inner_steps,
+        Accuracy::Tolerance(_) if !experiment.method.follows_events() => measured.work_inner_steps,
         _ => measured.steps,
     };
     let mut row = Row {

@@ -53,7 +53,7 @@ pub fn time(experiment: &Experiment, model: &Model, start: &State, repeats: u32)
 fn all_steps(runs: &mut [(Stepper, State)], model: &Model, clock: &Clock) -> Duration {
     let started = Instant::now();
     for (stepper, state) in runs {
-        while state.step < clock.steps {
+        while !stepper.is_done(state, clock) && stepper.stalled().is_none() {
             stepper.step(model, state, clock);
         }
     }

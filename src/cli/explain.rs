@@ -6,7 +6,7 @@ use crate::experiment::types::Shape;
 use crate::model;
 use crate::plan::{Plan, Stage};
 use crate::record::sampler::steps_between;
-use crate::run::clock;
+use crate::run::{clock, ticks};
 use crate::step::Stepper;
 use crate::sweep::plan::cases;
 use crate::sweep::recordings::{FEW, known_before};
@@ -121,10 +121,15 @@ fn trial_s(case: &Case) -> f64 {
     let mut stepper =
         Stepper::new(&case.experiment.method, &Plan::new(&model, &case.experiment.method), &model, &state);
     let started = Instant::now();
-    while state.step < clock.steps && started.elapsed() < MOMENT {
+    while !stepper.is_done(&state, &clock) && stepper.stalled().is_none() && started.elapsed() < MOMENT {
         stepper.step(&model, &mut state, &clock);
     }
-    started.elapsed().as_secs_f64() * (clock.steps * runs(case)) as f64 / state.step.max(1) as f64
+    let part = if case.experiment.method.follows_events() {
+        state.time_s / clock.end_s
+    } else {
+        state.step as f64 / clock.steps as f64
+    };
+    started.elapsed().as_secs_f64() * runs(case) as f64 / part.max(1e-3)
 }
 
 /// Of a search about how many; all counted with the steps of the first one, which is mostly the longest.
@@ -142,7 +147,7 @@ fn bytes(cases: &[Case]) -> u64 {
     let rule = first.experiment.record.cases;
     let recorded = known_before(rule, cases.len()).map_or(FEW.min(cases.len()), |known| known.len());
     let per_case = |case: &Case| {
-        let clock = clock(&case.experiment);
+        let clock = ticks(&case.experiment);
         let samples = clock.steps / steps_between(&case.experiment.record, &clock) + 1;
         let bodies = &case.experiment.scene.bodies;
         let contacts = bodies.iter().filter(|body| body.shape != Shape::None).count() as u64 * LIKELY_CONTACTS;

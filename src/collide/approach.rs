@@ -72,6 +72,8 @@ impl Approach {
                 Scheme::SemiImplicit => Approach::Start,
                 Scheme::Moreau => Approach::Middle,
             },
+            // From event to event an impact takes no time, and forces do not act in it.
+            Method::EventDriven(_) | Method::Auto(_) => Approach::Inside,
             Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) => Approach::Inside,
         }
     }

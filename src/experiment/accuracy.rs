@@ -17,6 +17,8 @@ impl Method {
     pub fn accuracy(&self) -> Accuracy {
         match self {
             Method::Free(free) => free.integrator.accuracy(),
+            Method::EventDriven(_) => Accuracy::Tolerance(&["method", "event-driven", "tolerance"]),
+            Method::Auto(_) => Accuracy::Tolerance(&["method", "auto", "tolerance"]),
             // The tolerance of `time-stepping` is its solver's, not the motion's.
             Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => Accuracy::Step,
         }
@@ -26,6 +28,8 @@ impl Method {
     pub fn tolerance(&self) -> Option<f64> {
         match (self, self.accuracy()) {
             (Method::Free(free), Accuracy::Tolerance(_)) => Some(free.tolerance.unwrap_or(DEFAULT_TOLERANCE)),
+            (Method::EventDriven(settings), _) => Some(settings.tolerance),
+            (Method::Auto(settings), _) => Some(settings.tolerance),
             _ => None,
         }
     }

@@ -8,7 +8,6 @@ const LATER: &[(&str, &[&str])] = &[
     ("Pair", &["tangential_restitution"]),
     ("Container", &["mesh"]),
     ("Shape", &["mesh"]),
-    ("Method", &["event-driven", "auto"]),
 ];
 
 /// Whether a later version knows this word in this type.

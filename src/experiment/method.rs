@@ -1,6 +1,7 @@
 //! The vocabulary of `method:`: every method with its settings, defaults with their reasons. A part of `types.rs`.
 
 use super::types::is_default;
+use crate::integrate::DEFAULT_TOLERANCE;
 use serde::{Deserialize, Serialize};
 
 /// The exchangeable unit is the whole step. One word, or one key with settings.
@@ -11,6 +12,8 @@ pub enum Method {
     Lecture(Lecture),
     Penalty(Penalty),
     TimeStepping(TimeStepping),
+    EventDriven(EventDriven),
+    Auto(Auto),
 }
 
 impl Default for Method {
@@ -21,6 +24,20 @@ impl Default for Method {
 }
 
 impl Method {
+    /// The law of its impacts; of a method without one, Newton's.
+    pub fn impact(&self) -> Impact {
+        match self {
+            Method::TimeStepping(stepping) => stepping.impact,
+            Method::EventDriven(settings) => settings.impact,
+            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::Auto(_) => Impact::Newton,
+        }
+    }
+
+    /// It goes from event to event, and the clock says only when to end.
+    pub fn follows_events(&self) -> bool {
+        matches!(self, Method::EventDriven(_) | Method::Auto(_))
+    }
+
     /// Its word in the file.
     pub fn word(&self) -> &'static str {
         match self {
@@ -28,6 +45,8 @@ impl Method {
             Method::Lecture(_) => "lecture",
             Method::Penalty(_) => "penalty",
             Method::TimeStepping(_) => "time-stepping",
+            Method::EventDriven(_) => "event-driven",
+            Method::Auto(_) => "auto",
         }
     }
 }
@@ -242,6 +261,36 @@ pub struct TimeStepping {
     /// no impulse. Absent: all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contacts_per_face: Option<u32>,
+}
+
+/// Motion from event to event: impacts, and changes between sliding, sticking and flight, are found as roots in time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EventDriven {
+    /// Wanted error at the end, of positions in metres, unless the motion itself lets errors grow.
+    pub tolerance: f64,
+    pub impact: Impact,
+}
+
+impl Default for EventDriven {
+    fn default() -> Self {
+        EventDriven { tolerance: DEFAULT_TOLERANCE, impact: Impact::Newton }
+    }
+}
+
+/// The cheapest method and step that meet a tolerance in this scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Auto {
+    /// Wanted error of positions at the end, in metres.
+    pub tolerance: f64,
+}
+
+impl Default for Auto {
+    /// A micrometre: what no engine with a fixed step reaches through an impact.
+    fn default() -> Self {
+        Auto { tolerance: 1e-6 }
+    }
 }
 
 fn is_one(x: &f64) -> bool {

@@ -8,7 +8,7 @@ use super::types::{
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
-use crate::integrate::SMALLEST_TOLERANCE;
+use crate::integrate::{SMALLEST_GLOBAL, SMALLEST_TOLERANCE};
 
 /// What contacts name the container.
 pub(super) const CONTAINER: &str = "container";
@@ -137,7 +137,21 @@ fn validate_method(method: &Method, at: Path) -> Result<()> {
         Method::Lecture(lecture) => at_least_one(lecture.sweeps, at.key("lecture").key("sweeps")),
         Method::Penalty(penalty) => validate_penalty(penalty, at.key("penalty")),
         Method::TimeStepping(stepping) => validate_time_stepping(stepping, at.key("time-stepping")),
+        Method::EventDriven(settings) => reachable(settings.tolerance, at.key("event-driven").key("tolerance")),
+        Method::Auto(settings) => reachable(settings.tolerance, at.key("auto").key("tolerance")),
     }
+}
+
+/// A tolerance of the whole motion.
+fn reachable(tolerance: f64, at: Path) -> Result<()> {
+    if tolerance >= SMALLEST_GLOBAL {
+        return Ok(());
+    }
+    let expected = format!(
+        "a number of at least {SMALLEST_GLOBAL:e}: positions of some metres are known to 1e-16 of them, and events to some \
+         hundred times that"
+    );
+    Err(unexpected(at, &expected, &number(tolerance)))
 }
 
 fn validate_time_stepping(stepping: &TimeStepping, at: Path) -> Result<()> {
@@ -193,7 +207,7 @@ fn validate_penalty(penalty: &Penalty, at: Path) -> Result<()> {
 /// What the method can do with the scene's contacts.
 fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
     match experiment.method {
-        Method::Free(_) | Method::TimeStepping(_) => Ok(()),
+        Method::Free(_) | Method::TimeStepping(_) | Method::EventDriven(_) | Method::Auto(_) => Ok(()),
         Method::Lecture(_) => needs_meshes("lecture", &experiment.scene, at),
         Method::Penalty(_) => {
             needs_meshes("penalty", &experiment.scene, at)?;

@@ -17,6 +17,12 @@ pub fn validate_loads(experiment: &Experiment, at: Path) -> Result<()> {
         Method::Free(_) => Ok(()),
         _ if scene.pins.is_empty() => Ok(()),
         Method::TimeStepping(stepping) if stepping.impact == Impact::Newton => Ok(()),
+        Method::EventDriven(settings) if settings.impact == Impact::Newton => Ok(()),
+        Method::Auto(_) => Ok(()),
+        Method::EventDriven(settings) => {
+            let feature = format!("a pin with the law of impact `{}` (`newton` has pins)", settings.impact.word());
+            Err(ExperimentError::feature_not_available(pins.to_key_path(), &feature))
+        }
         Method::TimeStepping(stepping) => {
             let feature = format!("a pin with the law of impact `{}` (`newton` has pins)", stepping.impact.word());
             Err(ExperimentError::feature_not_available(pins.to_key_path(), &feature))

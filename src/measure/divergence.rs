@@ -15,16 +15,22 @@ pub enum Criterion {
     Penetration,
     /// A step could not be made to its tolerance: the run has stalled.
     NotConverged,
+    /// Sliding has no finite force that goes on, and no impulse ends it.
+    Painleve,
+    /// Events accumulate, and even steps of equal length do not lead past them.
+    Zeno,
 }
 
 impl Criterion {
-    pub const ALL: [Criterion; 6] = [
+    pub const ALL: [Criterion; 8] = [
         Criterion::NotFinite,
         Criterion::Energy,
         Criterion::Escape,
         Criterion::Speed,
         Criterion::Penetration,
         Criterion::NotConverged,
+        Criterion::Painleve,
+        Criterion::Zeno,
     ];
 
     pub fn name(self) -> &'static str {
@@ -35,6 +41,8 @@ impl Criterion {
             Criterion::Speed => "speed",
             Criterion::Penetration => "penetration",
             Criterion::NotConverged => "not-converged",
+            Criterion::Painleve => "painleve",
+            Criterion::Zeno => "zeno",
         }
     }
 }

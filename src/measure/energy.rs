@@ -95,6 +95,15 @@ impl EnergyLedger {
         }
     }
 
+    /// Energy that finite forces of contact took at a state, given as impulses.
+    pub fn observe_forces(&mut self, model: &Model, state: &State, pushes: &[Push]) {
+        for ((body, at), push) in model.bodies.iter().zip(&state.bodies).zip(pushes) {
+            if !body.driven {
+                self.dissipated_j -= push.linear.dot(&at.v_WB) + push.angular.dot(&at.w_WB);
+            }
+        }
+    }
+
     pub fn start_j(&self) -> f64 {
         self.start.total_j()
     }

@@ -27,7 +27,7 @@ pub fn done(
     h: f64,
 ) -> Done {
     let mut done = Done { work_j: 0.0, impulse: Vector3::zeros(), angular_impulse: Vector3::zeros() };
-    if !model.has_loads() {
+    if !model.has_loads() || h == 0.0 {
         return done;
     }
     for ((m, a), b) in middle.bodies.iter_mut().zip(&before.bodies).zip(&after.bodies) {

@@ -40,6 +40,14 @@ impl Push {
     const NONE: Push = Push { linear: Vector3::new(0.0, 0.0, 0.0), angular: Vector3::new(0.0, 0.0, 0.0) };
 }
 
+/// A state on the way of a smooth motion, the impulses of its contacts in the time that it stands for, and that time.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    pub state: State,
+    pub contacts: Vec<SolvedContact>,
+    pub weight_s: f64,
+}
+
 /// Watches a run, step by step.
 pub struct Judge {
     pub energy: EnergyLedger,
@@ -89,7 +97,9 @@ impl Judge {
             self.energy.observe_contacts(model, kicked, &self.pushes, step_s);
             self.watched.observe(kicked, contacts);
         }
-        self.watched.observe_step(before, after, step_s);
+        if step_s > 0.0 {
+            self.watched.observe_step(before, after, step_s);
+        }
         self.residual.observe(model, [kicked, after], contacts, &self.pushes, step_s);
         let pivot = |state: &State| self.momentum.pivot_m(model, state);
         let done = loads::done(model, [before, after], &mut self.middle, pivot, step_s);
@@ -101,6 +111,39 @@ impl Judge {
         let depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max);
         self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
         self.contacts_max = self.contacts_max.max(contacts.len() as u64);
+        self.divergence.judge(model, after, &energy, depth_m)
+    }
+
+    /// Judges a smooth motion, of which `moments` show the forces of contact: their weights are those of a quadrature.
+    pub fn observe_motion(
+        &mut self,
+        model: &Model,
+        [before, after]: [&State; 2],
+        moments: &[Moment],
+    ) -> Option<Criterion> {
+        let span_s = after.time_s - before.time_s;
+        let energy = Energy::of(model, after);
+        let mut depth_m = 0.0_f64;
+        for Moment { state, contacts, .. } in moments.iter().filter(|moment| !moment.contacts.is_empty()) {
+            self.gather_pushes(contacts);
+            self.energy.observe_forces(model, state, &self.pushes);
+            self.momentum.observe_pushes(model, state, &self.pushes);
+            self.pushes.fill(Push::NONE);
+            self.residual.observe(model, [state, state], contacts, &self.pushes, 0.0);
+            self.watched.observe(state, contacts);
+            depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(depth_m, f64::max);
+            self.contacts_max = self.contacts_max.max(contacts.len() as u64);
+        }
+        if span_s > 0.0 {
+            self.watched.observe_step(before, after, span_s);
+        }
+        let pivot = |state: &State| self.momentum.pivot_m(model, state);
+        let done = loads::done(model, [before, after], &mut self.middle, pivot, span_s);
+        self.energy.observe(energy, done.work_j);
+        self.momentum.observe(model, [before, before, after], None, &done, span_s);
+        let gap_m = model.pin_gap_m(&after.bodies);
+        self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
+        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
         self.divergence.judge(model, after, &energy, depth_m)
     }
 

@@ -146,21 +146,26 @@ impl MomentumLedger {
         self.linear_given += model.gravity_m_s2 * (mass_kg * step_s) + loads.impulse;
         self.angular_given += loads.angular_impulse;
         if let Some(pushes) = pushes {
-            let pivot = self.pivot_m(model, kicked);
-            for ((push, at), body) in pushes.iter().zip(&kicked.bodies).zip(&model.bodies) {
-                if body.driven {
-                    continue;
-                }
-                let about_pivot = (at.p_WB - pivot).cross(&push.linear);
-                self.linear_given += push.linear;
-                self.angular_given += push.angular + about_pivot;
-                self.linear_moved += push.linear.norm();
-                self.angular_moved += push.angular.norm() + about_pivot.norm();
-            }
+            self.observe_pushes(model, kicked, pushes);
         }
         self.end = Momentum::of(model, after, &self.pivot);
         self.linear_scale = self.linear_scale.max(self.end.linear_scale);
         self.angular_scale = self.angular_scale.max(self.end.angular_scale);
+    }
+
+    /// What contacts gave at a state.
+    pub fn observe_pushes(&mut self, model: &Model, state: &State, pushes: &[Push]) {
+        let pivot = self.pivot_m(model, state);
+        for ((push, at), body) in pushes.iter().zip(&state.bodies).zip(&model.bodies) {
+            if body.driven {
+                continue;
+            }
+            let about_pivot = (at.p_WB - pivot).cross(&push.linear);
+            self.linear_given += push.linear;
+            self.angular_given += push.angular + about_pivot;
+            self.linear_moved += push.linear.norm();
+            self.angular_moved += push.angular.norm() + about_pivot.norm();
+        }
     }
 
     pub fn linear_drift_rel(&self) -> Option<f64> {

@@ -21,4 +21,8 @@ pub struct Work {
     pub pin_solves: u64,
     /// Steps inside those of the clock, summed over islands; tries that were given up are not among them.
     pub inner_steps: u64,
+    /// Impacts, and changes between flight, sticking and sliding.
+    pub events: u64,
+    /// Stretches that were handed over to steps of equal length.
+    pub fallbacks: u64,
 }

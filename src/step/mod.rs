@@ -5,6 +5,7 @@
 
 mod blow;
 mod drift;
+mod event_driven;
 mod free;
 mod hold;
 mod lecture;
@@ -12,8 +13,10 @@ mod penalty;
 mod time_stepping;
 
 use crate::collide::{Contact, Detector, Reach, SolvedContact};
-use crate::experiment::types::{Method as Settings, Rotation, Update};
+use crate::experiment::types::{EventDriven as EventSettings, Method as Settings, Rotation, Update};
 use crate::integrate::rotation::{exponential, turn_at_momentum, turn_literally, w_from_momentum};
+use crate::measure::Moment;
+use crate::measure::divergence::Criterion;
 use crate::measure::work::Work;
 use crate::model::{Body, Model};
 use crate::plan::Plan;
@@ -66,12 +69,24 @@ pub struct Stepper {
     driven: Vec<Driven>,
 }
 
+/// What the last step was, for those who judge it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Span {
+    /// Of the clock, with impulses at its start or in its middle.
+    Step,
+    /// An impact, which takes no time.
+    Blow,
+    /// A smooth motion with forces of contact, which `moments` shows.
+    Motion,
+}
+
 /// A method and its scratch.
 enum Method {
     Free(free::Free),
     Lecture(lecture::Lecture),
     Penalty(penalty::Penalty),
     TimeStepping(Box<time_stepping::TimeStepping>),
+    EventDriven(Box<event_driven::EventDriven>),
 }
 
 /// A body at constant velocities, by its index, from its start.
@@ -95,6 +110,13 @@ impl Stepper {
             Settings::TimeStepping(settings) => {
                 Method::TimeStepping(Box::new(time_stepping::TimeStepping::new(settings, plan, start, scratch())))
             }
+            Settings::EventDriven(settings) => {
+                Method::EventDriven(Box::new(event_driven::EventDriven::new(settings, plan, model, start)))
+            }
+            Settings::Auto(settings) => {
+                let settings = EventSettings { tolerance: settings.tolerance, ..Default::default() };
+                Method::EventDriven(Box::new(event_driven::EventDriven::new(&settings, plan, model, start)))
+            }
         };
         let driven = model.bodies.iter().zip(&start.bodies).enumerate().filter(|(_, (body, _))| body.driven);
         Stepper { method, driven: driven.map(|(i, (_, at))| Driven(i, *at)).collect() }
@@ -106,13 +128,63 @@ impl Stepper {
             Method::Lecture(method) => method.step(model, state, clock),
             Method::Penalty(method) => method.step(model, state, clock),
             Method::TimeStepping(method) => method.step(model, state, clock),
+            Method::EventDriven(method) => return method.step(model, state, clock.end_s),
         }
         self.driven.iter().for_each(|driven| driven.write(state));
     }
 
     /// The last step could not be made: the state is to be forgotten.
-    pub fn stalled(&self) -> bool {
-        matches!(&self.method, Method::Free(method) if method.stalled)
+    pub fn stalled(&self) -> Option<Criterion> {
+        match &self.method {
+            Method::Free(method) => method.stalled.then_some(Criterion::NotConverged),
+            Method::EventDriven(method) => method.stalled,
+            _ => None,
+        }
+    }
+
+    pub fn is_done(&self, state: &State, clock: &Clock) -> bool {
+        match &self.method {
+            Method::EventDriven(_) => state.time_s >= clock.end_s,
+            _ => state.step >= clock.steps,
+        }
+    }
+
+    /// Of a method that makes its own steps, their mean.
+    pub fn step_used_s(&self, state: &State, clock: &Clock) -> f64 {
+        match &self.method {
+            Method::EventDriven(_) => state.time_s / state.step.max(1) as f64,
+            _ => clock.step_s,
+        }
+    }
+
+    pub fn span(&self) -> Span {
+        match &self.method {
+            Method::EventDriven(method) => method.span,
+            _ => Span::Step,
+        }
+    }
+
+    /// Puts the bodies where they were at the state's time, within the last step of a method that follows events.
+    pub fn state_at(&mut self, model: &Model, state: &mut State) {
+        if let Method::EventDriven(method) = &mut self.method {
+            method.state_at(model, state);
+        }
+    }
+
+    /// Forces of contact at a state within the last step of a method that follows events, as impulses of one second.
+    pub fn forces_at(&mut self, model: &Model, state: &State) -> Vec<SolvedContact> {
+        match &mut self.method {
+            Method::EventDriven(method) => method.forces_at(model, state),
+            _ => Vec::new(),
+        }
+    }
+
+    /// States and forces of contact on the way of the last step, and the time that each of them stands for.
+    pub fn moments(&mut self, model: &Model, span: [&State; 2]) -> Vec<Moment> {
+        match &mut self.method {
+            Method::EventDriven(method) => method.moments(model, span),
+            _ => Vec::new(),
+        }
     }
 
     /// Where the impulses of the last step acted; none: where it began.
@@ -130,6 +202,7 @@ impl Stepper {
             Method::Lecture(method) => &method.scratch.solved,
             Method::Penalty(method) => &method.scratch.solved,
             Method::TimeStepping(method) => &method.scratch.solved,
+            Method::EventDriven(method) => &method.solved,
         }
     }
 
@@ -139,6 +212,7 @@ impl Stepper {
             Method::Lecture(method) => &method.scratch.work,
             Method::Penalty(method) => &method.scratch.work,
             Method::TimeStepping(method) => &method.scratch.work,
+            Method::EventDriven(method) => &method.work,
         }
     }
 }

@@ -155,7 +155,7 @@ pub fn run_case(case: &Case, model: &Model, start: State, dir: &Path, targets: &
     if targets.is_empty() {
         return (run::run(experiment, model, start, None), Ok(()));
     }
-    let clock = run::clock(experiment);
+    let clock = run::ticks(experiment);
     match open(targets, dir, &header(case, model, &clock)) {
         Ok(writer) => {
             let mut sampler = Sampler::new(writer, &experiment.record, &clock);

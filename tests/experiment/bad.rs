@@ -40,7 +40,7 @@ const ROWS: &[Row] = &[
     ("an unknown word with settings", LECTURE, "method:\n  lectur: {}\n", 17, "method.lectur", "did you mean `lecture`?"),
     ("an underscore for a hyphen", LECTURE, "method: time_stepping\n", 16, "method", "did you mean `time-stepping`?"),
     ("two words", LECTURE, "method:\n  lecture: {}\n  free: {}\n", 18, "method.free", "found `free` beside `lecture`"),
-    ("a later word", LECTURE, "method: event-driven\n", 16, "method", "`event-driven` is not available in this version"),
+    ("a tolerance that f64 cannot give", LECTURE, "method: { event-driven: { tolerance: 1e-14 } }\n", 16, "method.event-driven.tolerance", "expected a number of at least 1e-13"),
     ("a later word with settings", "shape: none", "shape: { mesh: { file: a.obj } }", 13, "scene.bodies.point.shape.mesh", "`mesh` is not available in this version"),
     ("a cylinder without height", "shape: none", "shape: { cylinder: { radius_m: 1, height_m: 0 } }", 13, "scene.bodies.point.shape.cylinder.height_m", "expected a number greater than 0, found 0"),
     ("a capsule without radius", "shape: none", "shape: { capsule: { radius_m: 0, height_m: 1 } }", 13, "scene.bodies.point.shape.capsule.radius_m", "expected a number greater than 0, found 0"),

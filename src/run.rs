@@ -1,6 +1,7 @@
 //! THE MAIN LOOP: advance the state, show every step to the judges and the recorders, end in an outcome.
 
 use crate::collide::SolvedContact;
+use crate::collide::approach::Approach;
 use crate::exact::Reference;
 use crate::experiment::types::Experiment;
 use crate::measure::Judge;
@@ -95,6 +96,13 @@ fn observe(
         Span::Step => {
             let kicked = stepper.kicked().unwrap_or(before);
             judge.observe(model, [before, kicked, after], stepper.contacts(), clock.step_s)
+        }
+        Span::Short { step_s } => {
+            let kicked = stepper.kicked().unwrap_or(before);
+            judge.residual.steps_as(Approach::Middle);
+            let stopped = judge.observe(model, [before, kicked, after], stepper.contacts(), step_s);
+            judge.residual.steps_as(Approach::Inside);
+            stopped
         }
         Span::Blow => judge.observe_blow(model, [before, after], stepper.contacts()),
         Span::Motion => judge.observe_motion(model, [before, after], &stepper.moments(model, [before, after])),

@@ -39,7 +39,7 @@ pub fn strike(
 ) -> bool {
     forces.gather_plain(model, state, contacts);
     let problem = &mut forces.problem;
-    let mut plastic = |problem: &ContactProblem, p: &mut [Impulse], work: &mut Work| {
+    let plastic = |problem: &ContactProblem, p: &mut [Impulse], work: &mut Work| {
         if let [block] = &problem.blocks[..]
             && block.pin.is_none()
         {

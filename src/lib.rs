@@ -33,6 +33,8 @@ pub mod plan;
 
 pub mod run;
 
+pub mod sensitivity;
+
 pub mod step;
 
 pub mod linear;

@@ -2,15 +2,17 @@
 
 use crate::collide::SolvedContact;
 use crate::exact::Reference;
-use crate::experiment::types::Experiment;
+use crate::experiment::types::{Experiment, Limits, Method};
 use crate::measure::Judge;
 use crate::measure::divergence::Criterion;
 use crate::measure::error::Errors;
 use crate::measure::more::{self, Watched};
+use crate::measure::work::Work;
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::record::sampler::Sampler;
 use crate::row::{Measured, Outcome, finite};
+use crate::sensitivity;
 use crate::state::State;
 use crate::step::{Clock, Span, Stepper};
 use std::time::{Duration, Instant};
@@ -33,7 +35,7 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     judge.watched = Watched::new(&experiment.measure);
     // The plan has seen to it that the scene is one of the closed form's.
     let exact = experiment.exact.and_then(|exact| Reference::new(exact, model, &start).ok());
-    let (mut before, mut state) = (start.clone(), start);
+    let (mut before, mut state) = (start.clone(), start.clone());
     let mut stepping = Duration::ZERO;
     let mut stopped = None;
     if let Some(sampler) = &mut sampler {
@@ -53,6 +55,12 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
             let diverged = observe(&mut judge, &mut stepper, model, [&before, &state], &clock);
             diverged.map(|criterion| (Outcome::Diverged, criterion))
         };
+        if stopped.is_none()
+            && !stepper.is_done(&state, &clock)
+            && is_used_up(&experiment.limits, &state, stepper.work(), stepping)
+        {
+            stopped = Some((Outcome::Stalled, Criterion::Limit));
+        }
         if let Some(sampler) = &mut sampler {
             let last = stopped.is_some() || stepper.is_done(&state, &clock);
             if experiment.method.follows_events() {
@@ -71,6 +79,9 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     if let Some(exact) = exact {
         measured.set_errors(&Errors::between(&state, &exact.state_at(state.time_s)));
     }
+    if sensitivity::is_wanted(experiment) {
+        measured.sensitivity = sensitivity::sensitivity(experiment, model, &start, &state);
+    }
     measured.more = more::columns(experiment, model, &state, &judge.watched);
     if let Some(sampler) = &mut sampler {
         sampler.end(&state, &measured);
@@ -81,6 +92,42 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
         (stepper.contacts().to_vec(), clock.step_s)
     };
     Ended { measured, contacts, state, step_s }
+}
+
+/// Whether a run that is not at its end has to stop.
+pub fn is_used_up(limits: &Limits, state: &State, work: &Work, stepping: Duration) -> bool {
+    limits.steps.is_some_and(|most| state.step >= most)
+        || limits.events.is_some_and(|most| work.events > most)
+        || limits.wall_s.is_some_and(|most_s| stepping.as_secs_f64() > most_s)
+}
+
+/// Where a run came to that nobody watches.
+pub struct Stepped {
+    pub state: State,
+    pub work: Work,
+    /// Why it ended before its time.
+    pub stopped: Option<Criterion>,
+}
+
+/// Only steps: no judge, no recorder.
+pub fn only_step(method: &Method, model: &Model, start: State, clock: &Clock, limits: &Limits) -> Stepped {
+    let mut stepper = Stepper::new(method, &Plan::new(model, method), model, &start);
+    let (mut before, mut state) = (start.clone(), start);
+    let started = Instant::now();
+    let mut stopped = None;
+    while !stepper.is_done(&state, clock) && stopped.is_none() {
+        if is_used_up(limits, &state, stepper.work(), started.elapsed()) {
+            stopped = Some(Criterion::Limit);
+            break;
+        }
+        before.copy_from(&state);
+        stepper.step(model, &mut state, clock);
+        stopped = stepper.stalled();
+        if stopped.is_some() {
+            state.copy_from(&before);
+        }
+    }
+    Stepped { state, work: *stepper.work(), stopped }
 }
 
 /// Shows a step to the judge.

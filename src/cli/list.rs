@@ -152,7 +152,7 @@ const EXACT: [Line; 12] = [
     ),
 ];
 
-const MEASURES: [Line; 5] = [
+const MEASURES: [Line; 6] = [
     (
         "state",
         "<body>.position_m.x, .orientation_xyzw.x, .velocity_m_s.x, .angular_velocity_rad_s.x, …",
@@ -182,6 +182,12 @@ const MEASURES: [Line; 5] = [
         "difference_forward_m_s, difference_backward_m_s, difference_central_m_s",
         "quotients of the positions of a run against its velocities, the largest difference",
         "lecture L1",
+    ),
+    (
+        "sensitivity",
+        "sensitivity (a column of every row; of `event-driven` and `auto` it is never null unless no twin arrives)",
+        "twin runs whose start is displaced a little: their largest distance at the end over that at the start",
+        "",
     ),
 ];
 

@@ -3,8 +3,8 @@
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::types::{
-    Accuracy, Container, Diverge, Experiment, Free, Measure, Method, Pair, Penalty, Plane, Random, Record, RecordCases,
-    Scene, Shape, Solver, Time, TimeStepping,
+    Accuracy, Container, Diverge, Experiment, Free, Limits, Measure, Method, Pair, Penalty, Plane, Random, Record,
+    RecordCases, Scene, Shape, Solver, Time, TimeStepping,
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
@@ -29,6 +29,7 @@ pub fn validate(experiment: &Experiment) -> Result<()> {
     validate_exact(experiment, root.key("exact"))?;
     validate_time(&experiment.time, &experiment.method, root.key("time"))?;
     validate_diverge(&experiment.diverge, root.key("diverge"))?;
+    validate_limits(&experiment.limits, root.key("limits"))?;
     validate_record(&experiment.record, root.key("record"))?;
     validate_measure(experiment, root.key("measure"))
 }
@@ -287,6 +288,16 @@ fn validate_diverge(diverge: &Diverge, at: Path) -> Result<()> {
     }
     diverge.speed_m_s.map_or(Ok(()), |speed| positive(speed, at.key("speed_m_s")))?;
     diverge.penetration_m.map_or(Ok(()), |depth| positive(depth, at.key("penetration_m")))
+}
+
+fn validate_limits(limits: &Limits, at: Path) -> Result<()> {
+    limits.wall_s.map_or(Ok(()), |wall_s| positive(wall_s, at.key("wall_s")))?;
+    for (key, count) in [("steps", limits.steps), ("events", limits.events)] {
+        if count == Some(0) {
+            return Err(unexpected(at.key(key), "a whole number of at least 1", "0"));
+        }
+    }
+    Ok(())
 }
 
 fn validate_record(record: &Record, at: Path) -> Result<()> {

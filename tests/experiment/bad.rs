@@ -24,7 +24,8 @@ const ROWS: &[Row] = &[
     ("a key that is a number", "seed: 7", "7: 7", 15, "7", "unknown key"),
     ("a key twice", "seed: 7\n", "seed: 7\nseed: 8\n", 16, "seed", "this key is already there, on line 15"),
     ("a key twice, nested", CUBE, "      mass_kg: 1\n      name: cuboid\n", 11, "scene.bodies.0.name", "already there, on line 7"),
-    ("a later key", "seed: 7\n", "seed: 7\nlimits: {}\n", 16, "limits", "not available in this version"),
+    ("no steps at all", "seed: 7\n", "seed: 7\nlimits: { steps: 0 }\n", 16, "limits.steps", "expected a whole number of at least 1, found 0"),
+    ("no time at all", "seed: 7\n", "seed: 7\nlimits: { wall_s: 0 }\n", 16, "limits.wall_s", "expected a number greater than 0, found 0"),
     ("a later key of a container", "    box:\n", "    mesh: {}\n    box:\n", 4, "scene.container.mesh", "not available in this version"),
     ("a pair with nobody", FRICTION, "  pairs: [{ between: [cube, contaner], friction: 0.5 }]\n", 2, "scene.pairs.0.between.1", "did you mean `container`?"),
     ("a pair of one", FRICTION, "  pairs: [{ between: [cube, cube], friction: 0.5 }]\n", 2, "scene.pairs.0.between", "two different names"),
@@ -36,7 +37,7 @@ const ROWS: &[Row] = &[
     ("a copy too far", FRICTION, "  pairs: [{ between: ['cube[7]', container], friction: 0.5 }]\n", 2, "scene.pairs.0.between.0", "expected one of cube, point, container, found `cube[7]`"),
     ("a later key of a sweep", "seed: 7\n", "sweep: { where: [] }\n", 15, "sweep.where", "not available in this version"),
     // Words.
-    ("an unknown word", LECTURE, "method: lectur\n", 16, "method", "expected one of free, lecture, penalty, time-stepping, found `lectur`; did you mean `lecture`?"),
+    ("an unknown word", LECTURE, "method: lectur\n", 16, "method", "expected one of free, lecture, penalty, time-stepping, event-driven, auto, found `lectur`; did you mean `lecture`?"),
     ("an unknown word with settings", LECTURE, "method:\n  lectur: {}\n", 17, "method.lectur", "did you mean `lecture`?"),
     ("an underscore for a hyphen", LECTURE, "method: time_stepping\n", 16, "method", "did you mean `time-stepping`?"),
     ("two words", LECTURE, "method:\n  lecture: {}\n  free: {}\n", 18, "method.free", "found `free` beside `lecture`"),

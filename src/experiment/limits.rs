@@ -1,0 +1,18 @@
+//! `limits:`: how much a run may cost. A part of `types.rs`.
+
+use serde::{Deserialize, Serialize};
+
+/// A run that needs more ends as `stalled`, by the criterion `limit`; what it has computed stays. Absent: no limit.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Limits {
+    /// Of stepping. What such a run says depends on the machine; steps and events do not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall_s: Option<f64>,
+    /// Steps, or the stretches of a method that follows events.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u64>,
+    /// Impacts and changes of contact, of a method that follows events.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub events: Option<u64>,
+}

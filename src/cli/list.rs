@@ -29,7 +29,7 @@ enum What {
 /// Word, settings with defaults, what it is, source.
 type Line = (&'static str, &'static str, &'static str, &'static str);
 
-const METHODS: [Line; 4] = [
+const METHODS: [Line; 5] = [
     (
         "free",
         "integrator: semi-implicit-euler (default), or one of those below; tolerance: 1e-9 (of dop853 and taylor)",
@@ -60,6 +60,13 @@ const METHODS: [Line; 4] = [
         "velocity–impulse with projected Gauss–Seidel, its conjugate gradients or the exact law of contact; gaps close to \
          zero and no further; free rotation in closed form; order 1, between impacts 2 with `moreau`; the default method",
         "Moreau 1988, 1999; Stewart & Trinkle 1996; Anitescu & Potra 1997; Glocker & Pfeiffer 1995; Stronge 1990",
+    ),
+    (
+        "auto",
+        "tolerance: 1e-6 (of positions at the end, metres)",
+        "event-driven, or time-stepping where that stalls or falls back: whatever two runs say is accurate enough; columns \
+         method_used, error_estimate_m",
+        "",
     ),
 ];
 

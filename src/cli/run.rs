@@ -1,5 +1,6 @@
 //! `gotai run`: one experiment, its recordings, a summary.
 
+use super::progress::Bar;
 use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, print, print_json};
 use crate::build_info::BUILD;
 use crate::case::Case;
@@ -7,10 +8,11 @@ use crate::collide::SolvedContact;
 use crate::model::{self, Model};
 use crate::plan::Plan;
 use crate::record::writer::Target;
+use crate::reference;
 use crate::row::{Measured, Outcome, Row};
 use crate::run::Ended;
 use crate::sweep::plan::{build, single_case};
-use crate::sweep::runner::run_case;
+use crate::sweep::runner::{Progress, run_case};
 use clap::Args;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
@@ -41,6 +43,12 @@ impl Command {
         let (model, start) = build(&file, &[], &case.experiment)?;
         if self.output.verbose {
             describe_plan(&Plan::new(&model, &case.experiment.method));
+        }
+        if case.experiment.reference.is_some() {
+            let bar = Bar::new(self.output.quiet);
+            bar.begin("references", 1);
+            reference::of(&dir, &case.experiment, &model, &start)?;
+            bar.end();
         }
         let (ended, written) = run_case(&case, &model, start, &dir, &targets);
         if self.output.json {

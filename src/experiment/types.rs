@@ -6,7 +6,7 @@
 
 pub use super::accuracy::Accuracy;
 pub use super::copies::Copies;
-pub use super::limits::Limits;
+pub use super::limits::{Limits, ReferenceRun, finer_tolerance};
 pub use super::loads::*;
 pub use super::method::*;
 use super::search::SearchText;
@@ -39,6 +39,9 @@ pub struct Experiment {
     /// The closed form that errors are measured against.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exact: Option<Exact>,
+    /// The run that errors are measured against instead.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<ReferenceRun>,
     /// Axes and their values, expanded by `sweep/`; absent in a resolved case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sweep: Option<Sweep>,

@@ -2,6 +2,7 @@
 
 mod bad;
 mod diagram;
+mod peer;
 
 use crate::cli::run;
 use crate::scratch;

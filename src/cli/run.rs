@@ -137,7 +137,15 @@ fn summary(case: &Case, m: &Measured) -> String {
         ("contacts max", m.contacts_max.to_string()),
         ("stepping", format!("{} s", number(m.wall_s))),
     ];
-    lines.map(|(name, value)| format!("{name:>24}  {value}")).join("\n")
+    let chosen = m.method_used.as_ref().map(|method| format!("{method}, wrong by {} m", relative(m.error_estimate_m)));
+    let error = m.error_position_m.map(|error_m| format!("{error_m:.2e} m at {} s", number(m.error_time_s)));
+    let more = [
+        ("chosen", chosen),
+        ("error of positions", error),
+        ("sensitivity", m.sensitivity.map(|kappa| format!("{kappa:.2e}"))),
+    ];
+    let more = more.into_iter().filter_map(|(name, value)| Some((name, value?)));
+    lines.into_iter().chain(more).map(|(name, value)| format!("{name:>24}  {value}")).collect::<Vec<_>>().join("\n")
 }
 
 /// What the scene needs, and what is skipped.

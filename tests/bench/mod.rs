@@ -103,6 +103,15 @@ fn a_run_that_does_not_finish_has_neither_error_nor_time() {
 }
 
 #[test]
+fn a_limited_run_is_stalled_and_not_timed() {
+    let rows = rows(SPIN, &["limits.steps=60"]);
+    let stalled: Vec<_> = rows.iter().map(|row| row.criterion.as_deref() == Some("limit")).collect();
+    // Of 100 and 200 steps; of 50, and of one to the end, nothing is missing.
+    assert_eq!(stalled, [false, true, true, false, true, true, false, false, false]);
+    assert!(rows.iter().all(|row| (row.outcome == "stalled") == row.wall_s.is_none()));
+}
+
+#[test]
 fn a_bench_does_not_change_the_id_of_a_case() {
     let id = |text: &str| {
         let sets = ["method.free.integrator=rk4", "time.step_s=0.1"];

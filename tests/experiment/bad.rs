@@ -81,7 +81,7 @@ const ROWS: &[Row] = &[
     ("a number for a name", "name: point", "name: 5", 12, "scene.bodies.1.name", "expected text (in quotes), found 5"),
     ("text for a flag", END, "  end_s: 1.0\ndiverge: { escape: yes }\n", 20, "diverge.escape", "expected true or false, found the text `yes`"),
     ("a list for a mapping", LECTURE, "method: { lecture: [] }\n", 16, "method.lecture", "expected a mapping (known keys: start, iteration,"),
-    ("a list for a method", LECTURE, "method: [lecture]\n", 16, "method", "expected one of free, lecture, penalty, time-stepping, found a list of 1"),
+    ("a list for a method", LECTURE, "method: [lecture]\n", 16, "method", "expected one of free, lecture, penalty, time-stepping, event-driven, auto, found a list of 1"),
     ("no end", END, "", 17, "time.end_s", "missing"),
     ("two moments", CUBE, "      mass_kg: 1\n      inertia_kg_m2: [1, 2]\n", 11, "scene.bodies.cube.inertia_kg_m2", "expected three principal moments or three rows of three, found a list of 2"),
     // Bodies.

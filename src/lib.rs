@@ -51,6 +51,8 @@ pub mod collide;
 
 pub mod solve;
 
+pub mod event;
+
 pub mod measure;
 
 pub mod exact;

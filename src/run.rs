@@ -191,7 +191,7 @@ fn observe(
             let kicked = stepper.kicked().unwrap_or(before);
             judge.observe(model, [before, kicked, after], stepper.contacts(), clock.step_s)
         }
-        Span::Blow => judge.observe(model, [before, before, after], stepper.contacts(), 0.0),
+        Span::Blow => judge.observe_blow(model, [before, after], stepper.contacts()),
         Span::Motion => judge.observe_motion(model, [before, after], &stepper.moments(model, [before, after])),
     }
 }

@@ -95,6 +95,20 @@ impl EnergyLedger {
         }
     }
 
+    /// Energy that an impact took: from the velocities before and after, whatever else made them so (pins do no work).
+    pub fn observe_blow(&mut self, model: &Model, [before, after]: [&State; 2], pushes: &[Push]) {
+        for (((body, a), b), push) in model.bodies.iter().zip(&before.bodies).zip(&after.bodies).zip(pushes) {
+            if !body.driven {
+                self.dissipated_j -= push.linear.dot(&(a.v_WB + b.v_WB)) / 2.0 + push.angular.dot(&(a.w_WB + b.w_WB)) / 2.0;
+            }
+        }
+        let [kinetic_j, left_j] = [before, after].map(|state| Energy::of(model, state).kinetic_j);
+        if kinetic_j > 0.0 {
+            let gain = left_j / kinetic_j;
+            self.contact_gain_max = Some(self.contact_gain_max.map_or(gain, |max| max.max(gain)));
+        }
+    }
+
     /// Energy that finite forces of contact took at a state, given as impulses.
     pub fn observe_forces(&mut self, model: &Model, state: &State, pushes: &[Push]) {
         for ((body, at), push) in model.bodies.iter().zip(&state.bodies).zip(pushes) {

@@ -115,6 +115,27 @@ impl Judge {
         self.divergence.judge(model, after, &energy, depth_m)
     }
 
+    /// Judges an impact, which takes no time: `contacts` changed only the velocities.
+    pub fn observe_blow(
+        &mut self,
+        model: &Model,
+        [before, after]: [&State; 2],
+        contacts: &[SolvedContact],
+    ) -> Option<Criterion> {
+        self.gather_pushes(contacts);
+        let energy = Energy::of(model, after);
+        self.energy.observe_blow(model, [before, after], &self.pushes);
+        self.watched.observe(before, contacts);
+        self.residual.observe(model, [before, after], contacts, &self.pushes, 0.0);
+        self.energy.observe(energy, 0.0);
+        let done = loads::done(model, [before, after], &mut self.middle, |_| Vector3::zeros(), 0.0);
+        self.momentum.observe(model, [before, before, after], Some(&self.pushes), &done, 0.0);
+        let depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max);
+        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
+        self.contacts_max = self.contacts_max.max(contacts.len() as u64);
+        self.divergence.judge(model, after, &energy, depth_m)
+    }
+
     /// Judges a smooth motion, of which `moments` show the forces of contact: their weights are those of a quadrature.
     pub fn observe_motion(
         &mut self,

@@ -75,6 +75,20 @@ impl Model {
         !self.forces.is_empty() || self.bodies.iter().any(|body| !body.drag.is_none())
     }
 
+    /// The acceleration of the centre of mass, if nothing acts on the body but gravity and constant forces that do not turn
+    /// it.
+    pub fn constant_pull(&self, index: usize) -> Option<Vector3<f64>> {
+        let body = &self.bodies[index];
+        let mut pull = self.gravity_m_s2;
+        for force in self.forces.iter().filter(|force| force.body == index) {
+            if !force.is_weight_like() || force.r_B != Vector3::zeros() {
+                return None;
+            }
+            pull += force.force_n / body.mass_kg;
+        }
+        body.drag.is_none().then_some(pull)
+    }
+
     /// All that acts on one body beside gravity, contact and pins.
     pub fn load(&self, index: usize, t_s: f64, at: &BodyState) -> Wrench {
         let drag = &self.bodies[index].drag;

@@ -31,12 +31,17 @@ impl Pin {
 
     /// Distance between the two points that it holds together.
     pub fn gap_m(&self, bodies: &[BodyState]) -> f64 {
+        self.apart_W(bodies).norm()
+    }
+
+    /// From the anchor to the body's point.
+    pub fn apart_W(&self, bodies: &[BodyState]) -> Vector3<f64> {
         let point = |index: usize, r_B: &Vector3<f64>| bodies[index].p_WB + bodies[index].q_WB * r_B;
         let anchor = match &self.anchor {
             Anchor::World(p_W) => *p_W,
             Anchor::Body(other, r_B) => point(*other, r_B),
         };
-        (point(self.body, &self.r_B) - anchor).norm()
+        point(self.body, &self.r_B) - anchor
     }
 }
 

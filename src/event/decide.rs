@@ -1,0 +1,261 @@
+//! Which contacts hold, which stick and which slide from here on: Signorini's condition and Coulomb's law for accelerations
+//! (C. Glocker, Set-Valued Force Laws, 2001).
+//!
+//! Most often what was there goes on: one linear system and a look at the cones. Else contacts that cannot stick are made
+//! to slide against the force that would be needed. Only then the law itself is solved, all contacts at once, by the exact
+//! contact solver: with accelerations for velocities it is the same law for contacts that do not slip; one that slips
+//! gets so large a fictitious slip that its force is on the edge of the cone.
+
+use super::forces::{Choice, Forces, Held, Mode, NO_SLIP, Rows, edge};
+use super::touch::Touch;
+use crate::experiment::types::{Cone, Correction, Iteration};
+use crate::measure::work::Work;
+use crate::model::Model;
+use crate::solve::gauss_seidel::{self, Sweeps, Variant};
+use crate::solve::{Impulse, newton};
+use crate::state::State;
+use nalgebra::Vector3;
+
+/// What is known of a change: these contacts are about to open, these to slip.
+#[derive(Clone, Debug, Default)]
+pub struct Change {
+    pub opening: Vec<crate::collide::Key>,
+    pub slipping: Vec<(crate::collide::Key, Vector3<f64>)>,
+}
+
+#[derive(Clone, Debug)]
+pub enum Decision {
+    Holds(Vec<Held>),
+    /// No force keeps this contact sliding, and none makes it stick: an impulse has to end the slip (Painlevé).
+    Jams(Touch),
+    Unsolved,
+}
+
+/// Of the largest acceleration: what the law's solution leaves.
+const ROUNDING: f64 = 1e-10;
+
+/// Fictitious slip over the largest acceleration.
+const FAST: f64 = 1e3;
+
+pub fn decide(
+    model: &Model,
+    state: &State,
+    touches: Vec<Touch>,
+    change: &Change,
+    forces: &mut Forces,
+    work: &mut Work,
+) -> Decision {
+    let touches: Vec<Touch> = touches.into_iter().filter(|touch| !change.opening.contains(&touch.key())).collect();
+    if touches.is_empty() {
+        return Decision::Holds(Vec::new());
+    }
+    forces.gather(model, state, touches.iter());
+    let modes: Vec<Mode> = touches.iter().enumerate().map(|(i, touch)| mode(model, state, forces, i, touch, change)).collect();
+    work.contact_solves += 1;
+    if let [touch] = &touches[..]
+        && model.pins.is_empty()
+        && let Some(decision) = alone(forces, touch, modes[0])
+    {
+        return decision;
+    }
+    let hold = |modes: &[Mode]| {
+        let held = touches.iter().zip(modes).map(|(touch, mode)| Held { touch: touch.clone(), mode: *mode });
+        Decision::Holds(held.collect())
+    };
+    if try_modes(forces, &modes) {
+        let failing = failing_sticks(forces, &modes);
+        if is_pressing(forces, &modes) && failing.is_empty() {
+            return hold(&modes);
+        }
+        let sliding = made_to_slide(forces, &modes, &failing);
+        if try_modes(forces, &sliding) && is_pressing(forces, &sliding) && slide_on(forces, &modes, &sliding) {
+            return hold(&sliding);
+        }
+    }
+    by_law(forces, &modes, &touches, work)
+}
+
+/// Of a contact as it moves now.
+fn mode(model: &Model, state: &State, forces: &Forces, i: usize, touch: &Touch, change: &Change) -> Mode {
+    if touch.friction() == 0.0 {
+        return Mode::Slide(Vector3::zeros());
+    }
+    if let Some((_, d)) = change.slipping.iter().find(|(key, _)| *key == touch.key()) {
+        return Mode::Slide(*d);
+    }
+    let slip = forces.here[i].slip_W();
+    let speed = slip.norm();
+    if speed > NO_SLIP * speeds(model, state, touch) { Mode::Slide(slip / speed) } else { Mode::Stick }
+}
+
+/// Of the points that meet, and what a fall by the size of the body would make of them: what is rounding beside it.
+pub fn speeds(model: &Model, state: &State, touch: &Touch) -> f64 {
+    let of = |i: usize| {
+        let (body, at) = (&model.bodies[i], &state.bodies[i]);
+        let fall = (model.gravity_m_s2.norm() * body.bounding_radius_m).sqrt();
+        at.v_WB.norm() + at.w_WB.norm() * body.bounding_radius_m + 1e-2 * fall
+    };
+    touch.bodies().map(of).fold(0.0, f64::max)
+}
+
+/// One contact has its law solved by hand. None: leave it to the law.
+fn alone(forces: &mut Forces, touch: &Touch, mode: Mode) -> Option<Decision> {
+    let holds = |mode: Mode| Some(Decision::Holds(vec![Held { touch: touch.clone(), mode }]));
+    let block = forces.problem.blocks[0];
+    if block.b.x >= 0.0 {
+        return Some(Decision::Holds(Vec::new()));
+    }
+    match mode {
+        Mode::Slide(d) => {
+            let k = block.A.row(0).transpose().dot(&edge(block.friction, &block.frame, &d));
+            if k > 1e-12 * block.A[(0, 0)] { holds(mode) } else { Some(Decision::Jams(touch.clone())) }
+        }
+        Mode::Stick => {
+            let p = -block.A.try_inverse()? * block.b;
+            if p.x > 0.0 && p.yz().norm() <= block.friction * p.x {
+                return holds(Mode::Stick);
+            }
+            let p = crate::solve::exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
+            let a = block.b + block.A * p;
+            let d = block.frame[1] * a.y + block.frame[2] * a.z;
+            if p.x <= 0.0 { Some(Decision::Holds(Vec::new())) } else { holds(Mode::Slide(d.try_normalize(0.0)?)) }
+        }
+    }
+}
+
+fn set_rows(forces: &mut Forces, modes: &[Mode]) {
+    forces.rows.clear();
+    for (mode, block) in modes.iter().zip(&forces.problem.blocks) {
+        forces.rows.push(match mode {
+            Mode::Stick => Rows::All,
+            Mode::Slide(d) => Rows::Normal(edge(block.friction, &block.frame, d)),
+        });
+    }
+    forces.rows.resize(forces.problem.blocks.len(), Rows::All);
+}
+
+fn try_modes(forces: &mut Forces, modes: &[Mode]) -> bool {
+    set_rows(forces, modes);
+    forces.solve(Choice::Least)
+}
+
+/// No contact pulls. Of contacts that share a force evenly, none does unless one has to.
+fn is_pressing(forces: &Forces, modes: &[Mode]) -> bool {
+    let largest = forces.p.iter().map(|p| p.norm()).fold(0.0, f64::max);
+    forces.p.iter().take(modes.len()).all(|p| p.x >= -ROUNDING * largest)
+}
+
+fn failing_sticks(forces: &Forces, modes: &[Mode]) -> Vec<usize> {
+    let outside = |i: &usize| {
+        let (p, friction) = (&forces.p[*i], forces.problem.blocks[*i].friction);
+        modes[*i] == Mode::Stick && p.yz().norm() > friction * p.x.max(0.0) * (1.0 + ROUNDING)
+    };
+    (0..modes.len()).filter(outside).collect()
+}
+
+/// Those that fail, and with them all that stick on, slide against their force.
+fn made_to_slide(forces: &Forces, modes: &[Mode], failing: &[usize]) -> Vec<Mode> {
+    let slide = |i: usize| {
+        let (p, frame) = (&forces.p[i], &forces.problem.blocks[i].frame);
+        let d = -(frame[1] * p.y + frame[2] * p.z);
+        d.try_normalize(0.0).map_or(Mode::Stick, Mode::Slide)
+    };
+    let change = |(i, mode): (usize, &Mode)| match mode {
+        Mode::Stick if !failing.is_empty() => slide(i),
+        _ => *mode,
+    };
+    modes.iter().enumerate().map(change).collect()
+}
+
+/// What has begun to slide does so along its direction.
+fn slide_on(forces: &Forces, before: &[Mode], after: &[Mode]) -> bool {
+    let largest = forces.problem.blocks.iter().map(|block| block.b.norm()).fold(0.0, f64::max);
+    before.iter().zip(after).enumerate().all(|(i, (before, after))| match (before, after) {
+        (Mode::Stick, Mode::Slide(d)) => {
+            let block = &forces.problem.blocks[i];
+            let a = block.velocity(&forces.added);
+            let a_W = block.frame[1] * a.y + block.frame[2] * a.z;
+            let along = d.dot(&a_W);
+            along >= -ROUNDING * largest && (a_W - d * along).norm() <= ROUNDING * largest
+        }
+        _ => true,
+    })
+}
+
+/// The law of all contacts.
+fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], work: &mut Work) -> Decision {
+    let mut problem = forces.problem.clone();
+    let scale = problem.blocks.iter().map(|block| block.b.norm()).fold(0.0, f64::max);
+    for (block, mode) in problem.blocks.iter_mut().zip(modes) {
+        if let Mode::Slide(d) = mode {
+            block.b.y += FAST * scale * d.dot(&block.frame[1]);
+            block.b.z += FAST * scale * d.dot(&block.frame[2]);
+        }
+    }
+    let sweeps = Sweeps {
+        iteration: Iteration::GaussSeidel,
+        correction: Correction::PerContact,
+        cone: Cone::Disc,
+        most: 200,
+        tolerance: 1e-12,
+        friction: true,
+        variant: Variant::default(),
+    };
+    let mut p = vec![Impulse::zeros(); problem.blocks.len()];
+    let mut scratch = gauss_seidel::Scratch::with_capacity(p.len(), 0);
+    if !newton::solve(&problem, &sweeps, &mut p, &mut scratch, work) {
+        return Decision::Unsolved;
+    }
+    forces.problem.response(&p, &mut forces.added);
+    let mut held = Vec::new();
+    for (i, touch) in touches.iter().enumerate() {
+        let block = &forces.problem.blocks[i];
+        let a = block.velocity(&forces.added);
+        if a.x > ROUNDING * scale {
+            continue;
+        }
+        let a_W = block.frame[1] * a.y + block.frame[2] * a.z;
+        let mode = match modes[i] {
+            Mode::Stick if a_W.norm() > ROUNDING * scale => Mode::Slide(a_W.normalize()),
+            mode => mode,
+        };
+        held.push(Held { touch: touch.clone(), mode });
+    }
+    forces.p = p;
+    Decision::Holds(held)
+}
+
+/// How far the contacts that hold are from a change, over the largest force: the least normal force, and what is left of
+/// the cone of those that stick. Negative: something has changed. Where redundant contacts share forces so that one of them
+/// pulls or slips, but could share them otherwise, nothing has.
+pub fn margin(model: &Model, state: &State, held: &[Held], forces: &mut Forces, work: &mut Work) -> f64 {
+    forces.gather(model, state, held.iter().map(|held| &held.touch));
+    forces.set_modes(held.iter());
+    if !forces.solve(Choice::Least) {
+        return -1.0;
+    }
+    let largest = forces.p.iter().map(|p| p.norm()).fold(0.0, f64::max);
+    if largest == 0.0 {
+        return 0.0;
+    }
+    let margin = held.iter().zip(&forces.p).map(|(held, p)| match held.mode {
+        Mode::Stick => p.x.min(held.touch.friction() * p.x - p.yz().norm()),
+        Mode::Slide(_) => p.x,
+    });
+    let least = margin.fold(f64::INFINITY, f64::min) / largest;
+    if least >= 0.0 || held.len() == 1 {
+        return least;
+    }
+    let modes: Vec<Mode> = held.iter().enumerate().map(|(i, held)| match held.mode {
+        Mode::Slide(from) => Mode::Slide(super::forces::direction(&forces.here[i], &from)),
+        stick => stick,
+    }).collect();
+    let touches: Vec<Touch> = held.iter().map(|held| held.touch.clone()).collect();
+    match by_law(forces, &modes, &touches, work) {
+        // Slightly positive: the true margin is not known.
+        Decision::Holds(now) if now.len() == held.len() && now.iter().zip(&modes).all(|(now, mode)| now.mode == *mode) => {
+            1e-3
+        }
+        _ => least,
+    }
+}

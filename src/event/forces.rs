@@ -1,0 +1,301 @@
+//! Forces of contact that keep what is in contact together: A f + b = 0 at the level of accelerations, for given modes.
+//!
+//! b is J V̇ without contact plus the touches' bias. A contact that sticks has three rows; one that slides has its normal
+//! row, and its force lies on the edge of the cone, n − μ d, so that the system is not symmetric and may have no solution
+//! (Painlevé). Contacts may be redundant (the four corners of a slab): then the forces are not unique and the motion is, of
+//! contacts that stick or all slide the same way. `Choice::Any` finds one solution by elimination, `Choice::Least` the
+//! smallest.
+
+use super::touch::{Here, Touch};
+use crate::collide::approach::Approach;
+use crate::collide::Contact;
+use crate::integrate::rotation::gyroscopic_torque_B;
+use crate::model::Model;
+use crate::model::pins::Anchor;
+use crate::solve::Impulse;
+use crate::solve::problem::{ContactProblem, Pin, PinEnd, Twist};
+use crate::state::State;
+use nalgebra::{DMatrix, DVector, Vector3};
+
+/// How a contact holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mode {
+    Stick,
+    /// Along this direction (unit, world), the body's point against the other's. Without friction, zero.
+    Slide(Vector3<f64>),
+}
+
+#[derive(Clone, Debug)]
+pub struct Held {
+    pub touch: Touch,
+    pub mode: Mode,
+}
+
+/// What a block's force may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rows {
+    None,
+    /// The normal row; the force is along this, in the contact's frame.
+    Normal(Vector3<f64>),
+    All,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Choice {
+    Any,
+    Least,
+}
+
+/// Contacts of one state, gathered, with the memory for it.
+#[derive(Clone, Debug, Default)]
+pub struct Forces {
+    pub problem: ContactProblem,
+    pub here: Vec<Here>,
+    pub rows: Vec<Rows>,
+    /// f of every contact and pin, in its frame.
+    pub p: Vec<Impulse>,
+    /// Accelerations without contact, then what the forces add.
+    pub free: Vec<Twist>,
+    pub added: Vec<Twist>,
+    contacts: Vec<Contact>,
+    pins: Vec<Pin>,
+}
+
+/// Slower, of the speeds that meet at a contact, is no slip.
+pub const NO_SLIP: f64 = 1e-12;
+
+impl Forces {
+    /// Accelerations without contact, and b, of these touches and of all pins.
+    pub fn gather<'a>(&mut self, model: &Model, state: &State, touches: impl Iterator<Item = &'a Touch>) {
+        self.free.clear();
+        self.free.extend((0..model.bodies.len()).map(|i| free_acceleration(model, state, i)));
+        self.look(state, touches);
+        self.problem.gather(model, state, &self.free, &mut self.contacts, (Approach::Touching, 1.0));
+        for (block, here) in self.problem.blocks.iter_mut().zip(&self.here) {
+            block.b += here.bias(&block.frame);
+        }
+        self.pin(model, state, |at, r_W| at.w_WB.cross(&at.w_WB.cross(r_W)));
+    }
+
+    /// The same with velocities in the place of accelerations: b = J V.
+    pub fn gather_velocities<'a>(&mut self, model: &Model, state: &State, touches: impl Iterator<Item = &'a Touch>) {
+        self.free.clear();
+        self.free.extend(state.bodies.iter().map(Twist::of));
+        self.look(state, touches);
+        self.problem.gather(model, state, &self.free, &mut self.contacts, (Approach::Touching, 1.0));
+        self.pin(model, state, |_, _| Vector3::zeros());
+    }
+
+    /// The same of contacts that have just been found.
+    pub fn gather_plain(&mut self, model: &Model, state: &State, contacts: &[Contact]) {
+        self.free.clear();
+        self.free.extend(state.bodies.iter().map(Twist::of));
+        self.contacts.clear();
+        self.contacts.extend_from_slice(contacts);
+        self.problem.gather(model, state, &self.free, &mut self.contacts, (Approach::Touching, 1.0));
+        self.pin(model, state, |_, _| Vector3::zeros());
+    }
+
+    fn look<'a>(&mut self, state: &State, touches: impl Iterator<Item = &'a Touch>) {
+        self.here.clear();
+        self.here.extend(touches.map(|touch| touch.here(state)));
+        self.contacts.clear();
+        self.contacts.extend(self.here.iter().map(|here| here.contact));
+    }
+
+    /// `bias`: what a pin's end is accelerated by the body's rotation.
+    fn pin(&mut self, model: &Model, state: &State, bias: impl Fn(&crate::state::BodyState, &Vector3<f64>) -> Vector3<f64>) {
+        if model.pins.is_empty() {
+            return;
+        }
+        self.pins.clear();
+        self.pins.extend(model.pins.iter().map(|pin| {
+            let end = |body: usize, sign: f64, r_B: &Vector3<f64>| {
+                let at = &state.bodies[body];
+                let r_W = at.q_WB * r_B;
+                (PinEnd { body, sign, r_W }, bias(at, &r_W) * sign)
+            };
+            let (own, own_bias) = end(pin.body, 1.0, &pin.r_B);
+            let (other, other_bias) = match &pin.anchor {
+                Anchor::World(_) => (None, Vector3::zeros()),
+                Anchor::Body(other, r_B) => {
+                    let (end, bias) = end(*other, -1.0, r_B);
+                    (Some(end), bias)
+                }
+            };
+            Pin { end: own, other, velocity_W: -(own_bias + other_bias) }
+        }));
+        self.problem.pin(model, state, &self.free, &self.pins);
+    }
+
+    /// The rows of modes, pins after them.
+    pub fn set_modes<'a>(&mut self, held: impl Iterator<Item = &'a Held>) {
+        self.rows.clear();
+        for ((held, here), block) in held.zip(&self.here).zip(&self.problem.blocks) {
+            self.rows.push(match held.mode {
+                Mode::Stick => Rows::All,
+                Mode::Slide(from) => Rows::Normal(edge(block.friction, &block.frame, &direction(here, &from))),
+            });
+        }
+        self.rows.resize(self.problem.blocks.len(), Rows::All);
+    }
+
+    /// Solves for the rows set, and works out `added`. False: no solution to rounding.
+    pub fn solve(&mut self, choice: Choice) -> bool {
+        self.p.clear();
+        self.p.resize(self.problem.blocks.len(), Impulse::zeros());
+        let solved = solve(&self.problem, &self.rows, choice, &mut self.p);
+        self.problem.response(&self.p, &mut self.added);
+        solved
+    }
+
+    pub fn acceleration(&self, body: usize) -> Twist {
+        let (free, added) = (&self.free[body], &self.added[body]);
+        Twist { v: free.v + added.v, w: free.w + added.w }
+    }
+}
+
+/// n − μ d in the contact's frame.
+pub fn edge(friction: f64, frame: &[Vector3<f64>; 3], d_W: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(1.0, -friction * frame[1].dot(d_W), -friction * frame[2].dot(d_W))
+}
+
+/// Of a slip that is on the side of `from`, or just about to be: beyond zero it goes on smoothly, so that an integrator may
+/// step over the end of the slip, which is found afterwards.
+pub fn direction(here: &Here, from: &Vector3<f64>) -> Vector3<f64> {
+    let slip = here.slip_W();
+    let speed = slip.norm();
+    if speed <= f64::MIN_POSITIVE || *from == Vector3::zeros() {
+        return *from;
+    }
+    if slip.dot(from) >= 0.0 { slip / speed } else { -slip / speed }
+}
+
+/// V̇ of a body by gravity, loads and its own rotation.
+fn free_acceleration(model: &Model, state: &State, index: usize) -> Twist {
+    let (body, at) = (&model.bodies[index], &state.bodies[index]);
+    if body.driven {
+        return Twist::ZERO;
+    }
+    let mut v = model.gravity_m_s2;
+    let mut torque_B = Vector3::zeros();
+    if model.has_loads() {
+        let load = model.load(index, state.time_s, at);
+        v += load.force / body.mass_kg;
+        torque_B = at.q_WB.inverse_transform_vector(&load.torque);
+    }
+    if !body.isotropic {
+        torque_B += gyroscopic_torque_B(body, &at.q_WB.inverse_transform_vector(&at.w_WB));
+    }
+    let w = if torque_B == Vector3::zeros() { torque_B } else { at.q_WB * (body.I_B_inverse * torque_B) };
+    Twist { v, w }
+}
+
+fn solve(problem: &ContactProblem, rows: &[Rows], choice: Choice, p: &mut [Impulse]) -> bool {
+    if let ([Rows::Normal(edge)], [block]) = (rows, &problem.blocks[..]) {
+        let k = block.A.row(0).transpose().dot(edge);
+        p[0] = edge * (-block.b.x / k);
+        return k > 0.0;
+    }
+    // Unknowns: which block, and the force of one unit of it; equations: which row.
+    let mut unknowns: Vec<(usize, Vector3<f64>, usize)> = Vec::new();
+    for (i, rows) in rows.iter().enumerate() {
+        match rows {
+            Rows::None => {}
+            Rows::Normal(edge) => unknowns.push((i, *edge, 0)),
+            Rows::All => unknowns.extend((0..3).map(|k| (i, Vector3::ith(k, 1.0), k))),
+        }
+    }
+    let n = unknowns.len();
+    if n == 0 {
+        return true;
+    }
+    let mut K = DMatrix::zeros(n, n);
+    for (r, (i, _, k)) in unknowns.iter().enumerate() {
+        for (c, (j, along, _)) in unknowns.iter().enumerate() {
+            K[(r, c)] = problem.coupling(*i, *j).row(*k).transpose().dot(along);
+        }
+    }
+    let rhs = DVector::from_iterator(n, unknowns.iter().map(|(i, _, k)| -problem.blocks[*i].b[*k]));
+    let Some(x) = solution(&K, &rhs, choice) else { return false };
+    for ((i, along, _), x) in unknowns.iter().zip(x.iter()) {
+        p[*i] += along * *x;
+    }
+    let missed = (&K * &x - &rhs).amax();
+    missed <= CONSISTENT * (rhs.amax() + K.amax() * x.amax())
+}
+
+/// Of the right side: what is left of a consistent system.
+const CONSISTENT: f64 = 1e-9;
+
+/// Of the largest pivot: what is smaller is rounding of a redundant contact.
+const RANK: f64 = 1e-11;
+
+/// Once more for what rounding has left.
+fn solution(K: &DMatrix<f64>, rhs: &DVector<f64>, choice: Choice) -> Option<DVector<f64>> {
+    let eliminated = Eliminated::new(K.clone());
+    let x = eliminated.solve(rhs, choice)?;
+    let again = eliminated.solve(&(rhs - K * &x), choice)?;
+    Some(x + again)
+}
+
+/// Gaussian elimination with full pivoting: P K Q = L U, of which the first `rank` rows mean something.
+struct Eliminated {
+    LU: DMatrix<f64>,
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+    rank: usize,
+}
+
+impl Eliminated {
+    fn new(mut LU: DMatrix<f64>) -> Self {
+        let n = LU.nrows();
+        let (mut rows, mut columns): (Vec<usize>, Vec<usize>) = ((0..n).collect(), (0..n).collect());
+        let largest = LU.amax();
+        let mut rank = 0;
+        while rank < n {
+            let (r, c) = LU.view((rank, rank), (n - rank, n - rank)).icamax_full();
+            if !(LU[(rank + r, rank + c)].abs() > RANK * largest) {
+                break;
+            }
+            LU.swap_rows(rank, rank + r);
+            rows.swap(rank, rank + r);
+            LU.swap_columns(rank, rank + c);
+            columns.swap(rank, rank + c);
+            for i in rank + 1..n {
+                LU[(i, rank)] /= LU[(rank, rank)];
+            }
+            for j in rank + 1..n {
+                let above = LU[(rank, j)];
+                for i in rank + 1..n {
+                    let factor = LU[(i, rank)];
+                    LU[(i, j)] -= factor * above;
+                }
+            }
+            rank += 1;
+        }
+        Eliminated { LU, rows, columns, rank }
+    }
+
+    /// Unknowns that the others determine are 0, or all are as small as they can be: x = Uᵀ (U Uᵀ)⁻¹ y.
+    fn solve(&self, rhs: &DVector<f64>, choice: Choice) -> Option<DVector<f64>> {
+        let (LU, rank, n) = (&self.LU, self.rank, self.rows.len());
+        let mut y = DVector::from_fn(rank, |i, _| rhs[self.rows[i]]);
+        for i in 0..rank {
+            y[i] -= (0..i).map(|j| LU[(i, j)] * y[j]).sum::<f64>();
+        }
+        let mut own = DVector::zeros(n);
+        if choice == Choice::Any || rank == n {
+            for i in (0..rank).rev() {
+                let known: f64 = (i + 1..rank).map(|j| LU[(i, j)] * own[j]).sum();
+                own[i] = (y[i] - known) / LU[(i, i)];
+            }
+        } else {
+            let U = DMatrix::from_fn(rank, n, |i, j| if j >= i { LU[(i, j)] } else { 0.0 });
+            own = U.tr_mul(&(&U * U.transpose()).cholesky()?.solve(&y));
+        }
+        let mut x = DVector::zeros(n);
+        own.iter().zip(&self.columns).for_each(|(own, column)| x[*column] = *own);
+        x.iter().all(|x: &f64| x.is_finite()).then_some(x)
+    }
+}

@@ -1,0 +1,103 @@
+//! Impacts: what touches at one moment, by the law of impact chosen.
+//!
+//! Newton's law of restitution is the target of the same contact problem that time-stepping solves, with no forces in it;
+//! the other laws are `solve::impact`. Held contacts take part. Bodies do not move in an impact.
+
+use super::forces::Forces;
+use super::touch::Touch;
+use crate::collide::{Contact, SolvedContact};
+use crate::experiment::types::{Cone, Correction, Impact, Iteration};
+use crate::measure::work::Work;
+use crate::model::Model;
+use crate::solve::gauss_seidel::{self, Sweeps, Variant};
+use crate::solve::impact::{Law, resolve};
+use crate::solve::problem::{ContactProblem, Twist};
+use crate::solve::{Impulse, exact_contact, newton};
+use crate::state::State;
+
+fn sweeps() -> Sweeps {
+    Sweeps {
+        iteration: Iteration::GaussSeidel,
+        correction: Correction::PerContact,
+        cone: Cone::Disc,
+        most: 500,
+        tolerance: 1e-12,
+        friction: true,
+        variant: Variant::default(),
+    }
+}
+
+/// Changes the velocities, and tells the impulses. False: the law did not come to its end.
+pub fn strike(
+    model: &Model,
+    state: &mut State,
+    contacts: &[Contact],
+    law: Impact,
+    forces: &mut Forces,
+    solved: &mut Vec<SolvedContact>,
+    work: &mut Work,
+) -> bool {
+    forces.gather_plain(model, state, contacts);
+    let problem = &mut forces.problem;
+    let mut plastic = |problem: &ContactProblem, p: &mut [Impulse], work: &mut Work| {
+        if let [block] = &problem.blocks[..]
+            && block.pin.is_none()
+        {
+            p[0] = exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
+            return true;
+        }
+        let mut scratch = gauss_seidel::Scratch::with_capacity(problem.blocks.len(), 0);
+        newton::solve(problem, &sweeps(), p, &mut scratch, work)
+    };
+    forces.p.clear();
+    forces.p.resize(problem.blocks.len(), Impulse::zeros());
+    let ended = match law {
+        Impact::Newton => {
+            for (block, contact) in problem.blocks.iter_mut().zip(contacts) {
+                let rebound = -contact.restitution * block.before.x.min(0.0);
+                block.b.x -= rebound;
+                block.least = rebound;
+            }
+            plastic(problem, &mut forces.p, work)
+        }
+        Impact::Poisson | Impact::Sequential => {
+            let restitution: Vec<f64> = contacts.iter().map(|contact| contact.restitution).collect();
+            let law = if law == Impact::Poisson { Law::Poisson } else { Law::Sequential };
+            let mut solver = |problem: &ContactProblem, p: &mut [Impulse]| plastic(problem, p, work);
+            resolve(law, problem, &restitution, &mut solver, &mut forces.p)
+        }
+    };
+    apply(model, state, forces, contacts, solved);
+    ended
+}
+
+/// Stops the slip of one contact by the impulse that this takes, if it is in the cone.
+pub fn jam(model: &Model, state: &mut State, touch: &Touch, forces: &mut Forces, solved: &mut Vec<SolvedContact>) -> bool {
+    let contact = touch.here(state).contact;
+    forces.gather_plain(model, state, &[contact]);
+    let block = &forces.problem.blocks[0];
+    let Some(inverse) = block.A.try_inverse() else { return false };
+    let p = -inverse * block.b;
+    if !(p.x > 0.0 && p.yz().norm() <= block.friction * p.x) {
+        return false;
+    }
+    forces.p.clear();
+    forces.p.push(p);
+    apply(model, state, forces, &[contact], solved);
+    true
+}
+
+fn apply(model: &Model, state: &mut State, forces: &mut Forces, contacts: &[Contact], solved: &mut Vec<SolvedContact>) {
+    forces.problem.response(&forces.p, &mut forces.added);
+    for (i, at) in state.bodies.iter_mut().enumerate() {
+        if model.bodies[i].driven {
+            continue;
+        }
+        let Twist { v, w } = forces.added[i];
+        at.v_WB += v;
+        at.w_WB += w;
+    }
+    solved.clear();
+    let of = contacts.iter().zip(&forces.problem.blocks).zip(&forces.p);
+    solved.extend(of.map(|((contact, block), p)| SolvedContact { contact: *contact, impulse_W: block.in_world(p) }));
+}

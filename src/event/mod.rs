@@ -1,0 +1,21 @@
+//! Motion from event to event: between events it is smooth and known, in closed form or by a continuous method of high
+//! order; events are roots in time. `step/event_driven.rs` is the loop; here is what it is made of.
+//!
+//! - `touch`: a point of contact in any state, and its rates
+//! - `forces`: the forces that keep what is in contact together
+//! - `decide`: which contacts hold, stick, slide
+//! - `motion`: closed forms between events, and bounds; `dense`: all other motion
+//! - `watch`: when the next gap closes, and the proof that none was missed
+//! - `impact`: the laws of impact at one moment
+//!
+//! Errors. A gap beyond δ = 1e-13 of the body (and rounding of its coordinates) is never stepped over. Impacts that would
+//! never end (Zeno) end when the height of the bounces left, times 1/(1 − e)², is below a millionth of the tolerance:
+//! the contact then holds, and no position is wrong by more than that.
+
+pub mod decide;
+pub mod dense;
+pub mod forces;
+pub mod impact;
+pub mod motion;
+pub mod touch;
+pub mod watch;

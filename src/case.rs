@@ -33,13 +33,13 @@ impl Case {
 }
 
 /// Everything that decides the motion: not the question, nor what is recorded of it.
-fn canonical(experiment: &Experiment) -> Vec<u8> {
+pub fn canonical(experiment: &Experiment) -> Vec<u8> {
     let decisive = Experiment { question: None, record: Record::default(), sweep: None, ..experiment.clone() };
     serde_json::to_vec(&decisive).unwrap_or_default()
 }
 
 /// 64 bits of a hash.
-fn id(parts: &[Vec<u8>]) -> String {
+pub fn id(parts: &[Vec<u8>]) -> String {
     hex(&Sha256::digest(parts.concat())[..8])
 }
 

@@ -33,6 +33,14 @@ pub mod plan;
 
 pub mod run;
 
+pub mod due;
+
+pub mod sensitivity;
+
+pub mod auto;
+
+pub mod reference;
+
 pub mod step;
 
 pub mod linear;

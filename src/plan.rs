@@ -2,8 +2,9 @@
 //!
 //! A skip follows from a property that is checked, never from one mesh or scene, and changes no bit of the motion.
 
+use crate::auto::HALVINGS;
 use crate::collide::approach::Approach;
-use crate::experiment::types::{Impact, Method};
+use crate::experiment::types::{Auto, Impact, Method};
 use crate::model::Model;
 
 /// Decided once a run.
@@ -35,7 +36,7 @@ impl Plan {
         let contact = contact(model, method);
         let friction = friction(model, method, contact.runs);
         let (has_contact, has_friction) = (contact.runs, friction.runs);
-        let stages = vec![
+        let mut stages = vec![
             contact,
             friction,
             gyroscopic(model, method),
@@ -43,6 +44,7 @@ impl Plan {
             loads(model),
             pins(model),
         ];
+        stages.extend(choice(method));
         let newton = method.impact() == Impact::Newton;
         let constraint = has_contact && !matches!(method, Method::Penalty(_));
         Plan {
@@ -120,6 +122,16 @@ fn position_correction(method: &Method, contact: bool) -> Stage {
         Method::TimeStepping(_) => stage(name, false, "position_correction: none"),
         _ => stage(name, false, "the method has none"),
     }
+}
+
+/// What `auto` considers; of other methods nothing.
+fn choice(method: &Method) -> Option<Stage> {
+    let Method::Auto(Auto { tolerance }) = method else { return None };
+    let why = format!(
+        "event-driven at {tolerance:e} and finer, until two runs agree to {tolerance:e} m; where it stalls or falls back, \
+         time-stepping (moreau, newton), its step halved at most {HALVINGS} times"
+    );
+    Some(stage("choice of method", true, why))
 }
 
 fn loads(model: &Model) -> Stage {

@@ -55,6 +55,8 @@ pub struct Measured {
     pub end_time_s: Option<f64>,
     pub steps: u64,
     pub step_used_s: Option<f64>,
+    pub method_used: Option<String>,
+    pub tolerance_used: Option<f64>,
     pub energy_start_j: Option<f64>,
     pub energy_end_j: Option<f64>,
     pub energy_drift_rel: Option<f64>,
@@ -70,6 +72,11 @@ pub struct Measured {
     pub error_orientation_rad: Option<f64>,
     pub error_velocity_m_s: Option<f64>,
     pub error_angular_velocity_rad_s: Option<f64>,
+    pub error_time_s: Option<f64>,
+    pub error_estimate_m: Option<f64>,
+    pub reference_uncertainty_m: Option<f64>,
+    pub reference_until_s: Option<f64>,
+    pub sensitivity: Option<f64>,
     pub contacts_max: u64,
     pub work_contact_tests: u64,
     pub work_contacts: u64,
@@ -83,6 +90,7 @@ pub struct Measured {
     pub work_events: u64,
     pub work_fallbacks: u64,
     pub wall_s: Option<f64>,
+    pub wall_search_s: Option<f64>,
     /// Columns that only some experiments have: `measure:`, the bracket of a search.
     #[serde(flatten)]
     pub more: Map<String, Value>,
@@ -102,6 +110,8 @@ impl Measured {
             end_time_s: None,
             steps: 0,
             step_used_s: None,
+            method_used: None,
+            tolerance_used: None,
             energy_start_j: None,
             energy_end_j: None,
             energy_drift_rel: None,
@@ -117,6 +127,11 @@ impl Measured {
             error_orientation_rad: None,
             error_velocity_m_s: None,
             error_angular_velocity_rad_s: None,
+            error_time_s: None,
+            error_estimate_m: None,
+            reference_uncertainty_m: None,
+            reference_until_s: None,
+            sensitivity: None,
             contacts_max: 0,
             work_contact_tests: 0,
             work_contacts: 0,
@@ -130,11 +145,13 @@ impl Measured {
             work_events: 0,
             work_fallbacks: 0,
             wall_s: None,
+            wall_search_s: None,
             more: Map::new(),
         }
     }
 
-    pub fn set_errors(&mut self, errors: &Errors) {
+    pub fn set_errors(&mut self, errors: &Errors, time_s: f64) {
+        self.error_time_s = finite(time_s);
         self.error_position_m = finite(errors.position_m);
         self.error_orientation_rad = finite(errors.orientation_rad);
         self.error_velocity_m_s = finite(errors.velocity_m_s);
@@ -157,7 +174,7 @@ impl Measured {
 
     /// The same but for the time it took: what two runs of one case must agree in.
     pub fn without_wall_time(&self) -> Self {
-        Measured { wall_s: None, ..self.clone() }
+        Measured { wall_s: None, wall_search_s: None, ..self.clone() }
     }
 }
 

@@ -1,19 +1,24 @@
 //! THE MAIN LOOP: advance the state, show every step to the judges and the recorders, end in an outcome.
 
+use crate::auto;
 use crate::collide::SolvedContact;
 use crate::collide::approach::Approach;
-use crate::exact::Reference;
-use crate::experiment::types::Experiment;
+use crate::due::{Due, Shown};
+use crate::exact;
+use crate::experiment::types::{Experiment, Limits, Method};
 use crate::measure::Judge;
 use crate::measure::divergence::Criterion;
 use crate::measure::error::Errors;
 use crate::measure::more::{self, Watched};
+use crate::measure::reference::{Against, PARTS, Reference};
+use crate::measure::work::Work;
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::record::sampler::Sampler;
 use crate::row::{Measured, Outcome, finite};
 use crate::state::State;
 use crate::step::{Clock, Span, Stepper};
+use crate::{reference, sensitivity};
 use std::time::{Duration, Instant};
 
 /// What a run leaves behind.
@@ -25,22 +30,51 @@ pub struct Ended {
     pub step_s: f64,
 }
 
-/// Runs one experiment from `start` to its end or its divergence.
-pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Option<&mut Sampler>) -> Ended {
+/// Runs one experiment from `start` to its end or its divergence; its reference, if it has one, is run before and lost.
+pub fn run(experiment: &Experiment, model: &Model, start: State, sampler: Option<&mut Sampler>) -> Ended {
+    let reference = reference::made(experiment, model, &start);
+    run_against(experiment, model, start, sampler, reference.as_ref())
+}
+
+/// The same against a reference that is there. A sampler's ticks are those of what `auto` chooses.
+pub fn run_against(
+    experiment: &Experiment,
+    model: &Model,
+    start: State,
+    sampler: Option<&mut Sampler>,
+    reference: Option<&Reference>,
+) -> Ended {
+    let Some(choice) = auto::choose(experiment, model, &start) else {
+        return run_chosen(experiment, model, start, sampler, reference);
+    };
+    let mut ended = run_chosen(&choice.experiment, model, start, sampler, reference);
+    choice.describe(&mut ended.measured);
+    ended
+}
+
+fn run_chosen(
+    experiment: &Experiment,
+    model: &Model,
+    start: State,
+    mut sampler: Option<&mut Sampler>,
+    reference: Option<&Reference>,
+) -> Ended {
     let clock = clock(experiment);
     let plan = Plan::new(model, &experiment.method);
     let mut stepper = Stepper::new(&experiment.method, &plan, model, &start);
     let mut judge = Judge::new(model, &start, &experiment.diverge, &plan);
     judge.watched = Watched::new(&experiment.measure);
     // The plan has seen to it that the scene is one of the closed form's.
-    let exact = experiment.exact.and_then(|exact| Reference::new(exact, model, &start).ok());
-    let (mut before, mut state) = (start.clone(), start);
+    let exact = experiment.exact.and_then(|exact| exact::Reference::new(exact, model, &start).ok());
+    let (mut before, mut state) = (start.clone(), start.clone());
     let mut stepping = Duration::ZERO;
     let mut stopped = None;
     if let Some(sampler) = &mut sampler {
         sampler.sample(model, &state, &[], clock.step_s);
     }
     let mut shown = Shown::new(experiment, &state);
+    let mut against = reference.map(Against::new);
+    let mut parts = Due::new(Clock::new(clock.end_s / PARTS as f64, clock.end_s), &state);
     while !stepper.is_done(&state, &clock) && stopped.is_none() {
         before.copy_from(&state);
         let started = Instant::now();
@@ -54,6 +88,21 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
             let diverged = observe(&mut judge, &mut stepper, model, [&before, &state], &clock);
             diverged.map(|criterion| (Outcome::Diverged, criterion))
         };
+        if stopped.is_none()
+            && !stepper.is_done(&state, &clock)
+            && is_used_up(&experiment.limits, &state, stepper.work(), stepping)
+        {
+            stopped = Some((Outcome::Stalled, Criterion::Limit));
+        }
+        if let (Some(against), None) = (&mut against, stalled) {
+            if experiment.method.follows_events() {
+                while let Some(at) = parts.next(&mut stepper, model, &state) {
+                    against.observe(at.part, at.state);
+                }
+            } else if (state.step * PARTS).is_multiple_of(clock.steps) {
+                against.observe(state.step * PARTS / clock.steps, &state);
+            }
+        }
         if let Some(sampler) = &mut sampler {
             let last = stopped.is_some() || stepper.is_done(&state, &clock);
             if experiment.method.follows_events() {
@@ -70,7 +119,17 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
     }
     let mut measured = summarize(model, &state, &mut judge, &stepper, &clock, stopped, stepping);
     if let Some(exact) = exact {
-        measured.set_errors(&Errors::between(&state, &exact.state_at(state.time_s)));
+        measured.set_errors(&Errors::between(&state, &exact.state_at(state.time_s)), state.time_s);
+    }
+    if let Some(against) = against {
+        measured.reference_until_s = finite(against.until_s);
+        if let Some(met) = against.last {
+            measured.set_errors(&met.errors, met.time_s);
+            measured.reference_uncertainty_m = finite(met.uncertainty_m);
+        }
+    }
+    if sensitivity::is_wanted(experiment) {
+        measured.sensitivity = sensitivity::sensitivity(experiment, model, &start, &state);
     }
     measured.more = more::columns(experiment, model, &state, &judge.watched);
     if let Some(sampler) = &mut sampler {
@@ -82,6 +141,42 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, mut sampler: Op
         (stepper.contacts().to_vec(), clock.step_s)
     };
     Ended { measured, contacts, state, step_s }
+}
+
+/// Whether a run that is not at its end has to stop.
+pub fn is_used_up(limits: &Limits, state: &State, work: &Work, stepping: Duration) -> bool {
+    limits.steps.is_some_and(|most| state.step >= most)
+        || limits.events.is_some_and(|most| work.events > most)
+        || limits.wall_s.is_some_and(|most_s| stepping.as_secs_f64() > most_s)
+}
+
+/// Where a run came to that nobody watches.
+pub struct Stepped {
+    pub state: State,
+    pub work: Work,
+    /// Why it ended before its time.
+    pub stopped: Option<Criterion>,
+}
+
+/// Only steps: no judge, no recorder.
+pub fn only_step(method: &Method, model: &Model, start: State, clock: &Clock, limits: &Limits) -> Stepped {
+    let mut stepper = Stepper::new(method, &Plan::new(model, method), model, &start);
+    let (mut before, mut state) = (start.clone(), start);
+    let started = Instant::now();
+    let mut stopped = None;
+    while !stepper.is_done(&state, clock) && stopped.is_none() {
+        if is_used_up(limits, &state, stepper.work(), started.elapsed()) {
+            stopped = Some(Criterion::Limit);
+            break;
+        }
+        before.copy_from(&state);
+        stepper.step(model, &mut state, clock);
+        stopped = stepper.stalled();
+        if stopped.is_some() {
+            state.copy_from(&before);
+        }
+    }
+    Stepped { state, work: *stepper.work(), stopped }
 }
 
 /// Shows a step to the judge.
@@ -107,51 +202,6 @@ fn observe(
         Span::Blow => judge.observe_blow(model, [before, after], stepper.contacts()),
         Span::Motion => judge.observe_motion(model, [before, after], &stepper.moments(model, [before, after])),
     }
-}
-
-/// Samples of a method that goes from event to event, at times that mean nothing to it: the motion is the same without.
-struct Shown {
-    ticks: Clock,
-    every_event: bool,
-    /// Ticks that have been shown.
-    count: u64,
-    state: State,
-}
-
-impl Shown {
-    fn new(experiment: &Experiment, start: &State) -> Self {
-        let every_event = experiment.record.every_s == 0.0;
-        Shown { ticks: ticks(experiment), every_event, count: 0, state: start.clone() }
-    }
-
-    /// What is due in the last stretch, and its end if that is wanted.
-    fn show(&mut self, sampler: &mut Sampler, stepper: &mut Stepper, model: &Model, end: &State, last: bool) {
-        loop {
-            let due_s = self.ticks.end_s * (self.count + 1) as f64 / self.ticks.steps as f64;
-            if self.every_event || due_s > end.time_s || (last && due_s == end.time_s) {
-                break;
-            }
-            self.count += 1;
-            self.state.copy_from(end);
-            self.state.time_s = due_s;
-            stepper.state_at(model, &mut self.state);
-            let forces = stepper.forces_at(model, &self.state);
-            sampler.sample(model, &self.state, &forces, 1.0);
-        }
-        if last || self.every_event {
-            let forces = stepper.forces_at(model, end);
-            sampler.sample(model, end, &forces, 1.0);
-        }
-    }
-}
-
-/// When samples are due, of a method that makes no steps of the clock; else its steps.
-pub fn ticks(experiment: &Experiment) -> Clock {
-    let every_s = experiment.record.every_s;
-    if experiment.method.follows_events() && every_s > 0.0 {
-        return Clock::new(every_s, experiment.time.end_s);
-    }
-    clock(experiment)
 }
 
 /// Without a step: one to the end, of a method that needs none.

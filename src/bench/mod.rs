@@ -2,27 +2,31 @@
 //!
 //! `plan` resolves all trials before the first run, `run` makes a row of one: the error from a judged run, the time from
 //! a loop that only steps (`timing.rs`), both of which must end in the same bits. `table.rs` is what the rows say
-//! together.
+//! together. `peer.rs` times one scene for a comparison with other engines.
 
+pub mod peer;
 pub mod table;
 pub mod timing;
 
 use crate::check::{Schema, refuse_no_numbers};
 use crate::experiment::bench::{Bench, Listed, bench_path};
 use crate::experiment::file::Change;
-use crate::experiment::key_path::{KeyPath, Path, Segment};
+use crate::experiment::key_path::{self, KeyPath, Segment};
 use crate::experiment::predicate::Column;
 use crate::experiment::types::{Accuracy, Experiment};
 use crate::experiment::{ExperimentError, ExperimentFile};
 use crate::measure::more;
+use crate::measure::reference::Reference;
 use crate::model::Model;
 use crate::panics;
 use crate::row::{Measured, Outcome, cells, finite};
-use crate::run;
 use crate::state::State;
 use crate::sweep::plan::build;
+use crate::sweep::store::StoreError;
+use crate::{auto, reference, run};
 use serde_yaml::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use table::Row;
 
 type Result<T> = std::result::Result<T, ExperimentError>;
@@ -36,6 +40,8 @@ pub struct Trial {
     pub experiment: Experiment,
     pub model: Model,
     pub start: State,
+    /// What errors are measured against if the experiment has a `reference`; none: each run makes its own.
+    pub reference: Option<Reference>,
 }
 
 /// The program failed: timed and judged run of a trial end in different states.
@@ -95,7 +101,18 @@ fn trial(file: &ExperimentFile, listed: &Listed, value: Option<(f64, KeyPath)>) 
     let (model, start) = build(file, &[], &experiment)?;
     let by_step = (accuracy == Accuracy::Step).then(|| run::clock(&experiment).step_s);
     let tolerance = experiment.method.tolerance();
-    Ok(Trial { method: listed.label.clone(), step_s: by_step, tolerance, experiment, model, start })
+    Ok(Trial { method: listed.label.clone(), step_s: by_step, tolerance, experiment, model, start, reference: None })
+}
+
+/// Reads the references of all trials from a folder, or makes them there.
+///
+/// # Errors
+/// The folder cannot be written.
+pub fn add_references(trials: &mut [Trial], dir: &Path) -> std::result::Result<(), StoreError> {
+    for trial in trials {
+        trial.reference = reference::of(dir, &trial.experiment, &trial.model, &trial.start)?;
+    }
+    Ok(())
 }
 
 /// Axes that mean nothing here.
@@ -106,9 +123,10 @@ fn is_set_by_bench(path: &[String]) -> bool {
 fn check_error(experiment: &Experiment, bench: &Bench) -> Result<()> {
     let base = bench_path("error");
     let schema = Schema::new(&Default::default(), None, &more::names(experiment));
-    refuse_no_numbers(&schema, &Column { name: bench.error.clone(), divided_by: None }, Path::Base(&base))?;
-    if bench.error.starts_with("error_") && experiment.exact.is_none() {
-        let expected = "`exact:` in the experiment, the closed form that errors are measured against";
+    refuse_no_numbers(&schema, &Column { name: bench.error.clone(), divided_by: None }, key_path::Path::Base(&base))?;
+    let measured = experiment.exact.is_some() || experiment.reference.is_some();
+    if bench.error.starts_with("error_") && bench.error != "error_estimate_m" && !measured {
+        let expected = "`exact:` or `reference:` in the experiment, which errors are measured against";
         return Err(ExperimentError::unexpected(base, expected, &format!("`{}` without it", bench.error)));
     }
     Ok(())
@@ -119,10 +137,19 @@ fn check_error(experiment: &Experiment, bench: &Bench) -> Result<()> {
 /// # Errors
 /// The two end in different states.
 pub fn run(trial: &Trial, bench: &Bench, scene: &str) -> std::result::Result<Row, NotDeterministic> {
-    let Trial { experiment, model, start, .. } = trial;
-    let judged = catch_unwind(AssertUnwindSafe(|| run::run(experiment, model, start.clone(), None)));
+    let Trial { model, start, .. } = trial;
+    // The search for a method is not what is timed.
+    let choice = auto::choose(&trial.experiment, model, start);
+    let experiment = choice.as_ref().map_or(&trial.experiment, |choice| &choice.experiment);
+    let judged = catch_unwind(AssertUnwindSafe(|| match &trial.reference {
+        Some(reference) => run::run_against(experiment, model, start.clone(), None, Some(reference)),
+        None => run::run(experiment, model, start.clone(), None),
+    }));
     let (measured, end) = match judged {
-        Ok(ended) => (ended.measured, Some(ended.state)),
+        Ok(mut ended) => {
+            choice.iter().for_each(|choice| choice.describe(&mut ended.measured));
+            (ended.measured, Some(ended.state))
+        }
         Err(panic) => (Measured::failed(panics::message(panic.as_ref()).to_string()), None),
     };
     let steps = match experiment.method.accuracy() {

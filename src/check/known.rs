@@ -12,7 +12,7 @@ use crate::measure::divergence::Criterion;
 type Result = std::result::Result<(), ExperimentError>;
 
 /// Columns of text: nothing to be compared with a number.
-const TEXTS: [&str; 5] = ["case", "outcome", "criterion", "build", "search_verdict"];
+const TEXTS: [&str; 6] = ["case", "outcome", "criterion", "method_used", "build", "search_verdict"];
 
 /// The first name that nothing has. The error has no file and line yet.
 pub fn refuse_unknown(schema: &Schema, expectations: &[Expectation], search: Option<&Search>) -> Result {

@@ -39,11 +39,12 @@ struct Planned {
 impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
         // Every trial of every file is checked before the first run.
-        let planned = self.planned()?;
+        let mut planned = self.planned()?;
         let mut all = Vec::new();
-        for planned in &planned {
-            let rows = self.on_one_core(planned)?;
+        for planned in &mut planned {
             let dir = planned.config.out(self.out.as_deref());
+            self.make_references(&mut planned.trials, &dir)?;
+            let rows = self.on_one_core(planned)?;
             write(&dir, &title(planned), &rows)?;
             if !self.output.json {
                 print(shown(&planned.config.path, &rows, &dir));
@@ -74,6 +75,16 @@ impl Command {
             return Err(CliError::Input(format!("{given}: no file in it has a `bench:`")));
         }
         Ok(planned)
+    }
+
+    fn make_references(&self, trials: &mut [Trial], dir: &Path) -> Result<(), CliError> {
+        if trials.iter().any(|trial| trial.experiment.reference.is_some()) {
+            let bar = Bar::new(self.output.quiet);
+            bar.begin("references", 1);
+            bench::add_references(trials, dir)?;
+            bar.end();
+        }
+        Ok(())
     }
 
     /// All trials of a file, on a thread that stays where it is.

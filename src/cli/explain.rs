@@ -2,17 +2,21 @@
 
 use super::{CliError, ExperimentArgs, OutputArgs, print, print_json};
 use crate::case::Case;
-use crate::experiment::types::Shape;
+use crate::due::ticks;
+use crate::experiment::types::{Method, Shape};
 use crate::model;
 use crate::plan::{Plan, Stage};
 use crate::record::sampler::steps_between;
-use crate::run::{clock, ticks};
+use crate::reference;
+use crate::run::clock;
+use crate::sensitivity;
 use crate::step::Stepper;
 use crate::sweep::plan::cases;
 use crate::sweep::recordings::{FEW, known_before};
 use crate::sweep::runner::targets;
 use clap::Args;
 use serde_json::json;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -30,6 +34,7 @@ pub struct Command {
 /// What a sweep costs, before it is run.
 struct Cost {
     cases: usize,
+    references: usize,
     steps: u64,
     seconds: f64,
     bytes: u64,
@@ -52,7 +57,7 @@ impl Command {
         if self.output.json {
             let stages: Vec<_> = tallies.iter().map(tally_json).collect();
             print_json(&json!({
-                "cases": cost.cases, "steps": cost.steps, "estimated_cpu_s": cost.seconds,
+                "cases": cost.cases, "references": cost.references, "steps": cost.steps, "estimated_cpu_s": cost.seconds,
                 "estimated_bytes": cost.bytes, "stages": stages,
             }));
             return Ok(ExitCode::SUCCESS);
@@ -63,6 +68,12 @@ impl Command {
         let wall_s = cost.seconds / cores.min(cost.cases.max(1)) as f64;
         print(format!("{at_most}about {wall_s:.1} s on {cores} cores (from a trial of some cases)"));
         print(format!("about {:.1} MB of recordings", cost.bytes as f64 / 1e6));
+        if cost.references > 0 {
+            print(format!(
+                "{} reference runs before them, not in this time; those that are there are read",
+                cost.references
+            ));
+        }
         for axis in &file.axes().axes {
             print(format!("  axis {}: {} values", axis.path, axis.values.len()));
         }
@@ -110,7 +121,8 @@ fn cost(cases: &[Case]) -> Cost {
     let trials = cases.len().min(TRIALS);
     let tried = (0..trials).map(|i| &cases[i * cases.len() / trials]);
     let seconds = tried.map(trial_s).sum::<f64>() * cases.len() as f64 / trials.max(1) as f64;
-    Cost { cases: cases.len(), steps, seconds, bytes: bytes(cases) }
+    let references: BTreeSet<_> = cases.iter().filter_map(|case| reference::id(&case.experiment)).collect();
+    Cost { cases: cases.len(), references: references.len(), steps, seconds, bytes: bytes(cases) }
 }
 
 /// Time of the whole case, from as many of its steps as fit in a moment.
@@ -129,7 +141,10 @@ fn trial_s(case: &Case) -> f64 {
     } else {
         state.step as f64 / clock.steps as f64
     };
-    started.elapsed().as_secs_f64() * runs(case) as f64 / part.max(1e-3)
+    // With three twins, and two more runs for what two runs agree in.
+    let twins = if sensitivity::is_wanted(&case.experiment) { 3.0 } else { 0.0 };
+    let tried = if matches!(case.experiment.method, Method::Auto(_)) { 2.0 } else { 0.0 };
+    started.elapsed().as_secs_f64() * (1.0 + twins + tried) * runs(case) as f64 / part.max(1e-3)
 }
 
 /// Of a search about how many; all counted with the steps of the first one, which is mostly the longest.

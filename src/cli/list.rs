@@ -29,7 +29,7 @@ enum What {
 /// Word, settings with defaults, what it is, source.
 type Line = (&'static str, &'static str, &'static str, &'static str);
 
-const METHODS: [Line; 4] = [
+const METHODS: [Line; 5] = [
     (
         "free",
         "integrator: semi-implicit-euler (default), or one of those below; tolerance: 1e-9 (of dop853 and taylor)",
@@ -60,6 +60,13 @@ const METHODS: [Line; 4] = [
         "velocity–impulse with projected Gauss–Seidel, its conjugate gradients or the exact law of contact; gaps close to \
          zero and no further; free rotation in closed form; order 1, between impacts 2 with `moreau`; the default method",
         "Moreau 1988, 1999; Stewart & Trinkle 1996; Anitescu & Potra 1997; Glocker & Pfeiffer 1995; Stronge 1990",
+    ),
+    (
+        "auto",
+        "tolerance: 1e-6 (of positions at the end, metres)",
+        "event-driven, or time-stepping where that stalls or falls back: whatever two runs say is accurate enough; columns \
+         method_used, error_estimate_m",
+        "",
     ),
 ];
 
@@ -152,7 +159,7 @@ const EXACT: [Line; 12] = [
     ),
 ];
 
-const MEASURES: [Line; 5] = [
+const MEASURES: [Line; 6] = [
     (
         "state",
         "<body>.position_m.x, .orientation_xyzw.x, .velocity_m_s.x, .angular_velocity_rad_s.x, …",
@@ -182,6 +189,12 @@ const MEASURES: [Line; 5] = [
         "difference_forward_m_s, difference_backward_m_s, difference_central_m_s",
         "quotients of the positions of a run against its velocities, the largest difference",
         "lecture L1",
+    ),
+    (
+        "sensitivity",
+        "sensitivity (a column of every row; of `event-driven` and `auto` it is never null unless no twin arrives)",
+        "twin runs whose start is displaced a little: their largest distance at the end over that at the start",
+        "",
     ),
 ];
 

@@ -1,5 +1,6 @@
 //! `gotai run`: one experiment, its recordings, a summary.
 
+use super::progress::Bar;
 use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, print, print_json};
 use crate::build_info::BUILD;
 use crate::case::Case;
@@ -7,10 +8,11 @@ use crate::collide::SolvedContact;
 use crate::model::{self, Model};
 use crate::plan::Plan;
 use crate::record::writer::Target;
+use crate::reference;
 use crate::row::{Measured, Outcome, Row};
 use crate::run::Ended;
 use crate::sweep::plan::{build, single_case};
-use crate::sweep::runner::run_case;
+use crate::sweep::runner::{Progress, run_case};
 use clap::Args;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
@@ -41,6 +43,12 @@ impl Command {
         let (model, start) = build(&file, &[], &case.experiment)?;
         if self.output.verbose {
             describe_plan(&Plan::new(&model, &case.experiment.method));
+        }
+        if case.experiment.reference.is_some() {
+            let bar = Bar::new(self.output.quiet);
+            bar.begin("references", 1);
+            reference::of(&dir, &case.experiment, &model, &start)?;
+            bar.end();
         }
         let (ended, written) = run_case(&case, &model, start, &dir, &targets);
         if self.output.json {
@@ -129,7 +137,15 @@ fn summary(case: &Case, m: &Measured) -> String {
         ("contacts max", m.contacts_max.to_string()),
         ("stepping", format!("{} s", number(m.wall_s))),
     ];
-    lines.map(|(name, value)| format!("{name:>24}  {value}")).join("\n")
+    let chosen = m.method_used.as_ref().map(|method| format!("{method}, wrong by {} m", relative(m.error_estimate_m)));
+    let error = m.error_position_m.map(|error_m| format!("{error_m:.2e} m at {} s", number(m.error_time_s)));
+    let more = [
+        ("chosen", chosen),
+        ("error of positions", error),
+        ("sensitivity", m.sensitivity.map(|kappa| format!("{kappa:.2e}"))),
+    ];
+    let more = more.into_iter().filter_map(|(name, value)| Some((name, value?)));
+    lines.into_iter().chain(more).map(|(name, value)| format!("{name:>24}  {value}")).collect::<Vec<_>>().join("\n")
 }
 
 /// What the scene needs, and what is skipped.

@@ -3,7 +3,6 @@
 /// What the key or word stands in (the Rust type of `types.rs`), and the words. A word leaves this list in the change
 /// that adds its field or variant.
 const LATER: &[(&str, &[&str])] = &[
-    ("Experiment", &["reference", "limits"]),
     ("Sweep", &["where", "sample"]),
     ("Pair", &["tangential_restitution"]),
     ("Container", &["mesh"]),

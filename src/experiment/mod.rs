@@ -13,6 +13,7 @@ pub mod file;
 pub mod filter;
 pub mod key_path;
 mod later;
+mod limits;
 mod loads;
 mod method;
 pub mod nearest;

@@ -6,6 +6,7 @@
 
 pub use super::accuracy::Accuracy;
 pub use super::copies::Copies;
+pub use super::limits::{Limits, ReferenceRun, finer_tolerance};
 pub use super::loads::*;
 pub use super::method::*;
 use super::search::SearchText;
@@ -28,6 +29,8 @@ pub struct Experiment {
     pub time: Time,
     #[serde(default)]
     pub diverge: Diverge,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub limits: Limits,
     #[serde(default)]
     pub record: Record,
     /// Columns beyond those of every row.
@@ -36,6 +39,9 @@ pub struct Experiment {
     /// The closed form that errors are measured against.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exact: Option<Exact>,
+    /// The run that errors are measured against instead.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<ReferenceRun>,
     /// Axes and their values, expanded by `sweep/`; absent in a resolved case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sweep: Option<Sweep>,
@@ -511,6 +517,8 @@ pub enum Measure {
     CriticalStep,
     /// Forward, backward and central quotients of the positions against the velocities.
     DifferenceQuotients,
+    /// How an error of the start has grown at the end; of methods that follow events it is always measured.
+    Sensitivity,
 }
 
 /// The axes of a sweep, still as written; `axes.rs` and `search.rs` read them.

@@ -3,8 +3,8 @@
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::types::{
-    Accuracy, Container, Diverge, Experiment, Free, Measure, Method, Pair, Penalty, Plane, Random, Record, RecordCases,
-    Scene, Shape, Solver, Time, TimeStepping,
+    Accuracy, Container, Diverge, EventDriven, Experiment, Free, Limits, Measure, Method, Pair, Penalty, Plane, Random,
+    Record, RecordCases, Scene, Shape, Solver, Time, TimeStepping,
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
@@ -27,8 +27,10 @@ pub fn validate(experiment: &Experiment) -> Result<()> {
     validate_contact(experiment, root.key("scene"))?;
     validate_loads(experiment, root.key("scene"))?;
     validate_exact(experiment, root.key("exact"))?;
+    validate_reference(experiment, root)?;
     validate_time(&experiment.time, &experiment.method, root.key("time"))?;
     validate_diverge(&experiment.diverge, root.key("diverge"))?;
+    validate_limits(&experiment.limits, root.key("limits"))?;
     validate_record(&experiment.record, root.key("record"))?;
     validate_measure(experiment, root.key("measure"))
 }
@@ -234,6 +236,28 @@ fn validate_exact(experiment: &Experiment, at: Path) -> Result<()> {
     }
 }
 
+/// It has to be a motion that `event-driven` can follow, and the same one.
+fn validate_reference(experiment: &Experiment, root: Path) -> Result<()> {
+    let Some(reference) = &experiment.reference else { return Ok(()) };
+    let at = root.key("reference");
+    reachable(reference.tolerance, at.key("tolerance"))?;
+    if let Some(exact) = experiment.exact {
+        let expected = "either `exact` or `reference`: errors are measured against one of them";
+        return Err(unexpected(at, expected, &format!("`exact: {}` beside it", exact.word())));
+    }
+    let scene = &experiment.scene;
+    if matches!(experiment.method, Method::Free(_)) && scene.bodies.iter().any(|body| body.shape != Shape::None) {
+        let expected =
+            "bodies of shape `none`, or a method with contact: the reference has contact and `free` has none";
+        return Err(unexpected(at, expected, "bodies that may touch"));
+    }
+    let tolerance = reference.tolerance;
+    let method = Method::EventDriven(EventDriven { tolerance, impact: experiment.method.impact() });
+    let followed = Experiment { method, ..experiment.clone() };
+    validate_contact(&followed, root.key("scene"))?;
+    validate_loads(&followed, root.key("scene"))
+}
+
 fn needs_meshes(method: &str, scene: &Scene, at: Path) -> Result<()> {
     let bodies = at.key("bodies");
     for (i, body) in scene.bodies.iter().enumerate() {
@@ -287,6 +311,16 @@ fn validate_diverge(diverge: &Diverge, at: Path) -> Result<()> {
     }
     diverge.speed_m_s.map_or(Ok(()), |speed| positive(speed, at.key("speed_m_s")))?;
     diverge.penetration_m.map_or(Ok(()), |depth| positive(depth, at.key("penetration_m")))
+}
+
+fn validate_limits(limits: &Limits, at: Path) -> Result<()> {
+    limits.wall_s.map_or(Ok(()), |wall_s| positive(wall_s, at.key("wall_s")))?;
+    for (key, count) in [("steps", limits.steps), ("events", limits.events)] {
+        if count == Some(0) {
+            return Err(unexpected(at.key(key), "a whole number of at least 1", "0"));
+        }
+    }
+    Ok(())
 }
 
 fn validate_record(record: &Record, at: Path) -> Result<()> {

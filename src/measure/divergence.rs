@@ -19,10 +19,12 @@ pub enum Criterion {
     Painleve,
     /// Events accumulate, and even steps of equal length do not lead past them.
     Zeno,
+    /// One of `limits:` is used up.
+    Limit,
 }
 
 impl Criterion {
-    pub const ALL: [Criterion; 8] = [
+    pub const ALL: [Criterion; 9] = [
         Criterion::NotFinite,
         Criterion::Energy,
         Criterion::Escape,
@@ -31,6 +33,7 @@ impl Criterion {
         Criterion::NotConverged,
         Criterion::Painleve,
         Criterion::Zeno,
+        Criterion::Limit,
     ];
 
     pub fn name(self) -> &'static str {
@@ -43,6 +46,7 @@ impl Criterion {
             Criterion::NotConverged => "not-converged",
             Criterion::Painleve => "painleve",
             Criterion::Zeno => "zeno",
+            Criterion::Limit => "limit",
         }
     }
 }

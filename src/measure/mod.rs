@@ -14,6 +14,7 @@ mod loads;
 pub mod momentum;
 pub mod more;
 pub mod order;
+pub mod reference;
 pub mod residual;
 pub mod work;
 

@@ -57,6 +57,7 @@ pub fn columns(experiment: &Experiment, model: &Model, end: &State, watched: &Wa
                 watched.critical_step.iter().flat_map(|watch| watch.columns(model, settings)).collect()
             }
             Measure::DifferenceQuotients => watched.differences.iter().flat_map(Differences::columns).collect(),
+            Measure::Sensitivity => Vec::new(),
         }
     };
     names(experiment).into_iter().zip(experiment.measure.iter().flat_map(of)).collect()
@@ -73,6 +74,8 @@ pub fn names(experiment: &Experiment) -> Vec<String> {
         Measure::ContactMatrix => contact_matrix::NAMES.map(str::to_string).to_vec(),
         Measure::CriticalStep => critical_step::NAMES.map(str::to_string).to_vec(),
         Measure::DifferenceQuotients => difference::NAMES.map(str::to_string).to_vec(),
+        // A column of every row.
+        Measure::Sensitivity => Vec::new(),
     };
     experiment.measure.iter().flat_map(of).collect()
 }

@@ -2,19 +2,23 @@
 
 use super::recordings::{known_after, known_before};
 use super::store::{Store, StoreError};
+use crate::auto;
 use crate::case::Case;
+use crate::due::ticks;
 use crate::experiment::types::{Record, RecordCases, RecordTo};
+use crate::measure::reference::Reference;
 use crate::model::{self, Model};
 use crate::panics;
 use crate::record::RecordError;
 use crate::record::head::header;
 use crate::record::sampler::Sampler;
 use crate::record::writer::{Target, open};
+use crate::reference;
 use crate::row::Measured;
 use crate::run::{self, Ended};
 use crate::state::State;
 use rayon::prelude::*;
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard};
@@ -66,6 +70,7 @@ impl Job<'_> {
             Some(known) if !self.targets.is_empty() => known.into_iter().collect(),
             _ => HashSet::new(),
         };
+        self.make_references(&missing, cases)?;
         self.progress.begin("cases", missing.len());
         let ran = missing.par_iter().try_for_each(|&i| {
             let targets = if at_once.contains(&i) { self.targets } else { &[] };
@@ -82,6 +87,30 @@ impl Job<'_> {
             self.record_chosen(rule, cases, store, &stale)?;
         }
         Ok(missing.len())
+    }
+
+    /// Those that no earlier sweep has left here, each once. A search makes its own.
+    fn make_references(&self, missing: &[usize], cases: &[Case]) -> Result<(), SweepError> {
+        let single = missing.iter().map(|&i| &cases[i]).filter(|case| case.search.is_none());
+        let needed: BTreeMap<_, _> =
+            single.filter_map(|case| Some((reference::path(self.dir, &case.experiment)?, case))).collect();
+        let missing: Vec<&Case> = needed.into_iter().filter(|(path, _)| !path.exists()).map(|(_, case)| case).collect();
+        if missing.is_empty() {
+            return Ok(());
+        }
+        self.progress.begin("references", missing.len());
+        let made = missing.par_iter().try_for_each(|case| {
+            let make = || match model::build(&case.experiment) {
+                Ok((model, start)) => reference::of(self.dir, &case.experiment, &model, &start).map(drop),
+                Err(_) => Ok(()),
+            };
+            // A reference that panics does so again in its case, which has a row to say so.
+            let made = catch_unwind(AssertUnwindSafe(make)).unwrap_or(Ok(()));
+            self.progress.one_done();
+            made
+        });
+        self.progress.end();
+        Ok(made?)
     }
 
     /// Records the chosen cases that have no complete recording yet, or only one of an earlier row (`stale`).
@@ -109,6 +138,8 @@ impl Job<'_> {
             let first = lock(store).measured_by_this_build(&cases[i].id).map(Measured::without_wall_time);
             self.progress.one_done();
             let same = first.is_none_or(|first| first == again.without_wall_time());
+            // How far a run comes in a given time is another thing every time.
+            let same = same || cases[i].experiment.limits.wall_s.is_some();
             if same { Ok(()) } else { Err(SweepError::NotDeterministic(cases[i].id.clone())) }
         });
         self.progress.end();
@@ -137,7 +168,7 @@ fn missing(cases: &[Case], store: &Store) -> Vec<usize> {
 /// Builds a case's model and runs it, recording it into `dir`: the usual `Work`.
 pub fn build_and_run(case: &Case, dir: &Path, targets: &[Target]) -> (Measured, Written) {
     if let Some(cell) = &case.search {
-        return (cell.bisect(), Ok(()));
+        return (cell.bisect(dir), Ok(()));
     }
     match model::build(&case.experiment) {
         Ok((model, start)) => {
@@ -151,19 +182,34 @@ pub fn build_and_run(case: &Case, dir: &Path, targets: &[Target]) -> (Measured, 
 
 /// Runs one case and writes its recordings.
 pub fn run_case(case: &Case, model: &Model, start: State, dir: &Path, targets: &[Target]) -> (Ended, Written) {
-    let experiment = &case.experiment;
+    let reference = reference_of(dir, case, model, &start);
+    let choice = auto::choose(&case.experiment, model, &start);
+    let experiment = choice.as_ref().map_or(&case.experiment, |choice| &choice.experiment);
+    let run = |sampler: Option<&mut Sampler>| {
+        let mut ended = run::run_against(experiment, model, start, sampler, reference.as_ref());
+        if let Some(choice) = &choice {
+            choice.describe(&mut ended.measured);
+        }
+        ended
+    };
     if targets.is_empty() {
-        return (run::run(experiment, model, start, None), Ok(()));
+        return (run(None), Ok(()));
     }
-    let clock = run::ticks(experiment);
+    let clock = ticks(experiment);
     match open(targets, dir, &header(case, model, &clock)) {
         Ok(writer) => {
             let mut sampler = Sampler::new(writer, &experiment.record, &clock);
-            let ended = run::run(experiment, model, start, Some(&mut sampler));
+            let ended = run(Some(&mut sampler));
             (ended, sampler.finish())
         }
-        Err(error) => (run::run(experiment, model, start, None), Err(error)),
+        Err(error) => (run(None), Err(error)),
     }
+}
+
+/// From its file; where none can be written, for this case alone.
+fn reference_of(dir: &Path, case: &Case, model: &Model, start: &State) -> Option<Reference> {
+    let experiment = &case.experiment;
+    reference::of(dir, experiment, model, start).unwrap_or_else(|_| reference::made(experiment, model, start))
 }
 
 /// What `record.to` means in this build; nothing said: everything it can write.

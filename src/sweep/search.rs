@@ -13,10 +13,11 @@ use crate::experiment::search::Search;
 use crate::experiment::types::Experiment;
 use crate::experiment::{ExperimentError, ExperimentFile};
 use crate::row::{Measured, Outcome};
-use crate::run;
+use crate::{reference, run};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 use serde_yaml::Number;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Columns of a search's row, beside those of its run at `search_low`.
@@ -104,14 +105,14 @@ impl Cell {
     }
 
     /// Bisects. The row's other columns are those of the run at `search_low`, or at the bracket's lower end where there is
-    /// none; `wall_s` is that of all runs.
-    pub fn bisect(&self) -> Measured {
-        self.try_bisect().unwrap_or_else(|error| Measured::failed(error.to_string()))
+    /// none; `wall_s` is that of all runs. References are kept in the folder.
+    pub fn bisect(&self, dir: &Path) -> Measured {
+        self.try_bisect(dir).unwrap_or_else(|error| Measured::failed(error.to_string()))
     }
 
-    fn try_bisect(&self) -> Result<Measured, ExperimentError> {
+    fn try_bisect(&self, dir: &Path) -> Result<Measured, ExperimentError> {
         let [low, high] = &self.search.between;
-        let (mut low, mut high) = (self.try_at(low)?, self.try_at(high)?);
+        let (mut low, mut high) = (self.try_at(low, dir)?, self.try_at(high, dir)?);
         let (mut tried, mut wall_s) = (2, low.wall_s() + high.wall_s());
         if low.reached == high.reached {
             let (verdict, ends) = match low.reached {
@@ -121,7 +122,7 @@ impl Cell {
             return Ok(self.row(low.measured, ends, tried, wall_s, verdict));
         }
         while let Some(middle) = self.between(float(&low.value), float(&high.value)) {
-            let trial = self.try_at(&middle)?;
+            let trial = self.try_at(&middle, dir)?;
             tried += 1;
             wall_s += trial.wall_s();
             let end = if trial.reached == low.reached { &mut low } else { &mut high };
@@ -130,8 +131,8 @@ impl Cell {
         Ok(self.row(low.measured, [json!(low.value), json!(high.value)], tried, wall_s, "found"))
     }
 
-    fn try_at(&self, value: &Number) -> Result<Trial, ExperimentError> {
-        let run = |point: &Vec<usize>| self.file.searched_case(point, value).and_then(|e| self.run(&e, point));
+    fn try_at(&self, value: &Number, dir: &Path) -> Result<Trial, ExperimentError> {
+        let run = |point: &Vec<usize>| self.file.searched_case(point, value).and_then(|e| self.run(&e, point, dir));
         let runs = self.members.par_iter().map(run).collect::<Vec<_>>();
         let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
         let holds = runs.iter().filter(|measured| is_true(&self.search.until, measured)).count();
@@ -142,9 +143,11 @@ impl Cell {
         Ok(Trial { value: value.clone(), reached, measured })
     }
 
-    fn run(&self, experiment: &Experiment, point: &[usize]) -> Result<Measured, ExperimentError> {
+    fn run(&self, experiment: &Experiment, point: &[usize], dir: &Path) -> Result<Measured, ExperimentError> {
         let (model, start) = build(&self.file, point, experiment)?;
-        Ok(run::run(experiment, &model, start, None).measured)
+        let reference = reference::of(dir, experiment, &model, &start);
+        let reference = reference.unwrap_or_else(|_| reference::made(experiment, &model, &start));
+        Ok(run::run_against(experiment, &model, start, None, reference.as_ref()).measured)
     }
 
     /// The value to try next; none: the bracket is narrow enough.

@@ -152,7 +152,7 @@ fn read_journal(dir: &Path) -> Result<Done, StoreError> {
 }
 
 /// Under a temporary name first: a file with the final name is whole.
-fn write_whole(path: &Path, content: &[u8]) -> Result<(), StoreError> {
+pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), StoreError> {
     let partial = path.with_extension("partial");
     std::fs::write(&partial, content).map_err(|error| StoreError::new(&partial, error))?;
     std::fs::rename(&partial, path).map_err(|error| StoreError::new(path, error))

@@ -30,7 +30,7 @@ impl Table {
         columns.extend(axes.iter().map(|axis| (axis.path.clone(), kind_of(&axis.values))));
         columns.extend(cells(&Measured::nothing()).into_iter().map(|(name, value)| {
             let kind = match name.as_str() {
-                "outcome" | "criterion" => Kind::Text,
+                "outcome" | "criterion" | "method_used" => Kind::Text,
                 _ if value.is_u64() => Kind::Integer,
                 _ => Kind::Number,
             };

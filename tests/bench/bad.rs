@@ -23,7 +23,7 @@ const ROWS: &[(&str, &str, usize, &str, &str)] = &[
     ("repeats: 2", "repeat: 2", 13, "bench.repeat", "did you mean `repeats`?"),
     ("error_orientation_rad", "error_orientatoin_rad", 12, "bench.error", "did you mean `error_orientation_rad`?"),
     ("error_orientation_rad", "outcome", 12, "bench.error", "which is text"),
-    ("exact: free-motion\n", "", 11, "bench.error", "expected `exact:` in the experiment"),
+    ("exact: free-motion\n", "", 11, "bench.error", "expected `exact:` or `reference:` in the experiment"),
     ("integrator: rk4 }", "integrator: rk5 }", 9, "bench.methods.1.free.integrator", "did you mean `rk4`?"),
     (
         "integrator: exact",

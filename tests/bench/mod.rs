@@ -2,6 +2,7 @@
 
 mod bad;
 mod diagram;
+mod peer;
 
 use crate::cli::run;
 use crate::scratch;
@@ -99,6 +100,15 @@ fn a_run_that_does_not_finish_has_neither_error_nor_time() {
         assert_eq!((row.outcome.as_str(), row.criterion.as_deref()), ("diverged", Some("speed")), "{row:?}");
         assert_eq!((row.error, row.wall_s, row.wall_median_s), (None, None, None));
     }
+}
+
+#[test]
+fn a_limited_run_is_stalled_and_not_timed() {
+    let rows = rows(SPIN, &["limits.steps=60"]);
+    let stalled: Vec<_> = rows.iter().map(|row| row.criterion.as_deref() == Some("limit")).collect();
+    // Of 100 and 200 steps; of 50, and of one to the end, nothing is missing.
+    assert_eq!(stalled, [false, true, true, false, true, true, false, false, false]);
+    assert!(rows.iter().all(|row| (row.outcome == "stalled") == row.wall_s.is_none()));
 }
 
 #[test]

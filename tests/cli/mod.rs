@@ -193,6 +193,39 @@ fn list_names_every_method_and_shape_that_can_be_written() {
     // The parser's own list, from its error message.
     let known = |set: &str| run(&["run", "configs/lecture/demo.yaml", "--set", set]).2;
     let (methods, shapes) = (known("method=nonsense"), known("scene.bodies.cube.shape=nonsense"));
-    assert!(names("methods").iter().all(|name| methods.contains(name.as_str())) && names("methods").len() == 4);
+    assert!(names("methods").iter().all(|name| methods.contains(name.as_str())) && names("methods").len() == 5);
     assert!(names("shapes").iter().all(|name| shapes.contains(name.as_str())) && names("shapes").len() == 7);
+}
+
+#[test]
+fn a_reference_is_kept_beside_the_results_even_if_nothing_is_recorded() {
+    let folder = scratch::folder();
+    let config = folder.path().join("spin.yaml");
+    let text = "
+scene: { bodies: [{ name: top, shape: none, mass_kg: 1, velocity_m_s: [1, 2, 0] }] }
+method: free
+time: { step_s: 0.1, end_s: 1 }
+reference: {}
+bench: { methods: [free, event-driven], steps_s: [0.1, 0.05], repeats: 1 }
+expect: [{ column: error_position_m, max: 0.5 }]
+";
+    std::fs::write(&config, text).unwrap();
+    let (config, out) = (config.to_str().unwrap(), folder.path().join("out"));
+    let out = out.to_str().unwrap();
+    let references = || -> Vec<_> {
+        let all = std::fs::read_dir(out).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        all.filter(|name| name.starts_with("reference-")).collect()
+    };
+    let d = json(&["run", config, "--out", out, "--record", "none", "--json"]);
+    let made = references();
+    assert_eq!(made.len(), 1);
+    // Semi-implicit Euler in a fall of a second: ½ g h. measured: 0.49
+    assert!((d["error_position_m"].as_f64().unwrap() - 0.49).abs() < 1e-9 && d["reference_until_s"] == 1.0, "{d}");
+    assert_eq!(json(&["explain", config, "--json"])["references"], 1);
+    // Sweep, check and bench read the same one.
+    json(&["sweep", config, "--out", out, "--record", "none", "--json"]);
+    json(&["check", config, "--out", out, "--json"]);
+    let rows = json(&["bench", config, "--out", out, "--json"]);
+    assert!((rows[1]["error"].as_f64().unwrap() - 0.245).abs() < 1e-9, "{rows}");
+    assert_eq!(references(), made);
 }

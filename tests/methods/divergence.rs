@@ -72,3 +72,28 @@ fn numbers_that_are_not_finite_stop_a_run_always() {
     assert_eq!((m.outcome, m.criterion.as_deref()), (Outcome::Diverged, Some("not-finite")));
     assert_eq!(m.energy_end_j, None);
 }
+
+#[test]
+fn a_run_that_needs_more_than_its_limit_stalls_and_keeps_what_it_has() {
+    let limited = |sets: &[&str]| {
+        let Measured { outcome, criterion, end_time_s, steps, energy_drift_rel, .. } = measured(FALLING, sets);
+        (outcome, criterion, end_time_s.unwrap(), steps, energy_drift_rel.is_some())
+    };
+    let no_floor = "scene.container=null";
+    let limit = || Some("limit".to_string());
+    assert_eq!(limited(&[no_floor, "limits.steps=500"]), (Outcome::Stalled, limit(), 0.5, 500, true));
+    // Just enough is enough, and nothing of a step is lost.
+    assert_eq!(limited(&[no_floor, "limits.steps=2000"]), (Outcome::Finished, None, 2.0, 2000, true));
+    let (outcome, criterion, end_s, steps, _) = limited(&[no_floor, "limits.wall_s=1e-9"]);
+    assert_eq!((outcome, criterion, steps), (Outcome::Stalled, limit(), 1));
+    assert_eq!(end_s, 1e-3);
+    // What the method does not count does not limit it.
+    assert_eq!(limited(&[no_floor, "limits.events=1"]).0, Outcome::Finished);
+}
+
+#[test]
+fn limits_belong_to_what_a_case_is() {
+    let id = |sets: &[&str]| gotai::sweep::plan::single_case(&crate::yaml::file(FALLING, sets)).unwrap().id;
+    assert_eq!(id(&[]), id(&["limits={}"]));
+    assert_ne!(id(&[]), id(&["limits.steps=5"]));
+}

@@ -1,6 +1,7 @@
 //! Each method against its own recurrence, the exact motion, and what it should conserve.
 
 mod assemblies;
+mod auto;
 mod cone;
 mod contact;
 mod cycles;
@@ -16,6 +17,7 @@ mod orders;
 mod penalty;
 mod piles;
 mod pins_by_hand;
+mod reference;
 mod residual;
 mod scenes;
 mod skipping;

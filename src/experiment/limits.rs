@@ -1,0 +1,38 @@
+//! `limits:` and `reference:`: how much a run may cost, and what it is measured against. A part of `types.rs`.
+
+use crate::integrate::SMALLEST_GLOBAL;
+use serde::{Deserialize, Serialize};
+
+/// A run that needs more ends as `stalled`, by the criterion `limit`; what it has computed stays. Absent: no limit.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Limits {
+    /// Of stepping. What such a run says depends on the machine; steps and events do not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall_s: Option<f64>,
+    /// Steps, or the stretches of a method that follows events.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u64>,
+    /// Impacts and changes of contact, of a method that follows events.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub events: Option<u64>,
+}
+
+/// A run of `event-driven` that errors are measured against, where there is no closed form.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ReferenceRun {
+    pub tolerance: f64,
+}
+
+impl Default for ReferenceRun {
+    /// Ten times the smallest, so that a second run can be finer.
+    fn default() -> Self {
+        ReferenceRun { tolerance: 10.0 * SMALLEST_GLOBAL }
+    }
+}
+
+/// The tolerance of a second run, which says how wrong the first one is: finer, or coarser where no finer one is left.
+pub fn finer_tolerance(tolerance: f64, factor: f64) -> f64 {
+    if tolerance <= 2.0 * SMALLEST_GLOBAL { tolerance * factor } else { (tolerance / factor).max(SMALLEST_GLOBAL) }
+}

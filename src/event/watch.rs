@@ -87,7 +87,7 @@ impl Look {
         };
         let s = if self.gap_m <= delta_m && rate > slow_m_s && m > 0.0 {
             // A bounce comes back to where it began, but for what M is too much.
-            (2.0 * rate / m).max((2.0 * delta_m / m).sqrt())
+            2.0 * rate / m
         } else {
             s
         };

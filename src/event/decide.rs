@@ -50,7 +50,8 @@ pub fn decide(
         return Decision::Holds(Vec::new());
     }
     forces.gather(model, state, touches.iter());
-    let modes: Vec<Mode> = touches.iter().enumerate().map(|(i, touch)| mode(model, state, forces, i, touch, change)).collect();
+    let modes: Vec<Mode> =
+        touches.iter().enumerate().map(|(i, touch)| mode(model, state, forces, i, touch, change)).collect();
     work.contact_solves += 1;
     if let [touch] = &touches[..]
         && model.pins.is_empty()
@@ -246,14 +247,20 @@ pub fn margin(model: &Model, state: &State, held: &[Held], forces: &mut Forces, 
     if least >= 0.0 || held.len() == 1 {
         return least;
     }
-    let modes: Vec<Mode> = held.iter().enumerate().map(|(i, held)| match held.mode {
-        Mode::Slide(from) => Mode::Slide(super::forces::direction(&forces.here[i], &from)),
-        stick => stick,
-    }).collect();
+    let modes: Vec<Mode> = held
+        .iter()
+        .enumerate()
+        .map(|(i, held)| match held.mode {
+            Mode::Slide(from) => Mode::Slide(super::forces::direction(&forces.here[i], &from)),
+            stick => stick,
+        })
+        .collect();
     let touches: Vec<Touch> = held.iter().map(|held| held.touch.clone()).collect();
     match by_law(forces, &modes, &touches, work) {
         // Slightly positive: the true margin is not known.
-        Decision::Holds(now) if now.len() == held.len() && now.iter().zip(&modes).all(|(now, mode)| now.mode == *mode) => {
+        Decision::Holds(now)
+            if now.len() == held.len() && now.iter().zip(&modes).all(|(now, mode)| now.mode == *mode) =>
+        {
             1e-3
         }
         _ => least,

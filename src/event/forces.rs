@@ -7,8 +7,8 @@
 //! smallest.
 
 use super::touch::{Here, Touch};
-use crate::collide::approach::Approach;
 use crate::collide::Contact;
+use crate::collide::approach::Approach;
 use crate::integrate::rotation::gyroscopic_torque_B;
 use crate::model::Model;
 use crate::model::pins::Anchor;
@@ -104,7 +104,12 @@ impl Forces {
     }
 
     /// `bias`: what a pin's end is accelerated by the body's rotation.
-    fn pin(&mut self, model: &Model, state: &State, bias: impl Fn(&crate::state::BodyState, &Vector3<f64>) -> Vector3<f64>) {
+    fn pin(
+        &mut self,
+        model: &Model,
+        state: &State,
+        bias: impl Fn(&crate::state::BodyState, &Vector3<f64>) -> Vector3<f64>,
+    ) {
         if model.pins.is_empty() {
             return;
         }

@@ -228,7 +228,11 @@ fn roundness(body: &Body, at: &BodyState, normal: &Vector3<f64>, bounds: &Bounds
         Geometry::Solid { solid: Solid::Cylinder { radius_m, .. }, .. } => {
             let tilt = at.q_WB.inverse_transform_vector(normal).cross(&Vector3::y()).norm();
             let flat = tilt < 1e-8;
-            if flat { (0.0, f64::INFINITY) } else { (2.0 * radius_m / tilt, 0.5 * tilt / bounds.w.max(f64::MIN_POSITIVE)) }
+            if flat {
+                (0.0, f64::INFINITY)
+            } else {
+                (2.0 * radius_m / tilt, 0.5 * tilt / bounds.w.max(f64::MIN_POSITIVE))
+            }
         }
         _ => (0.0, f64::INFINITY),
     }
@@ -261,11 +265,16 @@ fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Windo
         work.contact_tests += 1;
         let delta_m = delta_m(sizes[0].min(sizes[1]), at[0].p_WB.amax().max(at[1].p_WB.amax()) + sizes[0]);
         let slow = slow_m_s(&bounds[0], &at[0], sizes[0]) + slow_m_s(&bounds[1], &at[1], sizes[1]);
-        let poses = [(centre_a, &at[0]), (centre_b, &at[1])].map(|(c, at)| Pose { p_W: at.p_WB + at.q_WB * c, q_W: at.q_WB });
+        let poses =
+            [(centre_a, &at[0]), (centre_b, &at[1])].map(|(c, at)| Pose { p_W: at.p_WB + at.q_WB * c, q_W: at.q_WB });
         let of_centres = balls.is_some();
         let point = |side: usize| if of_centres { poses[side].p_W } else { at[side].p_WB };
         let rate = |side: usize| {
-            if of_centres { at[side].v_WB + at[side].w_WB.cross(&(poses[side].p_W - at[side].p_WB)) } else { at[side].v_WB }
+            if of_centres {
+                at[side].v_WB + at[side].w_WB.cross(&(poses[side].p_W - at[side].p_WB))
+            } else {
+                at[side].v_WB
+            }
         };
         let apart = point(0) - point(1);
         let distance = apart.norm();
@@ -297,13 +306,23 @@ fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Windo
             let velocity = |side: usize| at[side].v_WB + at[side].w_WB.cross(&(touch.p_W - at[side].p_WB));
             let rate_m_s = touch.normal.dot(&(velocity(0) - velocity(1)));
             if touch.gap_m > near_m {
-                let bound = Look { gap_m: touch.gap_m - near_m / 2.0, rate_m_s: -closing, toward_m_s2: between, known_s: f64::INFINITY };
+                let bound = Look {
+                    gap_m: touch.gap_m - near_m / 2.0,
+                    rate_m_s: -closing,
+                    toward_m_s2: between,
+                    known_s: f64::INFINITY,
+                };
                 safe_s = safe_s.min(bound.safe_s(delta_m, slow));
                 continue;
             }
             // The normal turns with the bodies.
             let turning = 2.0 * (bounds[0].w + bounds[1].w) * closing;
-            let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2: 2.0 * points_toward + turning, known_s: near_m / closing };
+            let look = Look {
+                gap_m: touch.gap_m,
+                rate_m_s,
+                toward_m_s2: 2.0 * points_toward + turning,
+                known_s: near_m / closing,
+            };
             safe_s = safe_s.min(look.safe_s(delta_m, slow));
             touching |= look.is_touching(delta_m, slow);
         }

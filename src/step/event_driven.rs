@@ -4,6 +4,7 @@
 //! the run is the same with or without it.
 
 use super::Span;
+use crate::collide::solid::Solid;
 use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
 use crate::event::decide::{Change, Decision, decide, margin, speeds};
 use crate::event::dense::{Dense, Field, point_along, project};
@@ -17,7 +18,6 @@ use crate::experiment::types::{EventDriven as Settings, Impact};
 use crate::measure::Moment;
 use crate::measure::divergence::Criterion;
 use crate::measure::work::Work;
-use crate::collide::solid::Solid;
 use crate::model::{Body, Geometry, Model};
 use crate::plan::Plan;
 use crate::solve::problem::Twist;
@@ -137,7 +137,13 @@ impl EventDriven {
     fn detect(&mut self, model: &Model, state: &State) {
         self.found.clear();
         if self.contact {
-            self.detector.detect(model, state, &Reach { margin: MARGIN, ahead_s: 0.0 }, &mut self.found, &mut self.work);
+            self.detector.detect(
+                model,
+                state,
+                &Reach { margin: MARGIN, ahead_s: 0.0 },
+                &mut self.found,
+                &mut self.work,
+            );
             self.found.retain(|contact| watch::is_closed(model, contact));
         }
     }
@@ -357,7 +363,8 @@ impl EventDriven {
     }
 
     fn field<'a>(&'a mut self, model: &'a Model) -> Field<'a> {
-        let sliding = self.held.iter().filter(|held| matches!(held.mode, Mode::Slide(d) if d != Vector3::zeros())).count();
+        let sliding =
+            self.held.iter().filter(|held| matches!(held.mode, Mode::Slide(d) if d != Vector3::zeros())).count();
         Field {
             model,
             motions: &self.motions,

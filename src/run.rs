@@ -2,6 +2,7 @@
 
 use crate::auto;
 use crate::collide::SolvedContact;
+use crate::collide::approach::Approach;
 use crate::due::{Due, Shown};
 use crate::exact;
 use crate::experiment::types::{Experiment, Limits, Method};
@@ -190,6 +191,13 @@ fn observe(
         Span::Step => {
             let kicked = stepper.kicked().unwrap_or(before);
             judge.observe(model, [before, kicked, after], stepper.contacts(), clock.step_s)
+        }
+        Span::Short { step_s } => {
+            let kicked = stepper.kicked().unwrap_or(before);
+            judge.residual.steps_as(Approach::Middle);
+            let stopped = judge.observe(model, [before, kicked, after], stepper.contacts(), step_s);
+            judge.residual.steps_as(Approach::Inside);
+            stopped
         }
         Span::Blow => judge.observe_blow(model, [before, after], stepper.contacts()),
         Span::Motion => judge.observe_motion(model, [before, after], &stepper.moments(model, [before, after])),

@@ -6,8 +6,8 @@
 //! contact solver: with accelerations for velocities it is the same law for contacts that do not slip; one that slips
 //! gets so large a fictitious slip that its force is on the edge of the cone.
 
-use super::forces::{Choice, Forces, Held, Mode, NO_SLIP, Rows, edge};
-use super::touch::Touch;
+use super::forces::{Choice, Forces, Held, Mode, NO_SLIP, Rows, Slip, direction, edge, meeting_m_s};
+use super::touch::{Here, Touch};
 use crate::experiment::types::{Cone, Correction, Iteration};
 use crate::measure::work::Work;
 use crate::model::Model;
@@ -19,6 +19,8 @@ use nalgebra::Vector3;
 /// What is known of a change: these contacts are about to open, these to slip.
 #[derive(Clone, Debug, Default)]
 pub struct Change {
+    /// What slips no faster, sticks if it can.
+    pub slow_m_s: f64,
     pub opening: Vec<crate::collide::Key>,
     pub slipping: Vec<(crate::collide::Key, Vector3<f64>)>,
 }
@@ -50,18 +52,24 @@ pub fn decide(
         return Decision::Holds(Vec::new());
     }
     forces.gather(model, state, touches.iter());
-    let modes: Vec<Mode> =
-        touches.iter().enumerate().map(|(i, touch)| mode(model, state, forces, i, touch, change)).collect();
+    let slow: Vec<bool> = touches.iter().enumerate().map(|(i, touch)| slips(model, state, forces, (i, touch), change.slow_m_s).is_none()).collect();
+    let young = |i: usize| if slow[i] { Slip::Young } else { Slip::Fast };
+    let modes: Vec<Mode> = touches.iter().enumerate().map(|(i, touch)| mode(model, state, forces, i, touch, change)).collect();
     work.contact_solves += 1;
     if let [touch] = &touches[..]
         && model.pins.is_empty()
-        && let Some(decision) = alone(forces, touch, modes[0])
+        && let Some(decision) = alone(forces, touch, modes[0], young(0))
     {
+        if let Decision::Holds(held) = &decision
+            && !held.is_empty()
+        {
+            forces.hold(held, Choice::Any);
+        }
         return decision;
     }
     let hold = |modes: &[Mode]| {
-        let held = touches.iter().zip(modes).map(|(touch, mode)| Held { touch: touch.clone(), mode: *mode });
-        Decision::Holds(held.collect())
+        let held = |(i, mode): (usize, &Mode)| Held { touch: touches[i].clone(), mode: *mode, slip: young(i) };
+        Decision::Holds(modes.iter().enumerate().map(held).collect())
     };
     if try_modes(forces, &modes) {
         let failing = failing_sticks(forces, &modes);
@@ -73,7 +81,7 @@ pub fn decide(
             return hold(&sliding);
         }
     }
-    by_law(forces, &modes, &touches, work)
+    by_law(forces, &modes, &touches, &slow, work)
 }
 
 /// Of a contact as it moves now.
@@ -84,24 +92,25 @@ fn mode(model: &Model, state: &State, forces: &Forces, i: usize, touch: &Touch, 
     if let Some((_, d)) = change.slipping.iter().find(|(key, _)| *key == touch.key()) {
         return Mode::Slide(*d);
     }
-    let slip = forces.here[i].slip_W();
-    let speed = slip.norm();
-    if speed > NO_SLIP * speeds(model, state, touch) { Mode::Slide(slip / speed) } else { Mode::Stick }
+    slips(model, state, forces, (i, touch), change.slow_m_s).map_or(Mode::Stick, Mode::Slide)
 }
 
-/// Of the points that meet, and what a fall by the size of the body would make of them: what is rounding beside it.
-pub fn speeds(model: &Model, state: &State, touch: &Touch) -> f64 {
-    let of = |i: usize| {
-        let (body, at) = (&model.bodies[i], &state.bodies[i]);
-        let fall = (model.gravity_m_s2.norm() * body.bounding_radius_m).sqrt();
-        at.v_WB.norm() + at.w_WB.norm() * body.bounding_radius_m + 1e-2 * fall
-    };
-    touch.bodies().map(of).fold(0.0, f64::max)
+/// Along which direction.
+fn slips(
+    model: &Model,
+    state: &State,
+    forces: &Forces,
+    (i, touch): (usize, &Touch),
+    slow_m_s: f64,
+) -> Option<Vector3<f64>> {
+    let slip = forces.here[i].slip_W();
+    let speed = slip.norm();
+    (speed > slow_m_s.max(NO_SLIP * meeting_m_s(model, state, touch.bodies()))).then(|| slip / speed)
 }
 
 /// One contact has its law solved by hand. None: leave it to the law.
-fn alone(forces: &mut Forces, touch: &Touch, mode: Mode) -> Option<Decision> {
-    let holds = |mode: Mode| Some(Decision::Holds(vec![Held { touch: touch.clone(), mode }]));
+fn alone(forces: &mut Forces, touch: &Touch, mode: Mode, slip: Slip) -> Option<Decision> {
+    let holds = |mode: Mode| Some(Decision::Holds(vec![Held { touch: touch.clone(), mode, slip }]));
     let block = forces.problem.blocks[0];
     if block.b.x >= 0.0 {
         return Some(Decision::Holds(Vec::new()));
@@ -184,7 +193,7 @@ fn slide_on(forces: &Forces, before: &[Mode], after: &[Mode]) -> bool {
 }
 
 /// The law of all contacts.
-fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], work: &mut Work) -> Decision {
+fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], slow: &[bool], work: &mut Work) -> Decision {
     let mut problem = forces.problem.clone();
     let scale = problem.blocks.iter().map(|block| block.b.norm()).fold(0.0, f64::max);
     for (block, mode) in problem.blocks.iter_mut().zip(modes) {
@@ -220,7 +229,8 @@ fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], work: &mut Wor
             Mode::Stick if a_W.norm() > ROUNDING * scale => Mode::Slide(a_W.normalize()),
             mode => mode,
         };
-        held.push(Held { touch: touch.clone(), mode });
+        let slip = if slow[i] { Slip::Young } else { Slip::Fast };
+        held.push(Held { touch: touch.clone(), mode, slip });
     }
     forces.p = p;
     Decision::Holds(held)
@@ -231,8 +241,7 @@ fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], work: &mut Wor
 /// pulls or slips, but could share them otherwise, nothing has.
 pub fn margin(model: &Model, state: &State, held: &[Held], forces: &mut Forces, work: &mut Work) -> f64 {
     forces.gather(model, state, held.iter().map(|held| &held.touch));
-    forces.set_modes(held.iter());
-    if !forces.solve(Choice::Least) {
+    if !forces.hold(held, Choice::Least) {
         return -1.0;
     }
     let largest = forces.p.iter().map(|p| p.norm()).fold(0.0, f64::max);
@@ -247,22 +256,22 @@ pub fn margin(model: &Model, state: &State, held: &[Held], forces: &mut Forces, 
     if least >= 0.0 || held.len() == 1 {
         return least;
     }
-    let modes: Vec<Mode> = held
-        .iter()
-        .enumerate()
-        .map(|(i, held)| match held.mode {
-            Mode::Slide(from) => Mode::Slide(super::forces::direction(&forces.here[i], &from)),
-            stick => stick,
-        })
-        .collect();
+    let mode = |(held, here): (&Held, &Here)| match held.mode {
+        Mode::Slide(_) => Mode::Slide(direction(held, here)),
+        Mode::Stick => Mode::Stick,
+    };
+    let modes: Vec<Mode> = held.iter().zip(&forces.here).map(mode).collect();
     let touches: Vec<Touch> = held.iter().map(|held| held.touch.clone()).collect();
-    match by_law(forces, &modes, &touches, work) {
+    let (p, added) = (forces.p.clone(), forces.added.clone());
+    let now = by_law(forces, &modes, &touches, &vec![true; held.len()], work);
+    match now {
         // Slightly positive: the true margin is not known.
-        Decision::Holds(now)
-            if now.len() == held.len() && now.iter().zip(&modes).all(|(now, mode)| now.mode == *mode) =>
-        {
+        Decision::Holds(now) if now.len() == held.len() && now.iter().zip(&modes).all(|(now, mode)| now.mode == *mode) => {
             1e-3
         }
-        _ => least,
+        _ => {
+            (forces.p, forces.added) = (p, added);
+            least
+        }
     }
 }

@@ -7,14 +7,14 @@
 //! smallest.
 
 use super::touch::{Here, Touch};
-use crate::collide::Contact;
 use crate::collide::approach::Approach;
+use crate::collide::Contact;
 use crate::integrate::rotation::gyroscopic_torque_B;
-use crate::model::Model;
+use crate::model::{Body, Model};
 use crate::model::pins::Anchor;
-use crate::solve::Impulse;
+use crate::solve::{Impulse, exact_contact};
 use crate::solve::problem::{ContactProblem, Pin, PinEnd, Twist};
-use crate::state::State;
+use crate::state::{BodyState, State};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// How a contact holds.
@@ -25,10 +25,33 @@ pub enum Mode {
     Slide(Vector3<f64>),
 }
 
+/// How far a slip is from its beginning and its end, where its direction is stiff: it turns toward that of the acceleration
+/// at the rate μ f/(m |s|), which has no bound as s → 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Slip {
+    Fast,
+    /// It has just begun: of one contact the slip is along its own acceleration, Coulomb's law with accelerations for
+    /// velocities; what this leaves out grows with the fifth power of time. Of several it keeps its direction.
+    Young,
+    /// It ends at once, and keeps its direction.
+    Fading,
+}
+
 #[derive(Clone, Debug)]
 pub struct Held {
     pub touch: Touch,
     pub mode: Mode,
+    pub slip: Slip,
+}
+
+impl Held {
+    /// It slides with friction.
+    pub fn slides(&self) -> Option<Vector3<f64>> {
+        match self.mode {
+            Mode::Slide(d) if d != Vector3::zeros() => Some(d),
+            _ => None,
+        }
+    }
 }
 
 /// What a block's force may be.
@@ -61,8 +84,19 @@ pub struct Forces {
     pins: Vec<Pin>,
 }
 
-/// Slower, of the speeds that meet at a contact, is no slip.
+/// Slower, of the speeds that meet at a contact, is no slip, and no approach.
 pub const NO_SLIP: f64 = 1e-12;
+
+/// Of a body's points, and a part of what a fall by its own size would make of it.
+pub fn speed_m_s(model: &Model, body: &Body, at: &BodyState) -> f64 {
+    let fall = (model.gravity_m_s2.norm() * body.bounding_radius_m).sqrt();
+    at.v_WB.norm() + at.w_WB.norm() * body.bounding_radius_m + 1e-2 * fall
+}
+
+/// Of the bodies that meet.
+pub fn meeting_m_s(model: &Model, state: &State, bodies: impl Iterator<Item = usize>) -> f64 {
+    bodies.map(|i| speed_m_s(model, &model.bodies[i], &state.bodies[i])).fold(0.0, f64::max)
+}
 
 impl Forces {
     /// Accelerations without contact, and b, of these touches and of all pins.
@@ -104,12 +138,7 @@ impl Forces {
     }
 
     /// `bias`: what a pin's end is accelerated by the body's rotation.
-    fn pin(
-        &mut self,
-        model: &Model,
-        state: &State,
-        bias: impl Fn(&crate::state::BodyState, &Vector3<f64>) -> Vector3<f64>,
-    ) {
+    fn pin(&mut self, model: &Model, state: &State, bias: impl Fn(&BodyState, &Vector3<f64>) -> Vector3<f64>) {
         if model.pins.is_empty() {
             return;
         }
@@ -133,16 +162,44 @@ impl Forces {
         self.problem.pin(model, state, &self.free, &self.pins);
     }
 
-    /// The rows of modes, pins after them.
-    pub fn set_modes<'a>(&mut self, held: impl Iterator<Item = &'a Held>) {
+    /// Solves for what holds, pins with it.
+    pub fn hold(&mut self, held: &[Held], choice: Choice) -> bool {
+        if let ([Held { slip: Slip::Young, mode: Mode::Slide(_), .. }], [block]) = (held, &self.problem.blocks[..]) {
+            self.p.clear();
+            self.p.push(exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction));
+            self.problem.response(&self.p, &mut self.added);
+            return true;
+        }
         self.rows.clear();
-        for ((held, here), block) in held.zip(&self.here).zip(&self.problem.blocks) {
+        for ((held, here), block) in held.iter().zip(&self.here).zip(&self.problem.blocks) {
             self.rows.push(match held.mode {
                 Mode::Stick => Rows::All,
-                Mode::Slide(from) => Rows::Normal(edge(block.friction, &block.frame, &direction(here, &from))),
+                Mode::Slide(_) => Rows::Normal(edge(block.friction, &block.frame, &direction(held, here))),
             });
         }
         self.rows.resize(self.problem.blocks.len(), Rows::All);
+        self.solve(choice) && (choice == Choice::Any || self.push_only(held.len()))
+    }
+
+    /// Of contacts that share forces, those that would pull are left out as long as the others can hold them: which of them
+    /// press decides how a slab that spins is slowed.
+    fn push_only(&mut self, contacts: usize) -> bool {
+        let scale = self.problem.blocks.iter().map(|block| block.b.norm()).fold(0.0, f64::max);
+        let (all_rows, all, all_added) = (self.rows.clone(), self.p.clone(), self.added.clone());
+        for _ in 0..contacts {
+            let Some(worst) = (0..contacts).min_by(|a, b| self.p[*a].x.total_cmp(&self.p[*b].x)) else { return true };
+            if self.p[worst].x >= 0.0 {
+                return true;
+            }
+            self.rows[worst] = Rows::None;
+            let solved = self.solve(Choice::Least);
+            let lifts = |i: usize| self.problem.blocks[i].velocity(&self.added).x.abs() > CONSISTENT * scale;
+            if !solved || (0..contacts).any(lifts) {
+                break;
+            }
+        }
+        (self.rows, self.p, self.added) = (all_rows, all, all_added);
+        true
     }
 
     /// Solves for the rows set, and works out `added`. False: no solution to rounding.
@@ -165,15 +222,16 @@ pub fn edge(friction: f64, frame: &[Vector3<f64>; 3], d_W: &Vector3<f64>) -> Vec
     Vector3::new(1.0, -friction * frame[1].dot(d_W), -friction * frame[2].dot(d_W))
 }
 
-/// Of a slip that is on the side of `from`, or just about to be: beyond zero it goes on smoothly, so that an integrator may
-/// step over the end of the slip, which is found afterwards.
-pub fn direction(here: &Here, from: &Vector3<f64>) -> Vector3<f64> {
+/// Of a slip: beyond zero it goes on smoothly, so that an integrator may step over the end of the slip, which is found
+/// afterwards.
+pub fn direction(held: &Held, here: &Here) -> Vector3<f64> {
+    let Some(from) = held.slides() else { return Vector3::zeros() };
     let slip = here.slip_W();
     let speed = slip.norm();
-    if speed <= f64::MIN_POSITIVE || *from == Vector3::zeros() {
-        return *from;
+    if held.slip != Slip::Fast || speed == 0.0 {
+        return from;
     }
-    if slip.dot(from) >= 0.0 { slip / speed } else { -slip / speed }
+    if slip.dot(&from) >= 0.0 { slip / speed } else { -slip / speed }
 }
 
 /// V̇ of a body by gravity, loads and its own rotation.

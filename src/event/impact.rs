@@ -39,7 +39,7 @@ pub fn strike(
 ) -> bool {
     forces.gather_plain(model, state, contacts);
     let problem = &mut forces.problem;
-    let mut plastic = |problem: &ContactProblem, p: &mut [Impulse], work: &mut Work| {
+    let plastic = |problem: &ContactProblem, p: &mut [Impulse], work: &mut Work| {
         if let [block] = &problem.blocks[..]
             && block.pin.is_none()
         {
@@ -72,13 +72,7 @@ pub fn strike(
 }
 
 /// Stops the slip of one contact by the impulse that this takes, if it is in the cone.
-pub fn jam(
-    model: &Model,
-    state: &mut State,
-    touch: &Touch,
-    forces: &mut Forces,
-    solved: &mut Vec<SolvedContact>,
-) -> bool {
+pub fn jam(model: &Model, state: &mut State, touch: &Touch, forces: &mut Forces, solved: &mut Vec<SolvedContact>) -> bool {
     let contact = touch.here(state).contact;
     forces.gather_plain(model, state, &[contact]);
     let block = &forces.problem.blocks[0];

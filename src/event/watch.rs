@@ -10,7 +10,7 @@
 //! thousandth of their size by their points of contact.
 
 use super::dense::Dense;
-use super::forces::Held;
+use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::motion::{Bounds, Motion};
 use crate::collide::pair::touches;
 use crate::collide::solid::{Pose, Solid, Touch as Found};
@@ -74,7 +74,6 @@ impl Look {
         let g = match self.gap_m {
             gap_m if gap_m > delta_m => gap_m,
             // A bounce comes back to where it began; what lingers within δ is let through it.
-            _ if self.rate_m_s > slow_m_s => 0.0,
             gap_m => gap_m.max(0.0) + delta_m,
         };
         let (rate, m) = (self.rate_m_s, self.toward_m_s2);
@@ -85,6 +84,12 @@ impl Look {
             2.0 * g / (square.sqrt() - rate)
         } else {
             (rate + square.sqrt()) / m
+        };
+        let s = if self.gap_m <= delta_m && rate > slow_m_s && m > 0.0 {
+            // A bounce comes back to where it began, but for what M is too much.
+            (2.0 * rate / m).max((2.0 * delta_m / m).sqrt())
+        } else {
+            s
         };
         s.min(self.known_s)
     }
@@ -150,11 +155,6 @@ fn march(window: Window, mut look: impl FnMut(f64) -> Option<(f64, bool)>) -> Op
     Some(t_s)
 }
 
-/// What closes more slowly does so by rounding.
-fn slow_m_s(bounds: &Bounds, at: &BodyState, radius_m: f64) -> f64 {
-    1e-13 * (at.v_WB.norm() + radius_m * at.w_WB.norm()) + 1e-15 * (bounds.acceleration.norm() * radius_m).sqrt()
-}
-
 fn with_face(
     paths: &Paths,
     (i, body): (usize, &Body),
@@ -185,7 +185,7 @@ fn with_face(
         if centre.gap_m > delta_m && arm_m > 0.0 {
             return Some((centre.safe_s(delta_m, 0.0), false));
         }
-        let slow = slow_m_s(&bounds, &at, radius_m);
+        let slow = NO_SLIP * speed_m_s(paths.model, body, &at);
         let (curvature_m, known_s) = roundness(body, &at, &face.normal, &bounds);
         let toward_m_s2 = bounds.toward(&face.normal, arm_m) + bounds.w * bounds.w * curvature_m;
         let (mut safe_s, mut touching) = (f64::INFINITY, false);
@@ -228,11 +228,7 @@ fn roundness(body: &Body, at: &BodyState, normal: &Vector3<f64>, bounds: &Bounds
         Geometry::Solid { solid: Solid::Cylinder { radius_m, .. }, .. } => {
             let tilt = at.q_WB.inverse_transform_vector(normal).cross(&Vector3::y()).norm();
             let flat = tilt < 1e-8;
-            if flat {
-                (0.0, f64::INFINITY)
-            } else {
-                (2.0 * radius_m / tilt, 0.5 * tilt / bounds.w.max(f64::MIN_POSITIVE))
-            }
+            if flat { (0.0, f64::INFINITY) } else { (2.0 * radius_m / tilt, 0.5 * tilt / bounds.w.max(f64::MIN_POSITIVE)) }
         }
         _ => (0.0, f64::INFINITY),
     }
@@ -264,17 +260,12 @@ fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Windo
         let at = pair.map(|i| paths.at(i, t_s));
         work.contact_tests += 1;
         let delta_m = delta_m(sizes[0].min(sizes[1]), at[0].p_WB.amax().max(at[1].p_WB.amax()) + sizes[0]);
-        let slow = slow_m_s(&bounds[0], &at[0], sizes[0]) + slow_m_s(&bounds[1], &at[1], sizes[1]);
-        let poses =
-            [(centre_a, &at[0]), (centre_b, &at[1])].map(|(c, at)| Pose { p_W: at.p_WB + at.q_WB * c, q_W: at.q_WB });
+        let slow = NO_SLIP * [0, 1].map(|k| speed_m_s(paths.model, bodies[k], &at[k])).into_iter().fold(0.0, f64::max);
+        let poses = [(centre_a, &at[0]), (centre_b, &at[1])].map(|(c, at)| Pose { p_W: at.p_WB + at.q_WB * c, q_W: at.q_WB });
         let of_centres = balls.is_some();
         let point = |side: usize| if of_centres { poses[side].p_W } else { at[side].p_WB };
         let rate = |side: usize| {
-            if of_centres {
-                at[side].v_WB + at[side].w_WB.cross(&(poses[side].p_W - at[side].p_WB))
-            } else {
-                at[side].v_WB
-            }
+            if of_centres { at[side].v_WB + at[side].w_WB.cross(&(poses[side].p_W - at[side].p_WB)) } else { at[side].v_WB }
         };
         let apart = point(0) - point(1);
         let distance = apart.norm();
@@ -306,23 +297,13 @@ fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Windo
             let velocity = |side: usize| at[side].v_WB + at[side].w_WB.cross(&(touch.p_W - at[side].p_WB));
             let rate_m_s = touch.normal.dot(&(velocity(0) - velocity(1)));
             if touch.gap_m > near_m {
-                let bound = Look {
-                    gap_m: touch.gap_m - near_m / 2.0,
-                    rate_m_s: -closing,
-                    toward_m_s2: between,
-                    known_s: f64::INFINITY,
-                };
+                let bound = Look { gap_m: touch.gap_m - near_m / 2.0, rate_m_s: -closing, toward_m_s2: between, known_s: f64::INFINITY };
                 safe_s = safe_s.min(bound.safe_s(delta_m, slow));
                 continue;
             }
             // The normal turns with the bodies.
             let turning = 2.0 * (bounds[0].w + bounds[1].w) * closing;
-            let look = Look {
-                gap_m: touch.gap_m,
-                rate_m_s,
-                toward_m_s2: 2.0 * points_toward + turning,
-                known_s: near_m / closing,
-            };
+            let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2: 2.0 * points_toward + turning, known_s: near_m / closing };
             safe_s = safe_s.min(look.safe_s(delta_m, slow));
             touching |= look.is_touching(delta_m, slow);
         }

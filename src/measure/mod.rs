@@ -61,6 +61,8 @@ pub struct Judge {
     pub pin_gap_max_m: Option<f64>,
     pub watched: Watched,
     divergence: Divergence,
+    /// A hundredth of a fall by the size of the largest body: what slips less than a force changes velocities in it, rests.
+    moment_s: f64,
     /// Between two steps.
     middle: State,
     pushes: Vec<Push>,
@@ -78,6 +80,7 @@ impl Judge {
             pin_gap_max_m: model.pin_gap_m(&start.bodies),
             watched: Watched::default(),
             divergence: Divergence::new(rules, &energy),
+            moment_s: moment_s(model),
             middle: start.clone(),
             pushes: vec![Push::NONE; model.bodies.len()],
         }
@@ -146,12 +149,15 @@ impl Judge {
         let span_s = after.time_s - before.time_s;
         let energy = Energy::of(model, after);
         let mut depth_m = 0.0_f64;
-        for Moment { state, contacts, .. } in moments.iter().filter(|moment| !moment.contacts.is_empty()) {
+        for Moment { state, contacts, weight_s } in moments.iter().filter(|moment| !moment.contacts.is_empty()) {
             self.gather_pushes(contacts);
             self.energy.observe_forces(model, state, &self.pushes);
             self.momentum.observe_pushes(model, state, &self.pushes);
             self.pushes.fill(Push::NONE);
-            self.residual.observe(model, [state, state], contacts, &self.pushes, 0.0);
+            // Forces, as impulses that velocities can be held against.
+            let longer = self.moment_s.max(*weight_s) / weight_s;
+            let forces = contacts.iter().map(|s| SolvedContact { impulse_W: s.impulse_W * longer, ..*s });
+            self.residual.observe(model, [state, state], &forces.collect::<Vec<_>>(), &self.pushes, 0.0);
             self.watched.observe(state, contacts);
             depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(depth_m, f64::max);
             self.contacts_max = self.contacts_max.max(contacts.len() as u64);
@@ -188,6 +194,12 @@ impl Judge {
             }
         }
     }
+}
+
+fn moment_s(model: &Model) -> f64 {
+    let size_m = model.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max);
+    let g = model.gravity_m_s2.norm();
+    if g > 0.0 { 0.01 * (size_m / g).sqrt() } else { 0.0 }
 }
 
 /// Largest depth of any point of any body in the container or in another body.

@@ -202,6 +202,11 @@ impl ResidualLedger {
         }
     }
 
+    /// How the next steps go through a contact.
+    pub fn steps_as(&mut self, approach: Approach) {
+        self.approach = approach;
+    }
+
     /// `states`: where the impulses acted, and after the step.
     pub fn observe(
         &mut self,

@@ -3,21 +3,21 @@
 //! A step is one of both. The clock means nothing here but its end: where a recorder looks is read off the motion, so that
 //! the run is the same with or without it.
 
-use super::Span;
-use crate::collide::solid::Solid;
+use super::{Clock, Scratch, Span, time_stepping};
 use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
-use crate::event::decide::{Change, Decision, decide, margin, speeds};
-use crate::event::dense::{Dense, Field, point_along, project};
-use crate::event::forces::{Choice, Forces, Held, Mode, NO_SLIP};
+use crate::event::decide::{Change, Decision, decide, margin};
+use crate::event::dense::{Dense, Field, look_at_slips, project};
+use crate::event::forces::{Choice, Forces, Held, Mode, NO_SLIP, Slip, meeting_m_s};
 use crate::event::impact;
 use crate::event::motion::Motion;
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
 use crate::exact::arc::Arc;
-use crate::experiment::types::{EventDriven as Settings, Impact};
+use crate::experiment::types::{EventDriven as Settings, Impact, Method, Scheme, Solver, TimeStepping};
 use crate::measure::Moment;
 use crate::measure::divergence::Criterion;
 use crate::measure::work::Work;
+use crate::collide::solid::Solid;
 use crate::model::{Body, Geometry, Model};
 use crate::plan::Plan;
 use crate::solve::problem::Twist;
@@ -51,8 +51,13 @@ pub struct EventDriven {
     /// Of the projection.
     placing: Forces,
     scratch: State,
-    /// Events without any time between them.
+    /// Events without any time between them; and when counting of events began, with how many.
     at_once: u32,
+    counted_from: (f64, u64),
+    /// Events lead no further from here.
+    trouble: Option<()>,
+    /// Steps of equal length instead, and how many are left.
+    stretch: Option<(Box<time_stepping::TimeStepping>, u32)>,
     pub(super) span: Span,
     pub(super) stalled: Option<Criterion>,
     pub(super) solved: Vec<SolvedContact>,
@@ -71,6 +76,13 @@ const LOOKS: u32 = 4;
 
 /// Events at one moment, of all contacts, before something is wrong.
 const AT_ONCE: u32 = 200;
+
+/// More events than this in the time of a stretch are too many: those that cost an integration, and others.
+const MANY_DENSE: u64 = 2_000;
+const MANY: u64 = 100_000;
+
+/// Steps of equal length in one go.
+const STRETCH: u32 = 32;
 
 /// Of the bounding radius: what is nearer is looked at when something touches.
 const MARGIN: f64 = 1e-9;
@@ -92,6 +104,9 @@ impl EventDriven {
             placing: Forces::default(),
             scratch: start.clone(),
             at_once: 0,
+            counted_from: (start.time_s, 0),
+            trouble: None,
+            stretch: None,
             span: Span::Motion,
             stalled: None,
             solved: Vec::with_capacity(16),
@@ -100,6 +115,18 @@ impl EventDriven {
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, end_s: f64) {
+        if self.stretch.is_none() {
+            self.step_to_event(model, state, end_s);
+        }
+        if self.trouble.take().is_some() {
+            self.begin_stretch(model, state);
+        }
+        if self.stretch.is_some() {
+            self.step_of_stretch(model, state, end_s);
+        }
+    }
+
+    fn step_to_event(&mut self, model: &Model, state: &mut State, end_s: f64) {
         state.step += 1;
         self.span = Span::Motion;
         let from_s = state.time_s;
@@ -109,7 +136,7 @@ impl EventDriven {
             Event::Step => false,
             Event::Start => {
                 self.detect(model, state);
-                let struck = self.is_struck(model, state) && self.strike(model, state);
+                let struck = self.strike(model, state);
                 self.regroup(model, state, &Change::default()) || struck
             }
             Event::Impact => {
@@ -124,38 +151,90 @@ impl EventDriven {
         };
         if blow {
             self.span = Span::Blow;
-        } else if self.stalled.is_none() {
+        } else if self.stalled.is_none() && self.trouble.is_none() {
             self.advance(model, state, end_s);
         }
         self.at_once = if state.time_s > from_s { 0 } else { self.at_once + 1 };
-        if self.at_once > AT_ONCE {
-            self.stalled = Some(Criterion::Zeno);
+        if self.at_once > AT_ONCE || self.accumulates(model, state) {
+            self.trouble = Some(());
         }
+    }
+
+    /// Events come faster than steps of equal length would take.
+    fn accumulates(&mut self, model: &Model, state: &State) -> bool {
+        if state.time_s - self.counted_from.0 > f64::from(STRETCH) * short_step_s(model) {
+            self.counted_from = (state.time_s, self.work.events);
+        }
+        let most = if self.dense.is_some() { MANY_DENSE } else { MANY };
+        self.work.events - self.counted_from.1 > most
+    }
+
+    fn begin_stretch(&mut self, model: &Model, state: &State) {
+        self.work.fallbacks += 1;
+        let settings = TimeStepping { solver: Solver::Newton, scheme: Scheme::Moreau, impact: self.law, ..Default::default() };
+        let plan = Plan::new(model, &Method::TimeStepping(settings.clone()));
+        let stepper = time_stepping::TimeStepping::new(&settings, &plan, state, Scratch::new(model, &plan));
+        self.stretch = Some((Box::new(stepper), STRETCH));
+        self.motions.clear();
+        self.held.clear();
+        self.dense = None;
+    }
+
+    /// One step of equal length by time-stepping; after the last one, back to events.
+    fn step_of_stretch(&mut self, model: &Model, state: &mut State, end_s: f64) {
+        let Some((stepper, left)) = &mut self.stretch else { return };
+        let (step, from_s) = (state.step, state.time_s);
+        let h = short_step_s(model).min(end_s - from_s);
+        let until_s = if from_s + h * 1.000_001 >= end_s { end_s } else { from_s + h };
+        stepper.step(model, state, &Clock { steps: u64::MAX, end_s, step_s: until_s - from_s });
+        (state.step, state.time_s) = (step + 1, until_s);
+        self.span = Span::Short { step_s: until_s - from_s };
+        self.solved.clear();
+        self.solved.extend_from_slice(&stepper.scratch.solved);
+        *left -= 1;
+        if *left == 0 {
+            self.work.unsolved += stepper.scratch.work.unsolved;
+            self.stretch = None;
+            self.next = Event::Start;
+            self.counted_from = (until_s, self.work.events);
+            self.at_once = 0;
+        }
+    }
+
+    /// Where the last step of equal length had its impulses.
+    pub fn kicked(&self) -> Option<&State> {
+        self.stretch.as_ref().and_then(|(stepper, _)| stepper.kicked.as_ref())
     }
 
     /// Fills `found` with what touches now.
     fn detect(&mut self, model: &Model, state: &State) {
         self.found.clear();
         if self.contact {
-            self.detector.detect(
-                model,
-                state,
-                &Reach { margin: MARGIN, ahead_s: 0.0 },
-                &mut self.found,
-                &mut self.work,
-            );
+            self.detector.detect(model, state, &Reach { margin: MARGIN, ahead_s: 0.0 }, &mut self.found, &mut self.work);
             self.found.retain(|contact| watch::is_closed(model, contact));
         }
     }
 
-    fn is_struck(&self, model: &Model, state: &State) -> bool {
-        self.found.iter().any(|contact| {
-            let speed = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
-            speed < -NO_SLIP * contact.ends().map(|(i, ..)| scale_m_s(model, state, i)).fold(0.0, f64::max)
-        })
+    /// Of a contact, and what it is compared with.
+    fn approach_m_s(model: &Model, state: &State, contact: &Contact) -> (f64, f64) {
+        let speed = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
+        (-speed, meeting_m_s(model, state, contact.ends().map(|(i, ..)| i)))
     }
 
+    /// An impact, if something comes nearer.
     fn strike(&mut self, model: &Model, state: &mut State) -> bool {
+        let strikes = |contact: &Contact| {
+            let (approach, scale) = Self::approach_m_s(model, state, contact);
+            approach > NO_SLIP * scale
+        };
+        if !self.found.iter().any(strikes) {
+            return false;
+        }
+        for k in 0..self.found.len() {
+            if self.bounces_out(model, state, &self.found[k]) {
+                self.found[k].restitution = 0.0;
+            }
+        }
         let (forces, solved, work) = (&mut self.forces, &mut self.solved, &mut self.work);
         if !impact::strike(model, state, &self.found, self.law, forces, solved, work) {
             work.unsolved += 1;
@@ -163,9 +242,31 @@ impl EventDriven {
         true
     }
 
+    /// The bounces that are left after this one do not matter (Zeno).
+    fn bounces_out(&self, model: &Model, state: &State, contact: &Contact) -> bool {
+        let falling = -contact.normal.dot(&model.gravity_m_s2);
+        let left = 1.0 - contact.restitution;
+        if falling <= 0.0 || left <= 0.0 || contact.restitution == 0.0 {
+            return false;
+        }
+        let (approach, scale) = Self::approach_m_s(model, state, contact);
+        // A ball's bounces cost so little that they are followed to rounding.
+        if self.found.len() == 1 && contact.ends().all(|(i, ..)| is_centred_ball(&model.bodies[i])) {
+            return approach <= BOUNCED_OUT * scale;
+        }
+        approach * approach / (2.0 * falling * left * left) <= self.negligible_m(model, contact)
+    }
+
+    /// A height that does not matter.
+    fn negligible_m(&self, model: &Model, contact: &Contact) -> f64 {
+        let radius_m = contact.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).fold(f64::INFINITY, f64::min);
+        (ZENO * self.tolerance).max(10.0 * watch::DELTA * radius_m)
+    }
+
     /// What holds from now on, and how everything moves. True: an impulse was needed to end a slip.
     fn regroup(&mut self, model: &Model, state: &mut State, change: &Change) -> bool {
         let Some(touches) = self.resting(model, state) else { return false };
+        let change = &Change { slow_m_s: self.slow_m_s(model)[1], ..change.clone() };
         let decision = decide(model, state, touches, change, &mut self.forces, &mut self.work);
         let mut jammed = false;
         self.held = match decision {
@@ -177,14 +278,13 @@ impl EventDriven {
                 return jammed;
             }
             Decision::Unsolved => {
-                self.stalled = Some(Criterion::NotConverged);
+                self.trouble = Some(());
                 return false;
             }
         };
         if project(model, state, &self.held, &mut self.placing) || self.held.len() != self.forces.here.len() {
             self.forces.gather(model, state, self.held.iter().map(|held| &held.touch));
-            self.forces.set_modes(self.held.iter());
-            self.forces.solve(Choice::Least);
+            self.forces.hold(&self.held, Choice::Least);
         }
         self.set_motions(model, state);
         jammed
@@ -194,33 +294,21 @@ impl EventDriven {
     fn resting(&mut self, model: &Model, state: &State) -> Option<Vec<Touch>> {
         let mut resting = Vec::new();
         for contact in &self.found {
-            let speed = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
-            let scale = contact.ends().map(|(i, ..)| scale_m_s(model, state, i)).fold(0.0, f64::max);
-            if speed > NO_SLIP * scale && !self.has_bounced_out(model, contact, speed, scale) {
+            let (approach, scale) = Self::approach_m_s(model, state, contact);
+            // What has lost its restitution may rock on: at last it rests.
+            let falling = -contact.normal.dot(&model.gravity_m_s2);
+            let rocks = contact.restitution == 0.0 && falling > 0.0;
+            let rests_m_s = if rocks { (2.0 * falling * self.negligible_m(model, contact)).sqrt() } else { 0.0 };
+            if -approach > rests_m_s.max(NO_SLIP * scale) {
                 continue;
             }
             let Some(touch) = Touch::new(model, state, contact) else {
-                self.stalled = Some(Criterion::NotConverged);
+                self.trouble = Some(());
                 return None;
             };
             resting.push(touch);
         }
         Some(resting)
-    }
-
-    /// The bounces that are left do not matter (Zeno).
-    fn has_bounced_out(&self, model: &Model, contact: &Contact, speed: f64, scale: f64) -> bool {
-        let falling = -contact.normal.dot(&model.gravity_m_s2);
-        let left = 1.0 - contact.restitution;
-        if falling <= 0.0 || left <= 0.0 {
-            return false;
-        }
-        // A ball's bounces cost so little that they are followed to rounding.
-        if self.found.len() == 1 && contact.ends().all(|(i, ..)| is_centred_ball(&model.bodies[i])) {
-            return speed <= BOUNCED_OUT * scale;
-        }
-        let negligible_m = (ZENO * self.tolerance).max(4.0 * f64::EPSILON * contact.p_WC.amax());
-        speed * speed / (2.0 * falling * left * left) <= negligible_m
     }
 
     fn set_motions(&mut self, model: &Model, state: &mut State) {
@@ -303,10 +391,7 @@ impl EventDriven {
         let mut ends_s = f64::INFINITY;
         for k in own {
             let (here, block) = (&self.forces.here[*k], &self.forces.problem.blocks[*k]);
-            let Mode::Slide(d) = self.held[*k].mode else { continue };
-            if d == Vector3::zeros() {
-                continue;
-            }
+            let Some(d) = self.held[*k].slides() else { continue };
             let change = block.velocity(&self.forces.added);
             let change_W = block.frame[1] * change.y + block.frame[2] * change.z;
             let along = d.dot(&change_W);
@@ -328,7 +413,7 @@ impl EventDriven {
     fn advance(&mut self, model: &Model, state: &mut State, end_s: f64) {
         let mut to_s = end_s;
         if !self.integrate(model, state, end_s) {
-            self.stalled = Some(Criterion::NotConverged);
+            self.trouble = Some(());
             return;
         }
         if let Some(dense) = &self.dense {
@@ -354,17 +439,34 @@ impl EventDriven {
     /// A step of the integrator, if a body needs one.
     fn integrate(&mut self, model: &Model, state: &State, end_s: f64) -> bool {
         let Some(mut dense) = self.dense.take() else { return true };
-        point_along(&mut self.held, state);
         self.scratch.copy_from(state);
+        let mut most_s = longest_s(model);
+        if self.held.iter().any(|held| held.slides().is_some()) {
+            margin(model, state, &self.held, &mut self.forces, &mut self.work);
+            let slow_m_s = self.slow_m_s(model);
+            most_s = most_s.min(look_at_slips(&mut self.held, state, slow_m_s, &self.forces));
+            if self.held.iter().any(|held| held.slip == Slip::Young) {
+                // However slowly it begins: what accelerates it grows with the fall.
+                let (g, size_m) = falls(model);
+                most_s = most_s.min((2.0 * slow_m_s[0] / (g * (g / size_m).sqrt())).sqrt());
+            }
+        }
         dense.restart(state);
-        let good = dense.step(&mut self.field(model), end_s, longest_s(model));
+        let good = dense.step(&mut self.field(model), end_s, most_s);
         self.dense = Some(dense);
         good
     }
 
+    /// Slips that are young and that fade: what is left out is a part of the tolerance (`Slip`).
+    fn slow_m_s(&self, model: &Model) -> [f64; 2] {
+        let (g, size_m) = falls(model);
+        let tolerance = self.tolerance / size_m;
+        let speed = (g * size_m).sqrt();
+        [0.05 * speed * libm::pow(tolerance, 0.4), speed * (2e-4 * tolerance).sqrt()]
+    }
+
     fn field<'a>(&'a mut self, model: &'a Model) -> Field<'a> {
-        let sliding =
-            self.held.iter().filter(|held| matches!(held.mode, Mode::Slide(d) if d != Vector3::zeros())).count();
+        let sliding = self.held.iter().filter(|held| held.slides().is_some()).count();
         Field {
             model,
             motions: &self.motions,
@@ -419,9 +521,9 @@ impl EventDriven {
         let mut at = std::mem::replace(&mut self.scratch, State { step: 0, time_s: t_s, bodies: Vec::new() });
         at.time_s = t_s;
         self.state_at(model, &mut at);
-        let left = self.held.iter().map(|held| match held.mode {
-            Mode::Slide(d) if d != Vector3::zeros() => {
-                held.touch.here(&at).slip_W().dot(&d) / speeds(model, &at, &held.touch) + NO_SLIP
+        let left = self.held.iter().map(|held| match held.slides() {
+            Some(d) if held.slip != Slip::Young => {
+                held.touch.here(&at).slip_W().dot(&d) / meeting_m_s(model, &at, held.touch.bodies()) + NO_SLIP
             }
             _ => 1.0,
         });
@@ -483,6 +585,10 @@ impl EventDriven {
 
     /// Forces of contact at a state of the last stretch.
     pub fn forces_at(&mut self, model: &Model, state: &State) -> Vec<SolvedContact> {
+        if let Span::Short { step_s } = self.span {
+            let force = |s: &SolvedContact| SolvedContact { impulse_W: s.impulse_W / step_s, ..*s };
+            return self.solved.iter().map(force).collect();
+        }
         if self.held.is_empty() {
             return Vec::new();
         }
@@ -517,17 +623,22 @@ impl EventDriven {
     }
 }
 
-/// Of a body's points, and of its fall by its own size.
-fn scale_m_s(model: &Model, state: &State, i: usize) -> f64 {
-    let (body, at) = (&model.bodies[i], &state.bodies[i]);
-    let fall = (model.gravity_m_s2.norm() * body.bounding_radius_m).sqrt();
-    at.v_WB.norm() + at.w_WB.norm() * body.bounding_radius_m + 1e-2 * fall
-}
-
 /// Its forces turn nothing but itself about its centre of mass.
 fn is_centred_ball(body: &Body) -> bool {
     let centred = matches!(&body.geometry, Geometry::Solid { solid: Solid::Sphere { .. }, centre } if *centre == Vector3::zeros());
     body.isotropic && centred
+}
+
+/// Of a fall by the size of the bodies, a thousandth.
+fn short_step_s(model: &Model) -> f64 {
+    let (g, size_m) = falls(model);
+    if g > 0.0 { 1e-3 * (size_m / g).sqrt() } else { 1e-4 }
+}
+
+/// Gravity, and the size of the largest body.
+fn falls(model: &Model) -> (f64, f64) {
+    let size_m = model.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max);
+    (model.gravity_m_s2.norm(), if size_m > 0.0 { size_m } else { 1.0 })
 }
 
 /// A force that swings is not stepped over.

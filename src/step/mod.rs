@@ -76,6 +76,8 @@ pub enum Span {
     Step,
     /// An impact, which takes no time.
     Blow,
+    /// Of equal length, between events that were too many.
+    Short { step_s: f64 },
     /// A smooth motion with forces of contact, which `moments` shows.
     Motion,
 }
@@ -191,6 +193,7 @@ impl Stepper {
     pub fn kicked(&self) -> Option<&State> {
         match &self.method {
             Method::TimeStepping(method) => method.kicked.as_ref(),
+            Method::EventDriven(method) => method.kicked(),
             _ => None,
         }
     }

@@ -1,17 +1,15 @@
 //! `auto`: the method, and its step or tolerance, that follows this scene to the tolerance asked for.
 //!
 //! Two runs say how wrong the rougher of them is. `event-driven` comes first, at the tolerance and at a hundredth of it, and
-//! so on until two runs agree. Where it stalls, or hands stretches over to equal steps, its own tolerance means less:
-//! `time-stepping` of order 2 between impacts with the exact solver is tried too, its step halved until two runs agree or
-//! the budget is used up; the more accurate of the two is taken. The budget is counted in steps and not in seconds, so that
+//! so on until two runs agree; where a finer one stalls, a rougher one is asked. Where all of them stall, or hand stretches
+//! over to equal steps, their tolerance means less: `time-stepping` of order 2 between impacts with the exact solver is tried
+//! too, its step halved until two runs agree or the budget is used up; the more accurate of the two is taken. The budget is counted in steps and not in seconds, so that
 //! the choice is the same on every machine.
 //!
 //! An estimate is twice the largest distance of a body between the two runs, and some units of rounding of the largest
 //! coordinate. It sees positions at the end alone.
 
-use crate::experiment::types::{
-    Auto, EventDriven, Experiment, Measure, Method, Scheme, Solver, TimeStepping, finer_tolerance,
-};
+use crate::experiment::types::{Auto, EventDriven, Experiment, Measure, Method, Scheme, Solver, TimeStepping};
 use crate::integrate::SMALLEST_GLOBAL;
 use crate::measure::error::Errors;
 use crate::model::Model;
@@ -23,6 +21,8 @@ use std::time::Instant;
 
 /// From one tolerance to the next.
 const FINER: f64 = 100.0;
+/// Tolerances above the one asked for, before `event-driven` is given up.
+const ROUGHER: u32 = 4;
 const SAFETY: f64 = 2.0;
 /// Of the largest coordinate.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -94,24 +94,37 @@ impl Scene<'_> {
         if by_steps.estimate_m < by_events.estimate_m { by_steps } else { by_events }
     }
 
-    /// The first tolerance at which two runs agree, else the smallest; and whether all of it was by events.
+    /// The first tolerance at which two runs agree, else the one that agreed best; and whether both runs were by events to
+    /// their end.
     pub fn by_events(&self) -> (Candidate, bool) {
         let candidate = |tolerance, estimate_m| Candidate { method: by_events(tolerance), step_s: None, estimate_m };
+        let is_whole = |run: &Stepped| run.stopped.is_none() && run.work.fallbacks == 0;
         let mut tolerance = self.tolerance;
-        let mut rough = self.follow(tolerance);
-        loop {
-            let other = finer_tolerance(tolerance, FINER);
-            let fine = self.follow(other);
-            let estimate_m = self.estimate_m(&rough, &fine);
-            let is_whole = [&rough, &fine].iter().all(|run| run.stopped.is_none() && run.work.fallbacks == 0);
-            if estimate_m <= self.tolerance || !is_whole || other > tolerance {
-                return (candidate(tolerance, estimate_m), is_whole);
+        let mut run = self.follow(tolerance);
+        while is_whole(&run) && tolerance > SMALLEST_GLOBAL {
+            let finer = (tolerance / FINER).max(SMALLEST_GLOBAL);
+            let fine = self.follow(finer);
+            if !is_whole(&fine) {
+                break;
             }
-            (tolerance, rough) = (other, fine);
-            if tolerance <= SMALLEST_GLOBAL {
-                return (candidate(tolerance, estimate_m), is_whole);
+            let estimate_m = self.estimate_m(&run, &fine);
+            if estimate_m <= self.tolerance {
+                return (candidate(tolerance, estimate_m), true);
             }
+            (tolerance, run) = (finer, fine);
         }
+        // Nothing finer is left, or it does not arrive: a rougher run says how wrong this one is.
+        let mut best = candidate(tolerance, f64::INFINITY);
+        for _ in 0..ROUGHER {
+            let rougher = tolerance * FINER;
+            let rough = self.follow(rougher);
+            best = candidate(tolerance, self.estimate_m(&rough, &run));
+            if best.estimate_m.is_finite() {
+                return (best, is_whole(&rough) && is_whole(&run));
+            }
+            (tolerance, run) = (rougher, rough);
+        }
+        (best, false)
     }
 
     /// The first step at which two runs agree, else the one that agreed best.

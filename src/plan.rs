@@ -128,7 +128,7 @@ fn position_correction(method: &Method, contact: bool) -> Stage {
 fn choice(method: &Method) -> Option<Stage> {
     let Method::Auto(Auto { tolerance }) = method else { return None };
     let why = format!(
-        "event-driven at {tolerance:e} and finer, until two runs agree to {tolerance:e} m; where it stalls or falls back, \
+        "event-driven at {tolerance:e} and finer, until two runs agree to {tolerance:e} m; where all stall or fall back, \
          time-stepping (moreau, newton), its step halved at most {HALVINGS} times"
     );
     Some(stage("choice of method", true, why))

@@ -6,7 +6,8 @@
 use crate::build_info::BUILD;
 use crate::case;
 use crate::due::Due;
-use crate::experiment::types::{EventDriven, Experiment, Limits, Method, Record, ReferenceRun, Time, finer_tolerance};
+use crate::experiment::types::{EventDriven, Experiment, Limits, Method, Record, ReferenceRun, Time};
+use crate::integrate::SMALLEST_GLOBAL;
 use crate::measure::error::Errors;
 use crate::measure::reference::{PARTS, Reference, Sample};
 use crate::model::Model;
@@ -83,7 +84,7 @@ fn read(path: &Path) -> Option<Reference> {
 /// Runs a reference; none: the experiment asks for none.
 pub fn made(experiment: &Experiment, model: &Model, start: &State) -> Option<Reference> {
     let ReferenceRun { tolerance } = experiment.reference.clone()?;
-    let second_tolerance = finer_tolerance(tolerance, SECOND);
+    let second_tolerance = second(tolerance);
     let [first, second] = [tolerance, second_tolerance]
         .map(|tolerance| follow(&by_events(experiment, tolerance), experiment, model, start));
     let apart_m = |(a, b): (&State, &State)| Errors::between(a, b).position_m;
@@ -101,6 +102,11 @@ pub fn made(experiment: &Experiment, model: &Model, start: &State) -> Option<Ref
         criterion: first.criterion.or(second.criterion),
         samples,
     })
+}
+
+/// Finer, or rougher where no finer one is left.
+fn second(tolerance: f64) -> f64 {
+    if tolerance <= 2.0 * SMALLEST_GLOBAL { tolerance * SECOND } else { (tolerance / SECOND).max(SMALLEST_GLOBAL) }
 }
 
 /// The law of impact belongs to the physics.

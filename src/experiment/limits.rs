@@ -31,8 +31,3 @@ impl Default for ReferenceRun {
         ReferenceRun { tolerance: 10.0 * SMALLEST_GLOBAL }
     }
 }
-
-/// The tolerance of a second run, which says how wrong the first one is: finer, or coarser where no finer one is left.
-pub fn finer_tolerance(tolerance: f64, factor: f64) -> f64 {
-    if tolerance <= 2.0 * SMALLEST_GLOBAL { tolerance * factor } else { (tolerance / factor).max(SMALLEST_GLOBAL) }
-}

@@ -6,7 +6,7 @@
 
 pub use super::accuracy::Accuracy;
 pub use super::copies::Copies;
-pub use super::limits::{Limits, ReferenceRun, finer_tolerance};
+pub use super::limits::{Limits, ReferenceRun};
 pub use super::loads::*;
 pub use super::method::*;
 use super::search::SearchText;

@@ -122,3 +122,27 @@ fn explain_says_what_auto_considers() {
     );
     assert!(of("method=event-driven").iter().all(|stage| stage.name != choice.name));
 }
+
+/// Three bounces of a ball that comes to roll.
+const BOUNCING: &str = "
+scene:
+  restitution: 0.8
+  friction: 0.3
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies: [{ name: ball, shape: { sphere: { radius_m: 0.5 } }, mass_kg: 1, position_m: [0, 1.5, 0], velocity_m_s: [1, 0, 0] }]
+method: { auto: { tolerance: 1e-8 } }
+time: { end_s: 2 }
+exact: ball
+";
+
+#[test]
+fn through_impacts_the_estimate_is_not_below_the_error() {
+    for tolerance in ["1e-4", "1e-8", "1e-12"] {
+        let set = format!("method.auto.tolerance={tolerance}");
+        let Measured { method_used, error_estimate_m, error_position_m, .. } = measured(BOUNCING, &[&set]);
+        assert_eq!(method_used.as_deref(), Some("event-driven"));
+        let (estimate_m, error_m) = (error_estimate_m.unwrap(), error_position_m.unwrap());
+        // measured: 6.8e-16, 2.2e-14
+        assert!(error_m <= estimate_m && estimate_m <= 1e-12, "{tolerance}: {error_m:e} {estimate_m:e}");
+    }
+}

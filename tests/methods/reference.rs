@@ -127,3 +127,22 @@ fn a_run_that_ends_early_is_measured_where_it_was() {
     let limited = measured(SPIN, &["limits.steps=14"]);
     assert_eq!((limited.end_time_s, limited.error_time_s), (Some(1.4), Some(1.0)));
 }
+
+#[test]
+fn through_impacts_a_reference_says_what_the_closed_form_says() {
+    let bouncing = "
+scene:
+  restitution: 0.8
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies: [{ name: ball, shape: { sphere: { radius_m: 0.5 } }, mass_kg: 1, position_m: [0, 1.5, 0], velocity_m_s: [1, 0, 0] }]
+method: { time-stepping: { scheme: moreau, solver: newton } }
+time: { step_s: 0.01, end_s: 2 }
+";
+    let by_run = measured(&format!("{bouncing}reference: {{}}\n"), &[]);
+    let by_form = measured(&format!("{bouncing}exact: ball\n"), &[]);
+    for (a, b) in errors(&by_run).iter().zip(errors(&by_form)) {
+        // measured: 1.1e-16 of positions
+        assert!((a.unwrap() - b.unwrap()).abs() < 1e-11, "{a:?} {b:?}");
+    }
+    assert!(by_run.error_position_m.unwrap() > 1e-4, "{:?}", by_run.error_position_m);
+}

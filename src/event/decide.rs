@@ -52,9 +52,14 @@ pub fn decide(
         return Decision::Holds(Vec::new());
     }
     forces.gather(model, state, touches.iter());
-    let slow: Vec<bool> = touches.iter().enumerate().map(|(i, touch)| slips(model, state, forces, (i, touch), change.slow_m_s).is_none()).collect();
+    let slow: Vec<bool> = touches
+        .iter()
+        .enumerate()
+        .map(|(i, touch)| slips(model, state, forces, (i, touch), change.slow_m_s).is_none())
+        .collect();
     let young = |i: usize| if slow[i] { Slip::Young } else { Slip::Fast };
-    let modes: Vec<Mode> = touches.iter().enumerate().map(|(i, touch)| mode(model, state, forces, i, touch, change)).collect();
+    let modes: Vec<Mode> =
+        touches.iter().enumerate().map(|(i, touch)| mode(model, state, forces, i, touch, change)).collect();
     work.contact_solves += 1;
     if let [touch] = &touches[..]
         && model.pins.is_empty()
@@ -266,7 +271,9 @@ pub fn margin(model: &Model, state: &State, held: &[Held], forces: &mut Forces, 
     let now = by_law(forces, &modes, &touches, &vec![true; held.len()], work);
     match now {
         // Slightly positive: the true margin is not known.
-        Decision::Holds(now) if now.len() == held.len() && now.iter().zip(&modes).all(|(now, mode)| now.mode == *mode) => {
+        Decision::Holds(now)
+            if now.len() == held.len() && now.iter().zip(&modes).all(|(now, mode)| now.mode == *mode) =>
+        {
             1e-3
         }
         _ => {

@@ -4,7 +4,7 @@
 //! What holds is kept by accelerations; what drifts in a step, some part of its error, is taken off at its end by the
 //! smallest displacement and change of velocity (E. Eich 1993; `project`).
 
-use super::forces::{Choice, Forces, Held, Mode, Rows, Slip};
+use super::forces::{Choice, Forces, Held, Mode, Rows};
 use super::motion::{Bounds, Motion};
 use crate::integrate::dop853_tableau::{A, B, B3, D, E5, EXTRA};
 use crate::integrate::field::{advanced, sum};
@@ -229,32 +229,6 @@ impl Dense {
         }
         series
     }
-}
-
-/// Slips of a step that begins here, from the accelerations in `forces`: a slip is young up to `young_m_s`, and fades below
-/// `fading_m_s`. The longest step for which that stays so.
-pub fn look_at_slips(held: &mut [Held], state: &State, [young_m_s, fading_m_s]: [f64; 2], forces: &Forces) -> f64 {
-    let mut most_s = f64::INFINITY;
-    for (held, block) in held.iter_mut().zip(&forces.problem.blocks).filter(|(held, _)| held.slides().is_some()) {
-        let slip = held.touch.here(state).slip_W();
-        let speed = slip.norm();
-        let a = block.velocity(&forces.added);
-        let a_W = block.frame[1] * a.y + block.frame[2] * a.z;
-        held.slip = match held.slip {
-            Slip::Young if speed < young_m_s => Slip::Young,
-            _ if speed < fading_m_s && a_W.dot(&slip) < 0.0 => Slip::Fading,
-            _ => Slip::Fast,
-        };
-        most_s = match held.slip {
-            Slip::Fast => most_s,
-            Slip::Young => most_s.min(young_m_s / a_W.norm()),
-            Slip::Fading => most_s.min(4.0 * speed / a_W.norm()),
-        };
-        if speed > 0.0 {
-            held.mode = Mode::Slide(slip / speed);
-        }
-    }
-    most_s
 }
 
 /// Puts what is held back in place: gaps closed, no velocity along the rows that hold, by the smallest change in the metric

@@ -7,13 +7,13 @@
 //! smallest.
 
 use super::touch::{Here, Touch};
-use crate::collide::approach::Approach;
 use crate::collide::Contact;
+use crate::collide::approach::Approach;
 use crate::integrate::rotation::gyroscopic_torque_B;
-use crate::model::{Body, Model};
 use crate::model::pins::Anchor;
-use crate::solve::{Impulse, exact_contact};
+use crate::model::{Body, Model};
 use crate::solve::problem::{ContactProblem, Pin, PinEnd, Twist};
+use crate::solve::{Impulse, exact_contact};
 use crate::state::{BodyState, State};
 use nalgebra::{DMatrix, DVector, Vector3};
 

@@ -72,7 +72,13 @@ pub fn strike(
 }
 
 /// Stops the slip of one contact by the impulse that this takes, if it is in the cone.
-pub fn jam(model: &Model, state: &mut State, touch: &Touch, forces: &mut Forces, solved: &mut Vec<SolvedContact>) -> bool {
+pub fn jam(
+    model: &Model,
+    state: &mut State,
+    touch: &Touch,
+    forces: &mut Forces,
+    solved: &mut Vec<SolvedContact>,
+) -> bool {
     let contact = touch.here(state).contact;
     forces.gather_plain(model, state, &[contact]);
     let block = &forces.problem.blocks[0];

@@ -4,7 +4,8 @@
 //! - `touch`: a point of contact in any state, and its rates
 //! - `forces`: the forces that keep what is in contact together
 //! - `decide`: which contacts hold, stick, slide
-//! - `motion`: closed forms between events, and bounds; `dense`: all other motion
+//! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion; `slip`: where that is stiff
+//! - `change`: when a contact that holds stops doing so
 //! - `watch`: when the next gap closes, and the proof that none was missed
 //! - `impact`: the laws of impact at one moment
 //!
@@ -12,10 +13,13 @@
 //! never end (Zeno) end when the height of the bounces left, times 1/(1 − e)², is below a millionth of the tolerance:
 //! the contact then holds, and no position is wrong by more than that.
 
+pub mod change;
 pub mod decide;
 pub mod dense;
 pub mod forces;
 pub mod impact;
 pub mod motion;
+pub mod settle;
+pub mod slip;
 pub mod touch;
 pub mod watch;

@@ -32,9 +32,19 @@ enum Parts {
 #[derive(Clone, Debug, PartialEq)]
 enum Part {
     /// Of radius 0: a corner.
-    Ball { centre_B: Vector3<f64>, radius_m: f64 },
-    Rim { centre_B: Vector3<f64>, axis_B: Vector3<f64>, radius_m: f64 },
-    Ellipsoid { centre_B: Vector3<f64>, semi_axes_m: Vector3<f64> },
+    Ball {
+        centre_B: Vector3<f64>,
+        radius_m: f64,
+    },
+    Rim {
+        centre_B: Vector3<f64>,
+        axis_B: Vector3<f64>,
+        radius_m: f64,
+    },
+    Ellipsoid {
+        centre_B: Vector3<f64>,
+        semi_axes_m: Vector3<f64>,
+    },
 }
 
 /// n·x ≥ offset is free: of the world, or in a body's axes about its centre of mass.
@@ -144,7 +154,11 @@ impl Touch {
         (contact, Rates { r_A, r_B, normal: normal_rate * sign })
     }
 
-    fn balls<'a>(&self, bodies: &impl Fn(usize) -> &'a BodyState, balls: &[(Vector3<f64>, f64); 2]) -> (Contact, Rates) {
+    fn balls<'a>(
+        &self,
+        bodies: &impl Fn(usize) -> &'a BodyState,
+        balls: &[(Vector3<f64>, f64); 2],
+    ) -> (Contact, Rates) {
         let at = [self.found.body, self.found.other.unwrap_or(self.found.body)].map(bodies);
         let arm = [0, 1].map(|i| at[i].q_WB * balls[i].0);
         let arm_rate = [0, 1].map(|i| at[i].w_WB.cross(&arm[i]));
@@ -246,7 +260,10 @@ const TILTED: f64 = 1e-8;
 /// What a solid shows to another one.
 enum Shown {
     Ball(Vector3<f64>, f64),
-    Face { normal_B: Vector3<f64>, offset_m: f64 },
+    Face {
+        normal_B: Vector3<f64>,
+        offset_m: f64,
+    },
     Ellipsoid(Vector3<f64>, Vector3<f64>),
     /// An edge or something else that is curved.
     Other,
@@ -289,7 +306,8 @@ fn shows(body: &Body, p_B: &Vector3<f64>, out_B: &Vector3<f64>) -> Option<Shown>
     const AT: f64 = 1e-7;
     let (solid, centre) = body.solid()?;
     let near = AT * body.bounding_radius_m;
-    let face = |normal_B: Vector3<f64>, offset_m: f64| Shown::Face { normal_B, offset_m: offset_m + normal_B.dot(centre) };
+    let face =
+        |normal_B: Vector3<f64>, offset_m: f64| Shown::Face { normal_B, offset_m: offset_m + normal_B.dot(centre) };
     let y = Vector3::y();
     Some(match solid {
         Solid::Sphere { radius_m } => Shown::Ball(*centre, *radius_m),

@@ -66,9 +66,13 @@ struct Look {
     toward_m_s2: f64,
     /// Nothing is known beyond this time.
     known_s: f64,
+    /// M is the acceleration itself.
+    is_exact: bool,
 }
 
 impl Look {
+    const EMPTY: Look = Look { gap_m: 0.0, rate_m_s: 0.0, toward_m_s2: 0.0, known_s: f64::INFINITY, is_exact: false };
+
     /// The time in which the gap cannot close.
     fn safe_s(&self, delta_m: f64, slow_m_s: f64) -> f64 {
         let g = match self.gap_m {
@@ -87,7 +91,8 @@ impl Look {
         };
         let s = if self.gap_m <= delta_m && rate > slow_m_s && m > 0.0 {
             // A bounce comes back to where it began, but for what M is too much.
-            2.0 * rate / m
+            let back_s = 2.0 * rate / m;
+            if self.is_exact { back_s } else { back_s.max((2.0 * delta_m / m).sqrt()) }
         } else {
             s
         };
@@ -180,7 +185,7 @@ fn with_face(
             gap_m: face.gap_m(&at.p_WB) - radius_m,
             rate_m_s: face.normal.dot(&at.v_WB),
             toward_m_s2: bounds.toward(&face.normal, 0.0),
-            known_s: f64::INFINITY,
+            ..Look::EMPTY
         };
         if centre.gap_m > delta_m && arm_m > 0.0 {
             return Some((centre.safe_s(delta_m, 0.0), false));
@@ -194,7 +199,7 @@ fn with_face(
                 return;
             }
             let rate_m_s = face.normal.dot(&(at.v_WB + at.w_WB.cross(&r_W)));
-            let look = Look { gap_m, rate_m_s, toward_m_s2, known_s };
+            let look = Look { gap_m, rate_m_s, toward_m_s2, known_s, is_exact: arm_m == 0.0 && bounds.beside == 0.0 };
             safe_s = safe_s.min(look.safe_s(delta_m, slow));
             touching |= look.is_touching(delta_m, slow);
         });
@@ -228,7 +233,11 @@ fn roundness(body: &Body, at: &BodyState, normal: &Vector3<f64>, bounds: &Bounds
         Geometry::Solid { solid: Solid::Cylinder { radius_m, .. }, .. } => {
             let tilt = at.q_WB.inverse_transform_vector(normal).cross(&Vector3::y()).norm();
             let flat = tilt < 1e-8;
-            if flat { (0.0, f64::INFINITY) } else { (2.0 * radius_m / tilt, 0.5 * tilt / bounds.w.max(f64::MIN_POSITIVE)) }
+            if flat {
+                (0.0, f64::INFINITY)
+            } else {
+                (2.0 * radius_m / tilt, 0.5 * tilt / bounds.w.max(f64::MIN_POSITIVE))
+            }
         }
         _ => (0.0, f64::INFINITY),
     }
@@ -261,11 +270,16 @@ fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Windo
         work.contact_tests += 1;
         let delta_m = delta_m(sizes[0].min(sizes[1]), at[0].p_WB.amax().max(at[1].p_WB.amax()) + sizes[0]);
         let slow = NO_SLIP * [0, 1].map(|k| speed_m_s(paths.model, bodies[k], &at[k])).into_iter().fold(0.0, f64::max);
-        let poses = [(centre_a, &at[0]), (centre_b, &at[1])].map(|(c, at)| Pose { p_W: at.p_WB + at.q_WB * c, q_W: at.q_WB });
+        let poses =
+            [(centre_a, &at[0]), (centre_b, &at[1])].map(|(c, at)| Pose { p_W: at.p_WB + at.q_WB * c, q_W: at.q_WB });
         let of_centres = balls.is_some();
         let point = |side: usize| if of_centres { poses[side].p_W } else { at[side].p_WB };
         let rate = |side: usize| {
-            if of_centres { at[side].v_WB + at[side].w_WB.cross(&(poses[side].p_W - at[side].p_WB)) } else { at[side].v_WB }
+            if of_centres {
+                at[side].v_WB + at[side].w_WB.cross(&(poses[side].p_W - at[side].p_WB))
+            } else {
+                at[side].v_WB
+            }
         };
         let apart = point(0) - point(1);
         let distance = apart.norm();
@@ -273,7 +287,7 @@ fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Windo
             gap_m: distance - reach_m,
             rate_m_s: if distance > 0.0 { apart.dot(&(rate(0) - rate(1))) / distance } else { 0.0 },
             toward_m_s2,
-            known_s: f64::INFINITY,
+            ..Look::EMPTY
         };
         if of_centres {
             return Some((look.safe_s(delta_m, slow), look.is_touching(delta_m, slow)));
@@ -297,13 +311,20 @@ fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Windo
             let velocity = |side: usize| at[side].v_WB + at[side].w_WB.cross(&(touch.p_W - at[side].p_WB));
             let rate_m_s = touch.normal.dot(&(velocity(0) - velocity(1)));
             if touch.gap_m > near_m {
-                let bound = Look { gap_m: touch.gap_m - near_m / 2.0, rate_m_s: -closing, toward_m_s2: between, known_s: f64::INFINITY };
+                let bound =
+                    Look { gap_m: touch.gap_m - near_m / 2.0, rate_m_s: -closing, toward_m_s2: between, ..Look::EMPTY };
                 safe_s = safe_s.min(bound.safe_s(delta_m, slow));
                 continue;
             }
             // The normal turns with the bodies.
             let turning = 2.0 * (bounds[0].w + bounds[1].w) * closing;
-            let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2: 2.0 * points_toward + turning, known_s: near_m / closing };
+            let look = Look {
+                gap_m: touch.gap_m,
+                rate_m_s,
+                toward_m_s2: 2.0 * points_toward + turning,
+                known_s: near_m / closing,
+                ..Look::EMPTY
+            };
             safe_s = safe_s.min(look.safe_s(delta_m, slow));
             touching |= look.is_touching(delta_m, slow);
         }

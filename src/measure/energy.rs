@@ -99,7 +99,8 @@ impl EnergyLedger {
     pub fn observe_blow(&mut self, model: &Model, [before, after]: [&State; 2], pushes: &[Push]) {
         for (((body, a), b), push) in model.bodies.iter().zip(&before.bodies).zip(&after.bodies).zip(pushes) {
             if !body.driven {
-                self.dissipated_j -= push.linear.dot(&(a.v_WB + b.v_WB)) / 2.0 + push.angular.dot(&(a.w_WB + b.w_WB)) / 2.0;
+                self.dissipated_j -=
+                    push.linear.dot(&(a.v_WB + b.v_WB)) / 2.0 + push.angular.dot(&(a.w_WB + b.w_WB)) / 2.0;
             }
         }
         let [kinetic_j, left_j] = [before, after].map(|state| Energy::of(model, state).kinetic_j);

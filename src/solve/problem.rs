@@ -284,7 +284,11 @@ impl ContactProblem {
 
     /// The 3×3 block of A between two contacts.
     pub fn coupling(&self, i: usize, j: usize) -> Matrix3<f64> {
-        if self.is_dense() { self.A_blocks[i * self.blocks.len() + j] } else { self.blocks[i].coupling(&self.blocks[j]) }
+        if self.is_dense() {
+            self.A_blocks[i * self.blocks.len() + j]
+        } else {
+            self.blocks[i].coupling(&self.blocks[j])
+        }
     }
 
     /// A as a dense matrix, 3L × 3L.

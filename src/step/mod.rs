@@ -10,6 +10,7 @@ mod free;
 mod hold;
 mod lecture;
 mod penalty;
+mod stretch;
 mod time_stepping;
 
 use crate::collide::{Contact, Detector, Reach, SolvedContact};

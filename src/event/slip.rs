@@ -1,0 +1,62 @@
+//! Slips that are slow: how slow, and how long a step may be then (`forces::Slip`).
+
+use super::forces::{Forces, Held, Mode, Slip};
+use crate::model::Model;
+use crate::state::State;
+
+/// Speeds below which a slip is young, after it has begun, and fades, before it ends: what is left out is a part of the
+/// tolerance.
+#[derive(Clone, Copy, Debug)]
+pub struct Slow {
+    pub young: f64,
+    pub fading: f64,
+}
+
+/// A young slip s ≈ ½ j t² has its direction wrong by about t², and its place by t⁵; one that fades ends after s²/2a.
+pub fn slow_m_s(model: &Model, tolerance_m: f64) -> Slow {
+    let (g, size_m) = falls(model);
+    let (speed, part) = ((g * size_m).sqrt(), tolerance_m / size_m);
+    Slow { young: 0.01 * speed * libm::pow(part, 0.4), fading: speed * (2e-4 * part).sqrt() }
+}
+
+/// Says of all slips what they are at the beginning of a step, from the accelerations in `forces`. The longest step for
+/// which that stays so.
+pub fn look(model: &Model, held: &mut [Held], state: &State, tolerance_m: f64, forces: &Forces) -> f64 {
+    let slow = slow_m_s(model, tolerance_m);
+    let (g, size_m) = falls(model);
+    // However slowly it begins: what accelerates it grows with the fall.
+    let youth_s = (2.0 * slow.young / (g * (g / size_m).sqrt())).sqrt();
+    let mut most_s = f64::INFINITY;
+    for (held, block) in held.iter_mut().zip(&forces.problem.blocks).filter(|(held, _)| held.slides().is_some()) {
+        let slip = held.touch.here(state).slip_W();
+        let speed = slip.norm();
+        let a = block.velocity(&forces.added);
+        let a_W = block.frame[1] * a.y + block.frame[2] * a.z;
+        held.slip = match held.slip {
+            Slip::Young if speed < slow.young => Slip::Young,
+            _ if speed < slow.fading && a_W.dot(&slip) < 0.0 => Slip::Fading,
+            _ => Slip::Fast,
+        };
+        most_s = match held.slip {
+            Slip::Fast => most_s,
+            Slip::Young => most_s.min(youth_s).min(slow.young / a_W.norm()),
+            Slip::Fading => most_s.min(4.0 * speed / a_W.norm()),
+        };
+        if speed > 0.0 {
+            held.mode = Mode::Slide(slip / speed);
+        }
+    }
+    most_s
+}
+
+/// Gravity, and the size of the largest body.
+pub fn falls(model: &Model) -> (f64, f64) {
+    let size_m = model.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max);
+    (model.gravity_m_s2.norm(), if size_m > 0.0 { size_m } else { 1.0 })
+}
+
+/// A force that swings is not stepped over.
+pub fn longest_s(model: &Model) -> f64 {
+    let fastest = model.forces.iter().filter_map(|force| force.cosine).map(|(w, _)| w.abs()).fold(0.0, f64::max);
+    if fastest > 0.0 { 0.5 / fastest } else { f64::INFINITY }
+}

@@ -1,0 +1,68 @@
+//! Some steps of equal length by time-stepping, where events lead no further: they accumulate, or parts of bodies touch whose
+//! forces of contact are not known in closed form.
+
+use super::{Clock, Scratch, time_stepping};
+use crate::collide::SolvedContact;
+use crate::event::slip::falls;
+use crate::experiment::types::{Impact, Method, Scheme, Solver, TimeStepping};
+use crate::model::Model;
+use crate::plan::Plan;
+use crate::state::State;
+
+pub struct Stretch {
+    stepper: Box<time_stepping::TimeStepping>,
+    left: u32,
+}
+
+/// Steps in one go.
+const STEPS: u32 = 32;
+
+impl Stretch {
+    pub fn new(impact: Impact, model: &Model, start: &State) -> Self {
+        let settings = TimeStepping { solver: Solver::Newton, scheme: Scheme::Moreau, impact, ..Default::default() };
+        let plan = Plan::new(model, &Method::TimeStepping(settings.clone()));
+        let stepper = time_stepping::TimeStepping::new(&settings, &plan, start, Scratch::new(model, &plan));
+        Stretch { stepper: Box::new(stepper), left: STEPS }
+    }
+
+    /// One step, not beyond the end; its length.
+    pub fn step(&mut self, model: &Model, state: &mut State, end_s: f64) -> f64 {
+        /// A step that would leave less than this part of itself ends at the end.
+        const REST: f64 = 1e-6;
+        let (step, from_s, h) = (state.step, state.time_s, step_s(model));
+        let until_s = if from_s + h * (1.0 + REST) >= end_s { end_s } else { from_s + h };
+        // The clock of a stepper counts from zero; this one is told the time.
+        self.stepper.step(model, state, &Clock { steps: u64::MAX, end_s, step_s: until_s - from_s });
+        (state.step, state.time_s) = (step + 1, until_s);
+        self.left -= 1;
+        until_s - from_s
+    }
+
+    pub fn is_over(&self) -> bool {
+        self.left == 0
+    }
+
+    pub fn contacts(&self) -> &[SolvedContact] {
+        &self.stepper.scratch.solved
+    }
+
+    pub fn unsolved(&self) -> u64 {
+        self.stepper.scratch.work.unsolved
+    }
+
+    /// Where the last step had its impulses.
+    pub fn kicked(&self) -> Option<&State> {
+        self.stepper.kicked.as_ref()
+    }
+}
+
+/// Of a whole stretch.
+pub fn length_s(model: &Model) -> f64 {
+    f64::from(STEPS) * step_s(model)
+}
+
+/// A thousandth of a fall by the size of the bodies.
+fn step_s(model: &Model) -> f64 {
+    let (g, size_m) = falls(model);
+    if g > 0.0 { 1e-3 * (size_m / g).sqrt() } else { 1e-4 }
+}

@@ -5,7 +5,6 @@
 const LATER: &[(&str, &[&str])] = &[
     ("Experiment", &["reference", "limits"]),
     ("Sweep", &["where", "sample"]),
-    ("Pair", &["tangential_restitution"]),
     ("Container", &["mesh"]),
     ("Shape", &["mesh"]),
     ("Method", &["event-driven", "auto"]),

@@ -135,8 +135,8 @@ const EXACT: [Line; 12] = [
         Exact::Ball.word(),
         "the same forces; one sphere and a container of one plane; where it slips, along the line of slope or on a level \
          plane",
-        "flights, impacts with restitution and friction up to Zeno's point, sliding, rolling",
-        "Walton 1993; Routh, Advanced Rigid Dynamics, 240",
+        "flights, impacts with restitution (normal and tangential) and friction up to Zeno's point, sliding, rolling",
+        "Walton 1993; Garwin, Am. J. Phys. 37 (1969) 88; Routh, Advanced Rigid Dynamics, 240",
     ),
     (
         Exact::Turntable.word(),

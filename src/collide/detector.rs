@@ -125,7 +125,7 @@ impl Detector {
             self.touches.clear();
             let limit_m = reach.body_reach_m(model, bodies, at);
             touches(solid_a, &pose(centre_a, at[0]), solid_b, &pose(centre_b, at[1]), limit_m, &mut self.touches);
-            let Surface { friction, restitution } = model.pair(pair[0], Some(pair[1]));
+            let Surface { friction, restitution, tangential_restitution } = model.pair(pair[0], Some(pair[1]));
             contacts.extend(self.touches.iter().map(|touch| Contact {
                 body: pair[0],
                 other: Some(pair[1]),
@@ -137,6 +137,7 @@ impl Detector {
                 gap_m: touch.gap_m,
                 friction,
                 restitution,
+                tangential_restitution,
             }));
         }
     }
@@ -160,7 +161,7 @@ fn with_container(model: &Model, state: &State, reach: &Reach, contacts: &mut Ve
         if !body.feels_container() {
             continue;
         }
-        let Surface { friction, restitution } = model.pair(index, None);
+        let Surface { friction, restitution, tangential_restitution } = model.pair(index, None);
         for (f, face) in container.faces.iter().enumerate() {
             let limit_m = reach.face_reach_m(model, body, at, &face.normal);
             work.contact_tests += faces::each_near(body, at, face, limit_m, |node, r_BC_W, gap_m| {
@@ -175,6 +176,7 @@ fn with_container(model: &Model, state: &State, reach: &Reach, contacts: &mut Ve
                     gap_m,
                     friction,
                     restitution,
+                    tangential_restitution,
                 });
             });
         }

@@ -41,6 +41,7 @@ pub struct Contact {
     pub gap_m: f64,
     pub friction: f64,
     pub restitution: f64,
+    pub tangential_restitution: f64,
 }
 
 impl Contact {

@@ -1,8 +1,9 @@
-//! A ball and a plane, with restitution e and Coulomb friction μ: flights, impacts, sliding, rolling. SI units.
+//! A ball and a plane, with restitution e, tangential restitution ε and Coulomb friction μ: flights, impacts, sliding,
+//! rolling. SI units.
 //!
-//! - Impact (Walton, in Particulate Two-Phase Flow, 1993, ch. 25; without tangential restitution): the normal speed w
-//!   becomes e w; with k = I/(m r²) the tangential impulse −s k/(1 + k) ends the slip s, if that is at most μ(1 + e) w, else
-//!   μ(1 + e) w acts against s. The slip of a sphere does not change its direction in an impact.
+//! - Impact (Walton, in Particulate Two-Phase Flow, 1993, ch. 25): the normal speed w becomes e w; with k = I/(m r²) the
+//!   tangential impulse −(1 + ε) s k/(1 + k) turns the slip s into −ε s, if that is at most μ(1 + e) w, else μ(1 + e) w
+//!   acts against s. ε = e = 1 is Garwin's superball (Am. J. Phys. 37 (1969) 88). Without a rebound, e = 0, it is ε = 0.
 //! - Impacts after the first, of the normal speed w, come 2we/g_n (1 − eⁿ)/(1 − e) later; the last one (Zeno's) after
 //!   2we/(g_n (1 − e)).
 //! - On the plane the slip ends after |s|/((1 + 1/k) μ g_n − g_t·s/|s|); then the ball rolls with g_t/(1 + k), if that
@@ -33,6 +34,7 @@ pub struct Setting {
     pub inertia: f64,
     pub friction: f64,
     pub restitution: f64,
+    pub tangential_restitution: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -184,9 +186,10 @@ impl Setting {
 
     fn strike(&self, at: &mut BodyState, speed: f64) {
         let (slip, limit) = (self.slip(at), self.friction * (1.0 + self.restitution) * speed);
-        let stopping = -slip * (self.inertia / (1.0 + self.inertia));
-        let needed = stopping.norm();
-        let push = if needed <= limit { stopping } else { stopping * (limit / needed) };
+        let back = if self.restitution > 0.0 { self.tangential_restitution } else { 0.0 };
+        let turning = -slip * ((1.0 + back) * self.inertia / (1.0 + self.inertia));
+        let needed = turning.norm();
+        let push = if needed <= limit { turning } else { turning * (limit / needed) };
         at.v_WB = self.along(&at.v_WB) + push + self.normal * (self.restitution * speed);
         at.w_WB += self.turning(&push);
     }

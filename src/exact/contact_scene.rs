@@ -178,6 +178,7 @@ fn ball(model: &Model, index: usize, at: &BodyState) -> Result<Touching, Lacks> 
         inertia,
         friction: surface.friction,
         restitution: surface.restitution,
+        tangential_restitution: surface.tangential_restitution,
     };
     let height_m = if gap_m <= near_m { 0.0 } else { gap_m };
     let ball = Ball::new(setting, at, height_m)

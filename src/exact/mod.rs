@@ -8,6 +8,7 @@ pub mod dd;
 pub mod falling_rod;
 pub mod free_rotation;
 pub mod heavy_top;
+pub mod inverted_pendulum;
 pub mod jacobi;
 pub mod linear_drag;
 pub mod pendulum;

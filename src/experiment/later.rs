@@ -4,7 +4,6 @@
 /// that adds its field or variant.
 const LATER: &[(&str, &[&str])] = &[
     ("Sweep", &["where", "sample"]),
-    ("Pair", &["tangential_restitution"]),
     ("Container", &["mesh"]),
     ("Shape", &["mesh"]),
 ];

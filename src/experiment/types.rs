@@ -122,7 +122,7 @@ pub struct Plane {
     pub offset_m: f64,
 }
 
-/// Two bodies, or a body and the `container`; what is absent is the mean of the two.
+/// Two bodies, or a body and the `container`; what is absent is the mean of the two, the tangential restitution 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pair {
@@ -131,6 +131,9 @@ pub struct Pair {
     pub friction: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
+    /// What an impact gives back of the slip, in the other direction, where friction can.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tangential_restitution: Option<f64>,
 }
 
 /// A rigid body: shape, mass properties, first state.

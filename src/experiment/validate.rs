@@ -3,8 +3,18 @@
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::types::{
-    Accuracy, Container, Diverge, EventDriven, Experiment, Free, Limits, Measure, Method, Pair, Penalty, Plane, Random,
-    Record, RecordCases, Scene, Shape, Solver, Time, TimeStepping,
+    let scene = &experiment.scene;
+    match &experiment.method {
+        Method::Free(_) | Method::Auto(_) => Ok(()),
+        Method::TimeStepping(_) | Method::EventDriven(_) => match experiment.method.impact() {
+            Impact::Newton => Ok(()),
+            Impact::Poisson => no_tangential_restitution("the law of impact `poisson`", scene, at),
+            Impact::Sequential => no_tangential_restitution("the law of impact `sequential`", scene, at),
+        },
+        Method::Lecture(_) => {
+            needs_meshes("lecture", scene, at)?;
+            no_tangential_restitution("the method `lecture`", scene, at)
+        }
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
@@ -82,7 +92,9 @@ fn validate_pair(pair: &Pair, scene: &Scene, at: Path) -> Result<()> {
         return Err(unexpected(between, "two different names", &format!("`{a}` twice")));
     }
     pair.friction.map_or(Ok(()), |friction| not_negative(friction, at.key("friction")))?;
-    pair.restitution.map_or(Ok(()), |restitution| a_part(restitution, at.key("restitution")))
+    pair.restitution.map_or(Ok(()), |restitution| a_part(restitution, at.key("restitution")))?;
+    let tangential = pair.tangential_restitution;
+    tangential.map_or(Ok(()), |restitution| a_part(restitution, at.key("tangential_restitution")))
 }
 
 fn validate_container(container: &Container, at: Path) -> Result<()> {
@@ -208,12 +220,28 @@ fn validate_penalty(penalty: &Penalty, at: Path) -> Result<()> {
 
 /// What the method can do with the scene's contacts.
 fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
+<<<<<<< HEAD
     match experiment.method {
         Method::Free(_) | Method::TimeStepping(_) | Method::EventDriven(_) | Method::Auto(_) => Ok(()),
         Method::Lecture(_) => needs_meshes("lecture", &experiment.scene, at),
+=======
+    let scene = &experiment.scene;
+    match &experiment.method {
+        Method::Free(_) => Ok(()),
+        Method::TimeStepping(stepping) => match stepping.impact {
+            Impact::Newton => Ok(()),
+            Impact::Poisson => no_tangential_restitution("the law of impact `poisson`", scene, at),
+            Impact::Sequential => no_tangential_restitution("the law of impact `sequential`", scene, at),
+        },
+        Method::Lecture(_) => {
+            needs_meshes("lecture", scene, at)?;
+            no_tangential_restitution("the method `lecture`", scene, at)
+        }
+>>>>>>> h1
         Method::Penalty(_) => {
-            needs_meshes("penalty", &experiment.scene, at)?;
-            no_restitution(&experiment.scene, at)
+            needs_meshes("penalty", scene, at)?;
+            no_restitution(scene, at)?;
+            no_tangential_restitution("the method `penalty`", scene, at)
         }
     }
 }
@@ -280,6 +308,17 @@ fn no_restitution(scene: &Scene, at: Path) -> Result<()> {
         if let Some(restitution) = body.restitution.filter(|e| *e != 0.0) {
             let path = bodies.item(i, Some(&body.name));
             return Err(unexpected(path.key("restitution"), expected, &number(restitution)));
+        }
+    }
+    Ok(())
+}
+
+fn no_tangential_restitution(who: &str, scene: &Scene, at: Path) -> Result<()> {
+    for (i, pair) in scene.pairs.iter().enumerate() {
+        if let Some(restitution) = pair.tangential_restitution.filter(|e| *e != 0.0) {
+            let path = at.key("pairs");
+            let expected = format!("0, as {who} has no tangential restitution");
+            return Err(unexpected(path.item(i, None).key("tangential_restitution"), &expected, &number(restitution)));
         }
     }
     Ok(())

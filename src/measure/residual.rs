@@ -5,6 +5,8 @@
 //! Comput. Modelling 28 (1998) 225). That is p = P_K(p − ρ ũ) for every ρ > 0, and what the two sides differ by is the
 //! residual of a contact (V. Acary, B. Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, Springer 2008).
 //!
+//! In an impact with tangential restitution u_t stands for u_t⁺ + ε_t u_t⁻, from the velocities before and after.
+//!
 //! With 1/ρ = the trace of the contact's own block of A all terms are impulses; divided by the largest impulse of the
 //! island, neither masses nor lengths nor times matter. Rounding gives 1e-16 … 1e-13, a wrong impulse O(1).
 
@@ -143,11 +145,14 @@ impl Seen {
 
     /// Friction is against the velocity after; a kick half-way through the motion may put it against the mean instead.
     fn missed(&self, contact: &Contact, impulse_W: &Vector3<f64>, approach: Approach) -> f64 {
+        let tangent = self.u_before - contact.normal * contact.normal.dot(&self.u_before);
+        if self.strikes && contact.tangential_restitution > 0.0 {
+            return self.missed_at(&(self.u + tangent * contact.tangential_restitution), contact, impulse_W);
+        }
         let missed = self.missed_at(&self.u, contact, impulse_W);
         if approach != Approach::Middle {
             return missed;
         }
-        let tangent = self.u_before - contact.normal * contact.normal.dot(&self.u_before);
         missed.min(self.missed_at(&(self.u + tangent), contact, impulse_W))
     }
 

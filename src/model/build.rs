@@ -55,7 +55,11 @@ pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError
         touching_pairs: solids().count() > 1 && solids().any(|body| !body.driven),
         gravity_m_s2,
         container,
-        container_surface: Surface { friction: scene.friction, restitution: scene.restitution },
+        container_surface: Surface {
+            friction: scene.friction,
+            restitution: scene.restitution,
+            tangential_restitution: 0.0,
+        },
         pairs: scene.pairs.iter().map(|pair| build_pair(pair, &bodies)).collect(),
         bodies,
         forces,
@@ -84,7 +88,12 @@ fn build_container(container: &file::Container) -> Container {
 fn build_pair(pair: &file::Pair, bodies: &[Body]) -> Pair {
     // Validation has seen to it that a name is a body's or the container.
     let index = |name: &String| bodies.iter().position(|body| body.name == *name);
-    Pair { between: pair.between.each_ref().map(index), friction: pair.friction, restitution: pair.restitution }
+    Pair {
+        between: pair.between.each_ref().map(index),
+        friction: pair.friction,
+        restitution: pair.restitution,
+        tangential_restitution: pair.tangential_restitution,
+    }
 }
 
 fn build_force(force: &file::Force, bodies: &[Body]) -> AppliedForce {
@@ -137,6 +146,7 @@ fn build_body(described: &file::Body, scene: &file::Scene) -> Result<Body, Build
         surface: Surface {
             friction: described.friction.unwrap_or(scene.friction),
             restitution: described.restitution.unwrap_or(scene.restitution),
+            tangential_restitution: 0.0,
         },
         drag,
         driven: described.is_driven(),

@@ -1,4 +1,5 @@
 //! What a pair of surfaces does: Coulomb friction and restitution, by default the geometric mean of the two bodies' own.
+//! Tangential restitution is a pair's alone.
 
 use super::{Body, Geometry, Model};
 
@@ -6,6 +7,7 @@ use super::{Body, Geometry, Model};
 pub struct Surface {
     pub friction: f64,
     pub restitution: f64,
+    pub tangential_restitution: f64,
 }
 
 /// A value of `scene.pairs`; the container is None.
@@ -14,6 +16,7 @@ pub struct Pair {
     pub between: [Option<usize>; 2],
     pub friction: Option<f64>,
     pub restitution: Option<f64>,
+    pub tangential_restitution: Option<f64>,
 }
 
 impl Model {
@@ -30,6 +33,7 @@ impl Model {
             restitution: given
                 .and_then(|pair| pair.restitution)
                 .unwrap_or_else(|| mean(own.restitution, others.restitution)),
+            tangential_restitution: given.and_then(|pair| pair.tangential_restitution).unwrap_or(0.0),
         }
     }
 

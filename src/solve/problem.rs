@@ -2,7 +2,8 @@
 //!
 //! With impulses p = F Δt the slide's ᶜV_C[n+1] = b + A ᶜF_C reads c = b + (J M⁻¹ Jᵀ) p. Rows of a contact are ordered
 //! normal, tangent 1, tangent 2. The target is c = 0; what else is asked of the
-//! normal velocity (restitution, a gap that may close) is taken off the normal row of b (`collide::approach`).
+//! normal velocity (restitution, a gap that may close) is taken off the normal row of b (`collide::approach`), and an
+//! impact's tangential restitution off the tangents' rows: friction is then against the slip u_t⁺ + ε_t u_t⁻.
 
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
@@ -128,6 +129,8 @@ pub struct Block {
     pub least: f64,
     /// Relative velocity before the step, in the contact's frame.
     pub before: Vector3<f64>,
+    /// ε_t of an impact, which b's tangents' rows are relative to; else 0.
+    pub tangential_restitution: f64,
     /// Normal and two tangents, world axes.
     pub frame: [Vector3<f64>; 3],
     /// A⁻¹ of a pin, which takes any impulse; none: a contact.
@@ -413,8 +416,14 @@ impl Block {
             let at = &before[end.body];
             end.motion(&Twist::of(at))
         });
-        let least = approach.least(model, contact, [before.x, b.x - before.x], step_s)?;
+        let motion = [before.x, b.x - before.x];
+        let least = approach.least(model, contact, motion, step_s)?;
+        let strikes = contact.tangential_restitution > 0.0 && approach.strikes(model, contact, motion, step_s);
+        let tangential_restitution = if strikes { contact.tangential_restitution } else { 0.0 };
         b.x -= least;
+        if strikes {
+            b += Vector3::new(0.0, before.y, before.z) * tangential_restitution;
+        }
         let A = ends().filter_map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
         Some(Block {
             end: own,
@@ -426,6 +435,7 @@ impl Block {
             b,
             least,
             before,
+            tangential_restitution,
             frame,
             pin: None,
         })
@@ -449,6 +459,7 @@ impl Block {
             pin: Some(A.try_inverse().unwrap_or_default()),
             least: 0.0,
             before: Vector3::zeros(),
+            tangential_restitution: 0.0,
         }
     }
 

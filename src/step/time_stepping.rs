@@ -206,7 +206,7 @@ fn go_on_after(
 /// Perlmutter, J. Nonlinear Sci. 16 (2006) 283). `last`: the impulses of the step before.
 fn hold_half_way(problem: &mut ContactProblem, last: &[Impulse]) {
     for (block, p) in problem.blocks.iter_mut().zip(last) {
-        if p.yz().norm() < STUCK * block.friction * p.x {
+        if p.yz().norm() < STUCK * block.friction * p.x && block.tangential_restitution == 0.0 {
             block.b.y += block.before.y;
             block.b.z += block.before.z;
         }

@@ -33,6 +33,7 @@ const ROWS: &[Row] = &[
     ("a pair with nobody", FRICTION, "  pairs: [{ between: [cube, contaner], friction: 0.5 }]\n", 2, "scene.pairs.0.between.1", "did you mean `container`?"),
     ("a pair of one", FRICTION, "  pairs: [{ between: [cube, cube], friction: 0.5 }]\n", 2, "scene.pairs.0.between", "two different names"),
     ("a pair that bounces too much", FRICTION, "  pairs: [{ between: [cube, container], restitution: 1.5 }]\n", 2, "scene.pairs.0.restitution", "from 0 to 1"),
+    ("a pair that gives back more slip than there was", FRICTION, "  pairs: [{ between: [cube, container], tangential_restitution: -0.1 }]\n", 2, "scene.pairs.0.tangential_restitution", "from 0 to 1"),
     ("copies without a number", CUBE, "      mass_kg: 1.0\n      copies: { step_m: [0, 1, 0] }\n", 11, "scene.bodies.cube.copies", "expected a `count` or a `grid`, found neither"),
     ("copies counted twice", CUBE, "      mass_kg: 1.0\n      copies: { count: 2, grid: [1, 1, 2], step_m: [0, 1, 0] }\n", 11, "scene.bodies.cube.copies.grid", "expected either `count` or `grid`, found both"),
     ("no copies", CUBE, "      mass_kg: 1.0\n      copies: { grid: [3, 0, 3], step_m: [0, 1, 0] }\n", 11, "scene.bodies.cube.copies.grid", "expected 1 to 100000 bodies, found 0"),
@@ -191,6 +192,24 @@ fn penalty_refuses_restitution_wherever_it_is_written() {
         let error = experiment(&penalty, &[&format!("{path}=0.5")]).unwrap_err();
         assert_eq!(error.details().path.to_string(), path);
         assert!(error.to_string().contains("`penalty` has no restitution"), "{error}");
+    }
+}
+
+#[test]
+fn tangential_restitution_is_newtons_law_of_time_stepping_alone() {
+    let line = "  pairs: [{ between: [cube, container], restitution: 0, tangential_restitution: 0.5 }]\n";
+    let with = |method: &str| BASE.replace(FRICTION, &format!("{FRICTION}{line}")).replace(LECTURE, method);
+    experiment(&with("method: time-stepping\n"), &[]).unwrap();
+    experiment(&with("method: free\n"), &[]).unwrap();
+    for (method, word) in [
+        ("method: lecture\n", "`lecture`"),
+        ("method: { penalty: { stiffness_n_m: 1e4 } }\n", "`penalty`"),
+        ("method: { time-stepping: { impact: poisson } }\n", "`poisson`"),
+        ("method: { time-stepping: { impact: sequential } }\n", "`sequential`"),
+    ] {
+        let error = experiment(&with(method), &[]).unwrap_err();
+        assert_eq!(error.details().path.to_string(), "scene.pairs.0.tangential_restitution");
+        assert!(error.to_string().contains(&format!("{word} has no tangential restitution")), "{error}");
     }
 }
 

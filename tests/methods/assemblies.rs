@@ -65,6 +65,7 @@ impl Assembly {
             gap_m: 0.0,
             friction: self.friction,
             restitution: 0.0,
+            tangential_restitution: 0.0,
         });
     }
 

@@ -193,6 +193,7 @@ fn the_corners_of_a_face_are_kept() {
         gap_m,
         friction: 0.0,
         restitution: 0.0,
+        tangential_restitution: 0.0,
     };
     let grid = |deepest: u32| -> Vec<Contact> {
         let gap = |node| if node == deepest { -1e-3 } else { 0.0 };

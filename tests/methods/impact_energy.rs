@@ -50,6 +50,7 @@ fn contact(spread: &mut Spread, number: u32, friction: f64) -> Contact {
         gap_m: 0.0,
         friction,
         restitution: 0.0,
+        tangential_restitution: 0.0,
     }
 }
 

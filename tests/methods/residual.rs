@@ -15,6 +15,7 @@ struct Impact {
     velocity: [f64; 3],
     friction: f64,
     restitution: f64,
+    tangential_restitution: f64,
     gravity: f64,
     step: f64,
 }
@@ -25,6 +26,7 @@ const IMPACT: Impact = Impact {
     velocity: [1.3, -2.0, -0.4],
     friction: 0.2,
     restitution: 0.0,
+    tangential_restitution: 0.0,
     gravity: 9.8,
     step: 0.01,
 };
@@ -38,7 +40,8 @@ impl Impact {
         let least = if rebound > 0.0 { (rebound - self.gravity * self.step).max(0.0) } else { 0.0 };
         let approach = y - self.gravity * self.step - least;
         let normal = (-self.mass * approach).max(0.0);
-        let stick = Vector3::new(-x, 0.0, -z) * (self.mass * 2.0 / 7.0);
+        let given_back = if rebound > self.gravity * self.step { self.tangential_restitution } else { 0.0 };
+        let stick = Vector3::new(-x, 0.0, -z) * (self.mass * 2.0 / 7.0 * (1.0 + given_back));
         let tangent = stick * (self.friction * normal / stick.norm()).min(1.0);
         tangent + Vector3::new(0.0, normal, 0.0)
     }
@@ -74,14 +77,17 @@ time: {{ step_s: {}, end_s: {} }}
             gap_m: 0.0,
             friction: self.friction,
             restitution: self.restitution,
+            tangential_restitution: self.tangential_restitution,
         };
         judge.observe(&model, [&start; 3], &[SolvedContact { contact, impulse_W }], self.step);
         judge.residual.max.unwrap()
     }
 }
 
-/// Sticking, slipping, bouncing, at rest, and separating.
-fn impacts() -> [Impact; 6] {
+/// Sticking, slipping, bouncing, at rest, separating, and with a slip that is given back, in part, where friction holds and
+/// where it does not, and not without a bounce.
+fn impacts() -> [Impact; 10] {
+    let back = Impact { tangential_restitution: 0.6, ..IMPACT };
     [
         IMPACT,
         Impact { friction: 2.0, ..IMPACT },
@@ -89,6 +95,10 @@ fn impacts() -> [Impact; 6] {
         Impact { restitution: 0.8, ..IMPACT },
         Impact { velocity: [0.0, 0.0, 0.0], ..IMPACT },
         Impact { velocity: [1.0, 1.0, 0.0], ..IMPACT },
+        Impact { restitution: 0.8, friction: 2.0, ..back },
+        Impact { restitution: 0.8, friction: 2.0, tangential_restitution: 1.0, ..IMPACT },
+        Impact { restitution: 0.8, ..back },
+        Impact { friction: 2.0, ..back },
     ]
 }
 

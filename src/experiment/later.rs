@@ -2,11 +2,7 @@
 
 /// What the key or word stands in (the Rust type of `types.rs`), and the words. A word leaves this list in the change
 /// that adds its field or variant.
-const LATER: &[(&str, &[&str])] = &[
-    ("Sweep", &["where", "sample"]),
-    ("Container", &["mesh"]),
-    ("Shape", &["mesh"]),
-];
+const LATER: &[(&str, &[&str])] = &[("Sweep", &["where", "sample"]), ("Container", &["mesh"]), ("Shape", &["mesh"])];
 
 /// Whether a later version knows this word in this type.
 pub fn is_later(type_name: &str, word: &str) -> bool {

@@ -3,18 +3,8 @@
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::types::{
-    let scene = &experiment.scene;
-    match &experiment.method {
-        Method::Free(_) | Method::Auto(_) => Ok(()),
-        Method::TimeStepping(_) | Method::EventDriven(_) => match experiment.method.impact() {
-            Impact::Newton => Ok(()),
-            Impact::Poisson => no_tangential_restitution("the law of impact `poisson`", scene, at),
-            Impact::Sequential => no_tangential_restitution("the law of impact `sequential`", scene, at),
-        },
-        Method::Lecture(_) => {
-            needs_meshes("lecture", scene, at)?;
-            no_tangential_restitution("the method `lecture`", scene, at)
-        }
+    Accuracy, Container, Diverge, EventDriven, Experiment, Free, Impact, Limits, Measure, Method, Pair, Penalty, Plane,
+    Random, Record, RecordCases, Scene, Shape, Solver, Time, TimeStepping,
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
@@ -220,15 +210,10 @@ fn validate_penalty(penalty: &Penalty, at: Path) -> Result<()> {
 
 /// What the method can do with the scene's contacts.
 fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
-<<<<<<< HEAD
-    match experiment.method {
-        Method::Free(_) | Method::TimeStepping(_) | Method::EventDriven(_) | Method::Auto(_) => Ok(()),
-        Method::Lecture(_) => needs_meshes("lecture", &experiment.scene, at),
-=======
     let scene = &experiment.scene;
     match &experiment.method {
-        Method::Free(_) => Ok(()),
-        Method::TimeStepping(stepping) => match stepping.impact {
+        Method::Free(_) | Method::Auto(_) => Ok(()),
+        Method::TimeStepping(_) | Method::EventDriven(_) => match experiment.method.impact() {
             Impact::Newton => Ok(()),
             Impact::Poisson => no_tangential_restitution("the law of impact `poisson`", scene, at),
             Impact::Sequential => no_tangential_restitution("the law of impact `sequential`", scene, at),
@@ -237,7 +222,6 @@ fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
             needs_meshes("lecture", scene, at)?;
             no_tangential_restitution("the method `lecture`", scene, at)
         }
->>>>>>> h1
         Method::Penalty(_) => {
             needs_meshes("penalty", scene, at)?;
             no_restitution(scene, at)?;

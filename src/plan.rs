@@ -44,6 +44,7 @@ impl Plan {
             loads(model),
             pins(model),
         ];
+        stages.extend(events(model, method));
         stages.extend(choice(method));
         let newton = method.impact() == Impact::Newton;
         let constraint = has_contact && !matches!(method, Method::Penalty(_));
@@ -122,6 +123,24 @@ fn position_correction(method: &Method, contact: bool) -> Stage {
         Method::TimeStepping(_) => stage(name, false, "position_correction: none"),
         _ => stage(name, false, "the method has none"),
     }
+}
+
+/// What a method that follows events does between them; of other methods nothing.
+fn events(model: &Model, method: &Method) -> Option<Stage> {
+    if !method.follows_events() {
+        return None;
+    }
+    let name = "integration between events";
+    let moving = || model.bodies.iter().enumerate().filter(|(_, body)| !body.driven);
+    let pinned = moving().any(|(i, _)| model.pins.iter().any(|pin| pin.holds(i)));
+    let loaded = moving().any(|(i, _)| model.constant_pull(i).is_none());
+    Some(match (pinned || loaded, moving().all(|(_, body)| body.is_centred_ball() || body.solid().is_none())) {
+        (true, _) => stage(name, true, "pins, or forces that change: no closed form"),
+        (false, true) => stage(name, false, "flight, and balls that slide straight or roll, have closed forms"),
+        (false, false) => {
+            stage(name, true, "only while a body turns in contact; flight, rest and straight slips are closed")
+        }
+    })
 }
 
 /// What `auto` considers; of other methods nothing.

@@ -62,6 +62,14 @@ const METHODS: [Line; 5] = [
         "Moreau 1988, 1999; Stewart & Trinkle 1996; Anitescu & Potra 1997; Glocker & Pfeiffer 1995; Stronge 1990",
     ),
     (
+        "event-driven",
+        "tolerance: 1e-9 (of positions at the end, metres, times the sensitivity where that is above 1; at least 1e-13); \
+         impact: newton (default) | poisson | sequential",
+        "closed forms between events, else order 8 with a continuous extension of order 7; impacts, ends and beginnings of \
+         slips, and openings as roots in time; where events lead no further, short steps of time-stepping (work_fallbacks)",
+        "Dormand & Prince 8(5,3); Glocker 2001; Mirtich 1996",
+    ),
+    (
         "auto",
         "tolerance: 1e-6 (of positions at the end, metres)",
         "event-driven, or time-stepping where that stalls or falls back: whatever two runs say is accurate enough; columns \

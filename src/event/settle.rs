@@ -2,9 +2,8 @@
 
 use super::forces::{Forces, Held, NO_SLIP};
 use super::motion::Motion;
-use crate::collide::solid::Solid;
 use crate::exact::arc::Arc;
-use crate::model::{Body, Geometry, Model};
+use crate::model::Model;
 use crate::solve::problem::Twist;
 use crate::state::State;
 use nalgebra::Vector3;
@@ -82,7 +81,7 @@ impl Settling<'_> {
         let (radius_m, scale) = (body.bounding_radius_m, self.forces.free[i].v.norm());
         let Twist { v: a, w: mut alpha } = self.forces.acceleration(i);
         let at = &mut state.bodies[i];
-        if !is_centred_ball(body) {
+        if !body.is_centred_ball() {
             let turning = at.w_WB.norm() * radius_m > NO_SLIP * (at.v_WB.norm() + (scale * radius_m).sqrt());
             if turning || alpha.norm() * radius_m > NONE * scale {
                 return None;
@@ -107,10 +106,4 @@ impl Settling<'_> {
         self.ends_s = self.ends_s.min(ends_s);
         Some(Arc { t_s: state.time_s, from: *at, acceleration_m_s2: a, angular_rad_s2: alpha })
     }
-}
-
-/// Its forces turn nothing but itself about its centre of mass.
-pub fn is_centred_ball(body: &Body) -> bool {
-    let centred = matches!(&body.geometry, Geometry::Solid { solid: Solid::Sphere { .. }, centre } if *centre == Vector3::zeros());
-    body.isotropic && centred
 }

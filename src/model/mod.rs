@@ -127,6 +127,15 @@ impl Body {
         !matches!(self.geometry, Geometry::None) && !self.driven
     }
 
+    /// A ball about its centre of mass: how it has turned does not matter.
+    pub fn is_centred_ball(&self) -> bool {
+        let at_centre = |geometry: &Geometry| match geometry {
+            Geometry::Solid { solid: Solid::Sphere { .. }, centre } => *centre == Vector3::zeros(),
+            _ => false,
+        };
+        self.isotropic && at_centre(&self.geometry)
+    }
+
     /// What other bodies touch, and its centre from the centre of mass, in body axes.
     pub fn solid(&self) -> Option<(&Solid, &Vector3<f64>)> {
         match &self.geometry {

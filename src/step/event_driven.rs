@@ -11,7 +11,7 @@ use crate::event::decide::{Change, Decision, decide, margin};
 use crate::event::dense::{Dense, Field, project};
 use crate::event::forces::{Choice, Forces, Held, NO_SLIP, meeting_m_s};
 use crate::event::motion::Motion;
-use crate::event::settle::{is_centred_ball, settle};
+use crate::event::settle::settle;
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
 use crate::event::{impact, slip};
@@ -241,7 +241,7 @@ impl EventDriven {
         }
         let (approach, scale) = Self::approach_m_s(model, state, contact);
         // A ball's bounces cost so little that they are followed to rounding.
-        if self.found.len() == 1 && contact.ends().all(|(i, ..)| is_centred_ball(&model.bodies[i])) {
+        if self.found.len() == 1 && contact.ends().all(|(i, ..)| model.bodies[i].is_centred_ball()) {
             return approach <= BOUNCED_OUT * scale;
         }
         approach * approach / (2.0 * falling * left * left) <= self.negligible_m(model, contact)

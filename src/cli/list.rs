@@ -89,7 +89,7 @@ const SHAPES: [Line; 7] = [
 ];
 
 /// The settings column says of which scenes.
-const EXACT: [Line; 12] = [
+const EXACT: [Line; 16] = [
     (
         Exact::FreeMotion.word(),
         "gravity, and constant or cosine forces of the world at the centre of mass; no air, no pins, no contact",
@@ -164,6 +164,33 @@ const EXACT: [Line; 12] = [
         "one capsule leaning at rest, one end on a container of one level plane; no friction, restitution 0",
         "its centre falls straight down, by a quadrature; then flat at rest",
         "Routh, Elementary Rigid Dynamics, 136",
+    ),
+    (
+        Exact::Ladder.word(),
+        "one capsule leaning at rest, one end on each of a container's two planes, one level and one upright; no friction, \
+         restitution 0",
+        "leaves the wall at 2/3 of its height, by elliptic functions; then a falling rod that goes on sideways",
+        "Routh, Elementary Rigid Dynamics, 144",
+    ),
+    (
+        Exact::RimlessWheel.word(),
+        "one regular prism (a box or a convex) on a container of one plane, restitution 0, friction that holds; tilted about \
+         a lower edge, or turning about one, along the line of slope",
+        "rolls over its edges, on and on or back and forth until it stands; elliptic functions from impact to impact",
+        "McGeer, Int. J. Robotics Research 9 (1990) 62",
+    ),
+    (
+        Exact::Dome.word(),
+        "one sphere at rest on a fixed one, off its top; restitution 0; no friction, or friction that holds until the end",
+        "slides until it leaves at 2/3 of the height, then flies; or rolls until it slips; elliptic functions",
+        "Routh, Elementary Rigid Dynamics, 137",
+    ),
+    (
+        Exact::StickSlip.word(),
+        "one body flat on a container of one plane, too low to tip; one cosine force along the line that it moves on, and \
+         constant forces that friction holds",
+        "sticks and slips; the slips' ends are roots of a transcendental equation",
+        "Den Hartog, Trans. ASME 53 (1931) 107",
     ),
 ];
 

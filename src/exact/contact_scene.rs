@@ -1,10 +1,13 @@
 //! From a scene of bodies that touch to the closed form that is its motion. A container of one plane: nothing else is hit.
 
 use super::ball::{Ball, Setting};
-use super::scene::{Lacks, SAME, constant_acceleration, unpinned};
+use super::dome_scene::{self, OnDome};
+use super::scene::{Lacks, SAME, constant_acceleration, point, unpinned};
 use super::sliding::Sliding;
-use super::toppling_scene::{self, Block, Rod};
+use super::stick_slip::StickSlip;
+use super::toppling_scene::{self, Block, LadderAt, Rod};
 use super::turntable::Turntable;
+use super::wheel_scene::{self, Wheel};
 use crate::collide::faces;
 use crate::collide::solid::Solid;
 use crate::experiment::types::Exact;
@@ -22,6 +25,10 @@ pub enum Touching {
     Turntable(Turntable),
     Block(Box<Block>),
     Rod(Box<Rod>),
+    Ladder(Box<LadderAt>),
+    Wheel(Box<Wheel>),
+    Dome(Box<OnDome>),
+    StickSlip(Box<StickSlip>),
 }
 
 impl Touching {
@@ -33,7 +40,16 @@ impl Touching {
             Touching::Turntable(turntable) => turntable.at(t_s),
             Touching::Block(block) => block.at(t_s),
             Touching::Rod(rod) => rod.at(t_s),
+            Touching::Ladder(ladder) => ladder.at(t_s),
+            Touching::Wheel(wheel) => wheel.at(t_s),
+            Touching::Dome(dome) => dome.at(t_s),
+            Touching::StickSlip(body) => body.at(t_s),
         }
+    }
+
+    /// Up to when it is the motion.
+    pub fn holds_until_s(&self) -> f64 {
+        if let Touching::Dome(dome) = self { dome.holds_until_s() } else { f64::INFINITY }
     }
 }
 
@@ -46,6 +62,10 @@ pub fn motion(which: Exact, model: &Model, start: &State, index: usize) -> Resul
         Exact::Turntable => turntable(model, start, index),
         Exact::RockingBlock => toppling_scene::block(model, index, at).map(|block| Touching::Block(Box::new(block))),
         Exact::FallingRod => toppling_scene::rod(model, index, at).map(|rod| Touching::Rod(Box::new(rod))),
+        Exact::Ladder => toppling_scene::ladder(model, index, at).map(|ladder| Touching::Ladder(Box::new(ladder))),
+        Exact::RimlessWheel => wheel_scene::wheel(model, index, at).map(|wheel| Touching::Wheel(Box::new(wheel))),
+        Exact::Dome => dome_scene::dome(model, start, index).map(|dome| Touching::Dome(Box::new(dome))),
+        Exact::StickSlip => stick_slip(model, index, at),
         _ => rest(&model.bodies[index], at),
     }
 }
@@ -57,17 +77,18 @@ fn rest(body: &Body, at: &BodyState) -> Result<Touching, Lacks> {
 
 /// The only thing that it touches, and the acceleration by all that acts on it but the contact.
 pub(super) fn on_its_own(model: &Model, index: usize) -> Result<(Face, Vector3<f64>), Lacks> {
-    if model.touching_pairs {
-        return Err("one body with a shape".into());
-    }
     let acceleration = unhindered(model, index)?;
-    match model.container.as_ref().map(|container| container.faces.as_slice()) {
-        Some([face]) => Ok((*face, acceleration)),
-        _ => Err("a `container` of one plane".into()),
-    }
+    let [face] = only_faces(model).ok_or("a `container` of one plane, and one body with a shape")?;
+    Ok((face, acceleration))
 }
 
-fn unhindered(model: &Model, index: usize) -> Result<Vector3<f64>, Lacks> {
+/// If there is nothing else to touch.
+pub(super) fn only_faces<const N: usize>(model: &Model) -> Option<[Face; N]> {
+    let faces = model.container.as_ref().map(|container| container.faces.as_slice());
+    faces.filter(|_| !model.touching_pairs).and_then(|faces| faces.try_into().ok())
+}
+
+pub(super) fn unhindered(model: &Model, index: usize) -> Result<Vector3<f64>, Lacks> {
     if !unpinned(model, index)?.drag.is_none() {
         return Err("no `air`".into());
     }
@@ -77,21 +98,12 @@ fn unhindered(model: &Model, index: usize) -> Result<Vector3<f64>, Lacks> {
 fn sliding(model: &Model, index: usize, at: &BodyState) -> Result<Touching, Lacks> {
     let (face, acceleration) = on_its_own(model, index)?;
     let body = &model.bodies[index];
-    let speed = at.v_WB.norm();
-    let across = face.normal.dot(&at.v_WB).abs() > SAME * speed;
-    if across || at.w_WB != Vector3::zeros() {
-        return Err(format!("`{}` moving along the plane without turning", body.name));
-    }
-    let feet = feet(body, at, &face);
-    if !spread(&feet, &face.normal, body.bounding_radius_m) {
-        return Err(format!("`{}` lying flat on the plane, on three points or more", body.name));
-    }
+    let (feet, start) = lying_flat(body, at, &face)?;
     let press = -face.normal.dot(&acceleration);
     if press <= 0.0 {
         return Err(format!("`{}` pressed on the plane", body.name));
     }
     let pull = along(&acceleration, &face.normal, acceleration.norm());
-    let start = BodyState { v_WB: at.v_WB - face.normal * face.normal.dot(&at.v_WB), ..*at };
     let sliding = Sliding::new(&start, pull, press, model.pair(index, None).friction)
         .ok_or_else(|| format!("`{}` moving along the line of slope, or on a level plane", body.name))?;
     // The contact presses where its force has no moment about the centre of mass.
@@ -103,10 +115,45 @@ fn sliding(model: &Model, index: usize, at: &BodyState) -> Result<Touching, Lack
     Ok(Touching::Sliding(sliding))
 }
 
+/// The points on the plane, and the state, moving along the plane.
+fn lying_flat(body: &Body, at: &BodyState, face: &Face) -> Result<(Vec<Vector3<f64>>, BodyState), Lacks> {
+    let across = face.normal.dot(&at.v_WB);
+    if across.abs() > SAME * at.v_WB.norm() || at.w_WB != Vector3::zeros() {
+        return Err(format!("`{}` moving along the plane without turning", body.name));
+    }
+    let feet = feet(body, at, face);
+    if !spread(&feet, &face.normal, body.bounding_radius_m) {
+        return Err(format!("`{}` lying flat on the plane, on three points or more", body.name));
+    }
+    Ok((feet, BodyState { v_WB: at.v_WB - face.normal * across, ..*at }))
+}
+
+fn stick_slip(model: &Model, index: usize, at: &BodyState) -> Result<Touching, Lacks> {
+    let forces = point(model, index, at)?;
+    let [face] = only_faces(model).ok_or("a `container` of one plane, and one body with a shape")?;
+    let body = &model.bodies[index];
+    let (feet, start) = lying_flat(body, at, &face)?;
+    let [drive] = forces.harmonics[..] else { return Err("one cosine among the `forces`".into()) };
+    let (normal, weight) = (face.normal, forces.constant_m_s2);
+    let press = -normal.dot(&weight);
+    if press <= 0.0 || normal.dot(&drive.amplitude_m_s2).abs() > SAME * drive.amplitude_m_s2.norm() {
+        return Err(format!("`{}` pressed on the plane, and a cosine along it", body.name));
+    }
+    let friction = model.pair(index, None).friction;
+    let body_slips = StickSlip::new(&start, along(&weight, &normal, weight.norm()), &drive, friction * press)
+        .ok_or("everything along one line, and friction that holds what is constant")?;
+    // The contact presses where its force has no moment about the centre of mass.
+    let tips = drive.amplitude_m_s2.normalize() * (friction * normal.dot(&feet[0]));
+    if ![tips, -tips].iter().all(|point| covers(&feet, &normal, point)) {
+        return Err(format!("`{}` too low to tip: the resultant within its base", body.name));
+    }
+    Ok(Touching::StickSlip(Box::new(body_slips)))
+}
+
 /// What is nearer to a plane, of the size of the body and of the distance from the origin, is on it.
 const ON: f64 = 1e-9;
 
-fn rounding_m(size_m: f64, at: &BodyState) -> f64 {
+pub(super) fn rounding_m(size_m: f64, at: &BodyState) -> f64 {
     ON * size_m + 8.0 * f64::EPSILON * at.p_WB.amax()
 }
 
@@ -150,7 +197,7 @@ fn covers(points: &[Vector3<f64>], normal: &Vector3<f64>, point: &Vector3<f64>) 
 }
 
 /// Radius and k = I/(m r²) of a homogeneous ball, or one with its mass about its centre.
-fn sphere(body: &Body) -> Result<(f64, f64), Lacks> {
+pub(super) fn sphere(body: &Body) -> Result<(f64, f64), Lacks> {
     match &body.geometry {
         Geometry::Solid { solid: Solid::Sphere { radius_m }, centre }
             if body.isotropic && centre.norm() <= ON * radius_m =>

@@ -64,6 +64,13 @@ impl FallingRod {
         self.unit_s * ((self.inertia + 4.0 * sin * sin * cos_squared) / cos_squared).sqrt()
     }
 
+    /// When it comes to an angle on its way.
+    pub fn comes_to_s(&self, angle_rad: f64) -> f64 {
+        let u = libm::acosh((libm::sin(angle_rad / 2.0) / self.start).max(1.0));
+        let begun = ((u / self.panel) as usize).min(self.times_s.len() - 2);
+        self.times_s[begun] + self.between_s(begun as f64 * self.panel, u)
+    }
+
     fn between_s(&self, a: f64, b: f64) -> f64 {
         let (middle, half) = ((a + b) / 2.0, (b - a) / 2.0);
         self.rule.iter().map(|(x, weight)| weight * half * self.slope_s(middle + half * x)).sum()

@@ -5,24 +5,30 @@ mod attitude;
 pub mod ball;
 mod contact_scene;
 pub mod dd;
+pub mod dome;
+mod dome_scene;
 pub mod falling_rod;
 pub mod free_rotation;
 pub mod heavy_top;
 pub mod inverted_pendulum;
 pub mod jacobi;
+pub mod ladder;
 pub mod linear_drag;
 pub mod pendulum;
 pub mod point_motion;
 mod principal;
 pub mod quadratic_drag;
+pub mod rimless_wheel;
 pub mod rocking_block;
 mod scene;
 pub mod sliding;
+pub mod stick_slip;
 pub mod symmetric_body;
 mod top_phase;
 mod top_roots;
 mod toppling_scene;
 pub mod turntable;
+mod wheel_scene;
 
 use crate::experiment::types::{Exact, Experiment, Integrator, Method};
 use crate::model::Model;
@@ -45,6 +51,11 @@ impl Reference {
     /// The exact state at a time after the start.
     pub fn state_at(&self, t_s: f64) -> State {
         State { step: 0, time_s: t_s, bodies: self.bodies.iter().map(|motion| motion.at(t_s)).collect() }
+    }
+
+    /// Up to when the closed form is the motion.
+    pub fn holds_until_s(&self) -> f64 {
+        self.bodies.iter().map(Motion::holds_until_s).fold(f64::INFINITY, f64::min)
     }
 
     /// Puts the bodies where they are at the state's time.

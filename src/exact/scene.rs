@@ -78,6 +78,10 @@ impl Motion {
             Motion::Touching(touching) => touching.at(t_s),
         }
     }
+
+    pub fn holds_until_s(&self) -> f64 {
+        if let Motion::Touching(touching) = self { touching.holds_until_s() } else { f64::INFINITY }
+    }
 }
 
 impl Swing {
@@ -126,7 +130,7 @@ fn free_turning(body: &Body, at: &BodyState) -> Turning {
 }
 
 /// Gravity, and forces of the world at the centre of mass.
-fn point(model: &Model, index: usize, at: &BodyState) -> Result<PointMotion, Lacks> {
+pub(super) fn point(model: &Model, index: usize, at: &BodyState) -> Result<PointMotion, Lacks> {
     let body = unpinned(model, index)?;
     if !body.drag.is_none() {
         return Err("no `air`".into());

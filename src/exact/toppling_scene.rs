@@ -1,7 +1,8 @@
-//! From a scene to a block that rocks on a plane, or a rod that falls over on one.
+//! From a scene to a block that rocks on a plane, a rod that falls over on one, or one that slides down a wall.
 
-use super::contact_scene::{along, feet, on_its_own};
+use super::contact_scene::{along, feet, on_its_own, only_faces, unhindered};
 use super::falling_rod::FallingRod;
+use super::ladder::Ladder;
 use super::rocking_block::RockingBlock;
 use super::scene::{Lacks, SAME};
 use crate::collide::solid::Solid;
@@ -31,6 +32,40 @@ pub struct Rod {
     up: Vector3<f64>,
 }
 
+/// A rod between a wall and a floor.
+#[derive(Clone, Debug)]
+pub struct LadderAt {
+    ladder: Ladder,
+    start: BodyState,
+    angle_rad: f64,
+    half_length_m: f64,
+    axis_W: Vector3<f64>,
+    up: Vector3<f64>,
+    /// From the wall.
+    out: Vector3<f64>,
+}
+
+impl LadderAt {
+    pub fn at(&self, t_s: f64) -> BodyState {
+        let (leaning, length) = (self.ladder.at(t_s), self.half_length_m);
+        let angle = leaning.angle_rad;
+        let gone_m = leaning.distance_m - length * libm::sin(self.angle_rad);
+        let turn = UnitQuaternion::from_scaled_axis(self.axis_W * (angle - self.angle_rad));
+        let sinking = length * libm::sin(angle) * leaning.rate_rad_s;
+        BodyState {
+            p_WB: self.start.p_WB + self.out * gone_m - self.up * (length * fallen(self.angle_rad, angle)),
+            q_WB: turn * self.start.q_WB,
+            v_WB: self.out * leaning.speed_m_s - self.up * sinking,
+            w_WB: self.axis_W * leaning.rate_rad_s,
+        }
+    }
+}
+
+/// cos θ₀ − cos θ, without the difference.
+fn fallen(from_rad: f64, to_rad: f64) -> f64 {
+    2.0 * libm::sin((to_rad + from_rad) / 2.0) * libm::sin((to_rad - from_rad) / 2.0)
+}
+
 impl Block {
     pub fn at(&self, t_s: f64) -> BodyState {
         let (impacts, tilt, rate) = self.rocking.at(t_s);
@@ -46,12 +81,9 @@ impl Rod {
     pub fn at(&self, t_s: f64) -> BodyState {
         let flat = t_s >= self.falling.flat_s();
         let (angle, rate) = if flat { (std::f64::consts::FRAC_PI_2, 0.0) } else { self.falling.at(t_s) };
-        // cos θ₀ − cos θ.
-        let (mean, half) = ((angle + self.angle_rad) / 2.0, (angle - self.angle_rad) / 2.0);
-        let fallen = 2.0 * libm::sin(mean) * libm::sin(half);
         let turn = UnitQuaternion::from_scaled_axis(self.axis_W * (angle - self.angle_rad));
         BodyState {
-            p_WB: self.start.p_WB - self.up * (self.half_length_m * fallen),
+            p_WB: self.start.p_WB - self.up * (self.half_length_m * fallen(self.angle_rad, angle)),
             q_WB: turn * self.start.q_WB,
             v_WB: self.up * (-self.half_length_m * libm::sin(angle) * rate),
             w_WB: self.axis_W * rate,
@@ -62,11 +94,13 @@ impl Rod {
 /// A level plane's normal, and g.
 fn level(model: &Model, index: usize) -> Result<(Face, f64), Lacks> {
     let (face, acceleration) = on_its_own(model, index)?;
-    let press = -face.normal.dot(&acceleration);
-    if press <= 0.0 || along(&acceleration, &face.normal, press).norm() > SAME * press {
-        return Err("a level plane".into());
-    }
-    Ok((face, press))
+    Ok((face, press_on(&face, &acceleration).ok_or("a level plane")?))
+}
+
+/// g, if the plane is level.
+fn press_on(face: &Face, acceleration: &Vector3<f64>) -> Option<f64> {
+    let press = -face.normal.dot(acceleration);
+    (press > 0.0 && along(acceleration, &face.normal, press).norm() <= SAME * press).then_some(press)
 }
 
 pub fn block(model: &Model, index: usize, at: &BodyState) -> Result<Block, Lacks> {
@@ -140,14 +174,49 @@ pub fn rod(model: &Model, index: usize, at: &BodyState) -> Result<Rod, Lacks> {
     if moves || up.dot(&upward) <= SAME || feet(body, at, &face).len() != 1 {
         return Err(leaning());
     }
-    let I_axis = at.q_WB * (body.I_B * at.q_WB.inverse_transform_vector(&axis_W));
-    let inertia = axis_W.dot(&I_axis) / (body.mass_kg * half_length_m * half_length_m);
-    let apart = (I_axis - axis_W * axis_W.dot(&I_axis)).norm();
-    if inertia > 1.0 || apart > SAME * I_axis.norm() {
-        return Err(format!("`{}` turning about a principal axis, I of at most m (L/2)²", body.name));
-    }
+    let inertia = of_rod(body, at, &axis_W, half_length_m)?;
     let falling = FallingRod::new(angle_rad, inertia, half_length_m, gravity_m_s2);
     Ok(Rod { falling, start: *at, angle_rad, half_length_m, axis_W, up })
+}
+
+/// On a smooth floor along a smooth wall.
+pub fn ladder(model: &Model, index: usize, at: &BodyState) -> Result<LadderAt, Lacks> {
+    let acceleration = unhindered(model, index)?;
+    let faces: [Face; 2] = only_faces(model).ok_or("a `container` of two planes, and one body with a shape")?;
+    let floor = faces.iter().position(|face| press_on(face, &acceleration).is_some());
+    let floor = floor.ok_or("a level plane and an upright one")?;
+    let (up, out) = (faces[floor].normal, faces[1 - floor].normal);
+    if up.dot(&out).abs() > SAME {
+        return Err("a level plane and an upright one".into());
+    }
+    let (body, surface) = (&model.bodies[index], model.pair(index, None));
+    let half_length_m = capsule_m(body)?;
+    if surface.friction != 0.0 || surface.restitution != 0.0 {
+        return Err("no friction and no restitution".into());
+    }
+    let axis = at.q_WB * Vector3::y();
+    let upward = axis * libm::copysign(1.0, axis.dot(&up));
+    let (axis_W, angle_rad) = (out.cross(&up), libm::atan2(-upward.dot(&out), upward.dot(&up)));
+    let leans = angle_rad > SAME && upward.dot(&up) > SAME && upward.dot(&axis_W).abs() <= SAME;
+    let still = at.v_WB == Vector3::zeros() && at.w_WB == Vector3::zeros();
+    if !leans || !still || faces.iter().any(|face| feet(body, at, face).len() != 1) {
+        return Err(format!("`{}` leaning at rest, one end on each plane", body.name));
+    }
+    let inertia = of_rod(body, at, &axis_W, half_length_m)?;
+    let ladder = Ladder::new(angle_rad, inertia, half_length_m, acceleration.norm())
+        .ok_or_else(|| format!("`{}` leaning far enough to slide", body.name))?;
+    Ok(LadderAt { ladder, start: *at, angle_rad, half_length_m, axis_W, up, out })
+}
+
+/// I/(m l²), l half the length, about an axis that it can turn about and lie flat.
+fn of_rod(body: &Body, at: &BodyState, axis_W: &Vector3<f64>, half_length_m: f64) -> Result<f64, Lacks> {
+    let I_axis = at.q_WB * (body.I_B * at.q_WB.inverse_transform_vector(axis_W));
+    let about = axis_W.dot(&I_axis);
+    let inertia = about / (body.mass_kg * half_length_m * half_length_m);
+    if inertia > 1.0 || (I_axis - axis_W * about).norm() > SAME * I_axis.norm() {
+        return Err(format!("`{}` turning about a principal axis, I of at most m (L/2)²", body.name));
+    }
+    Ok(inertia)
 }
 
 /// Half the distance between the centres of its two spheres.

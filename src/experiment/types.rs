@@ -458,11 +458,19 @@ pub enum Exact {
     RockingBlock,
     /// A capsule that falls over on a smooth floor.
     FallingRod,
+    /// A capsule that slides down a smooth wall, on a smooth floor.
+    Ladder,
+    /// A regular prism that rolls over its edges.
+    RimlessWheel,
+    /// A ball that slides or rolls off a fixed ball.
+    Dome,
+    /// A body on a plane under a harmonic force.
+    StickSlip,
 }
 
 impl Exact {
     /// All of them, as written above; a test holds this against the parser's own list.
-    pub const ALL: [Exact; 12] = [
+    pub const ALL: [Exact; 16] = [
         Exact::FreeMotion,
         Exact::SymmetricBody,
         Exact::LinearDrag,
@@ -475,6 +483,10 @@ impl Exact {
         Exact::Turntable,
         Exact::RockingBlock,
         Exact::FallingRod,
+        Exact::Ladder,
+        Exact::RimlessWheel,
+        Exact::Dome,
+        Exact::StickSlip,
     ];
 
     /// Its word in the file.
@@ -492,6 +504,10 @@ impl Exact {
             Exact::Turntable => "turntable",
             Exact::RockingBlock => "rocking-block",
             Exact::FallingRod => "falling-rod",
+            Exact::Ladder => "ladder",
+            Exact::RimlessWheel => "rimless-wheel",
+            Exact::Dome => "dome",
+            Exact::StickSlip => "stick-slip",
         }
     }
 
@@ -501,7 +517,8 @@ impl Exact {
             Exact::FreeMotion | Exact::SymmetricBody | Exact::LinearDrag | Exact::QuadraticDrag => false,
             Exact::HeavyTop | Exact::Pendulum => false,
             Exact::Rest | Exact::Sliding | Exact::Ball => true,
-            Exact::Turntable | Exact::RockingBlock | Exact::FallingRod => true,
+            Exact::Turntable | Exact::RockingBlock | Exact::FallingRod | Exact::Ladder => true,
+            Exact::RimlessWheel | Exact::Dome | Exact::StickSlip => true,
         }
     }
 }

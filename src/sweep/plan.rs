@@ -63,7 +63,11 @@ pub fn build(
     for (path, exact) in exact::named(experiment) {
         let lacking =
             |lacks| file.error_at(point, path, &format!("a scene with {lacks}"), &format!("`{}`", exact.word()));
-        Reference::new(exact, &model, &start).map_err(lacking)?;
+        let until_s = Reference::new(exact, &model, &start).map_err(lacking)?.holds_until_s();
+        if experiment.time.end_s > until_s {
+            let expected = format!("at most {until_s}, up to where the closed form `{}` holds", exact.word());
+            return Err(file.error_at(point, "time.end_s", &expected, &experiment.time.end_s.to_string()));
+        }
     }
     Ok((model, start))
 }

@@ -39,12 +39,43 @@ pub fn scene(which: Exact) -> String {
              inertia_kg_m2: [0.16666666666666666, 0.0001, 0.16666666666666666], \
              position_m: [0, 0.44301270189221936, 0], orientation: { axis: [1, 0, 2], angle_deg: 30 } }",
         ),
+        Exact::Ladder => (
+            "container: { planes: [{ normal: [0, 1, 0] }, { normal: [1, 0, 0] }] }".into(),
+            "{ name: b, shape: { capsule: { radius_m: 0.01, height_m: 1 } }, mass_kg: 2, \
+             inertia_kg_m2: [0.16666666666666666, 0.0001, 0.16666666666666666], \
+             position_m: [0.26, 0.44301270189221936, 0], orientation: { axis: [0, 0, 1], angle_deg: 30 } }",
+        ),
+        Exact::RimlessWheel => (
+            format!("friction: 1, {plane}"),
+            "{ name: b, shape: { convex: { vertices_m: [[0.5, 0, -0.2], [0.25, 0.4330127018922193, -0.2], [-0.25, 0.4330127018922193, -0.2], \
+             [-0.5, 0, -0.2], [-0.25, -0.4330127018922193, -0.2], [0.25, -0.4330127018922193, -0.2], \
+             [0.5, 0, 0.2], [0.25, 0.4330127018922193, 0.2], [-0.25, 0.4330127018922193, 0.2], \
+             [-0.5, 0, 0.2], [-0.25, -0.4330127018922193, 0.2], [0.25, -0.4330127018922193, 0.2]] } }, \
+             mass_kg: 2, position_m: [0, 0.4330127018922193, 0], velocity_m_s: [1.7320508075688772, 1, 0], \
+             angular_velocity_rad_s: [0, 0, -4] }",
+        ),
+        Exact::Dome => (
+            "gravity_m_s2: [0, -9.81, 0], friction: 0".into(),
+            "{ name: b, shape: { sphere: { radius_m: 0.1 } }, mass_kg: 2, position_m: [0.19101299543362332, 1.0832885283134288, 0] }, \
+             { name: dome, shape: { sphere: { radius_m: 1 } }, position_m: [0, 0, 0], fixed: true }",
+        ),
+        Exact::StickSlip => (
+            format!(
+                "friction: 0.3, {plane}, \
+                 forces: [{{ body: b, force_n: [8, 0, 6], as: {{ cosine: {{ frequency_rad_s: 5, phase_rad: 1 }} }} }}]"
+            ),
+            "{ name: b, shape: { box: { size_m: [1, 0.2, 1] } }, mass_kg: 2, position_m: [0, 0.1, 0] }",
+        ),
         _ => (
             format!("friction: 0.3, {plane}"),
             "{ name: b, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 2, position_m: [0, 0.5, 0] }",
         ),
     };
-    let end_s = if which == Exact::FallingRod { 0.2 } else { 0.9 };
+    let end_s = match which {
+        Exact::FallingRod => 0.2,
+        Exact::Ladder => 0.45,
+        _ => 0.9,
+    };
     format!(
         "scene: {{ {scene}, bodies: [{bodies}] }}\ntime: {{ step_s: 0.001, end_s: {end_s} }}\n\
          method: {{ time-stepping: {{ solver: newton }} }}\nexact: {}\n",
@@ -74,7 +105,7 @@ fn time_stepping_comes_near_every_closed_form() {
 
 #[test]
 fn a_scene_that_is_not_the_closed_forms_is_refused() {
-    let rows: [(Exact, &[&str], &str); 24] = [
+    let rows: [(Exact, &[&str], &str); 39] = [
         (Exact::Rest, &["scene.bodies.b.velocity_m_s=[0, 0, 1e-9]"], "`b` at rest at the start"),
         (Exact::Sliding, &["scene.bodies.b.velocity_m_s=[2, 0.1, 1]"], "moving along the plane without turning"),
         (Exact::Sliding, &["scene.bodies.b.angular_velocity_rad_s=[0, 1, 0]"], "without turning"),
@@ -119,6 +150,32 @@ fn a_scene_that_is_not_the_closed_forms_is_refused() {
         (Exact::FallingRod, &["scene.friction=0.1"], "no friction and no restitution"),
         (Exact::FallingRod, &["scene.bodies.b.inertia_kg_m2=[0.6, 0.0001, 0.6]"], "of at most m (L/2)²"),
         (Exact::FallingRod, &["scene.bodies.b.velocity_m_s=[1, 0, 0]"], "leaning at rest"),
+        (Exact::Ladder, &["scene.friction=0.1"], "no friction and no restitution"),
+        (Exact::Ladder, &["scene.container={plane: {normal: [0, 1, 0]}}"], "a `container` of two planes"),
+        (Exact::Ladder, &["scene.gravity_m_s2=[1, -9, 0]"], "a level plane and an upright one"),
+        (Exact::Ladder, &["scene.bodies.b.position_m=[0.27, 0.44301270189221936, 0]"], "one end on each plane"),
+        (Exact::RimlessWheel, &["scene.restitution=0.1"], "no restitution"),
+        (Exact::RimlessWheel, &["scene.friction=0.3"], "more friction than rolling takes"),
+        (Exact::RimlessWheel, &["scene.bodies.b.angular_velocity_rad_s=[0, 0, 0]"], "turning about one"),
+        (
+            Exact::RimlessWheel,
+            &[
+                "scene.bodies.b.center_of_mass_m=[0.01, 0, 0]",
+                "scene.bodies.b.velocity_m_s=[1.7320508075688772, 0.96, 0]",
+            ],
+            "a regular prism",
+        ),
+        (Exact::RimlessWheel, &["scene.gravity_m_s2=[0, -9, 1]"], "along the line of slope"),
+        (Exact::Dome, &["scene.bodies.dome.fixed=false", "scene.bodies.dome.mass_kg=5"], "`dome` fixed"),
+        (Exact::Dome, &["scene.bodies.b.position_m=[0, 1.1, 0]"], "off its top"),
+        (Exact::Dome, &["scene.friction=0.01"], "more friction than rolling takes"),
+        (Exact::StickSlip, &["scene.forces=[]"], "one cosine among the `forces`"),
+        (Exact::StickSlip, &["scene.bodies.b.velocity_m_s=[1, 0, 0]"], "everything along one line"),
+        (
+            Exact::StickSlip,
+            &["scene.bodies.b.shape.box.size_m=[0.1, 0.2, 0.1]", "scene.friction=0.7"],
+            "too low to tip",
+        ),
     ];
     for (which, sets, fragment) in rows {
         let message = match plan::cases(&file(&scene(which), &[sets, &["scene.allow_overlap=true"]].concat())) {

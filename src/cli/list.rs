@@ -29,7 +29,7 @@ enum What {
 /// Word, settings with defaults, what it is, source.
 type Line = (&'static str, &'static str, &'static str, &'static str);
 
-const METHODS: [Line; 5] = [
+const METHODS: [Line; 6] = [
     (
         "free",
         "integrator: semi-implicit-euler (default), or one of those below; tolerance: 1e-9 (of dop853 and taylor)",

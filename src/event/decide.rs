@@ -251,7 +251,9 @@ pub fn margin(model: &Model, state: &State, held: &[Held], forces: &mut Forces, 
     }
     let largest = forces.p.iter().map(|p| p.norm()).fold(0.0, f64::max);
     if largest == 0.0 {
-        return 0.0;
+        // Coulomb's law of a young slip does not pull: it lets go.
+        let lets_go = forces.problem.blocks.iter().take(held.len()).any(|block| block.b.x > 0.0);
+        return if lets_go { -1.0 } else { 0.0 };
     }
     let margin = held.iter().zip(&forces.p).map(|(held, p)| match held.mode {
         Mode::Stick => p.x.min(held.touch.friction() * p.x - p.yz().norm()),

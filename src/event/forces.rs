@@ -164,7 +164,10 @@ impl Forces {
 
     /// Solves for what holds, pins with it.
     pub fn hold(&mut self, held: &[Held], choice: Choice) -> bool {
-        if let ([Held { slip: Slip::Young, mode: Mode::Slide(_), .. }], [block]) = (held, &self.problem.blocks[..]) {
+        if let ([only], [block]) = (held, &self.problem.blocks[..])
+            && only.slip == Slip::Young
+            && only.slides().is_some()
+        {
             self.p.clear();
             self.p.push(exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction));
             self.problem.response(&self.p, &mut self.added);

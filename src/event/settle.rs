@@ -70,6 +70,9 @@ impl Settling<'_> {
         if !all_others(&|b| self.model.bodies[b].driven && self.resting[b]) {
             return None;
         }
+        if !own().all(|(_, held)| held.touch.is_on_plane()) {
+            return None;
+        }
         let own: Vec<usize> = own().map(|(k, _)| k).collect();
         self.steady(state, i, &own).map(Motion::Arc)
     }

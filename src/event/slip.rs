@@ -42,7 +42,13 @@ pub fn look(model: &Model, held: &mut [Held], state: &State, tolerance_m: f64, f
             Slip::Young => most_s.min(youth_s).min(slow.young / a_W.norm()),
             Slip::Fading => most_s.min(4.0 * speed / a_W.norm()),
         };
-        if speed > 0.0 {
+        // What is next to nothing has the direction of rounding.
+        let known = match held.slip {
+            Slip::Fast => 0.0,
+            Slip::Young => 0.01 * slow.young,
+            Slip::Fading => 0.01 * slow.fading,
+        };
+        if speed > known {
             held.mode = Mode::Slide(slip / speed);
         }
     }

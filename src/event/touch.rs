@@ -109,6 +109,11 @@ impl Touch {
         std::iter::once(self.found.body).chain(self.found.other)
     }
 
+    /// On a plane, whose normal turns only with its body.
+    pub fn is_on_plane(&self) -> bool {
+        matches!(self.parts, Parts::OnPlane { .. })
+    }
+
     pub fn friction(&self) -> f64 {
         self.found.friction
     }

@@ -18,6 +18,19 @@ pub struct Done {
     pub angular_impulse: Vector3<f64>,
 }
 
+impl Done {
+    pub const NOTHING: Done =
+        Done { work_j: 0.0, impulse: Vector3::new(0.0, 0.0, 0.0), angular_impulse: Vector3::new(0.0, 0.0, 0.0) };
+}
+
+impl std::ops::AddAssign for Done {
+    fn add_assign(&mut self, more: Done) {
+        self.work_j += more.work_j;
+        self.impulse += more.impulse;
+        self.angular_impulse += more.angular_impulse;
+    }
+}
+
 /// With the state in the middle of the step, which is kept only for its memory.
 pub fn done(
     model: &Model,
@@ -26,7 +39,7 @@ pub fn done(
     pivot: impl Fn(&State) -> Vector3<f64>,
     h: f64,
 ) -> Done {
-    let mut done = Done { work_j: 0.0, impulse: Vector3::zeros(), angular_impulse: Vector3::zeros() };
+    let mut done = Done::NOTHING;
     if !model.has_loads() || h == 0.0 {
         return done;
     }

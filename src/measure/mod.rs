@@ -166,7 +166,13 @@ impl Judge {
             self.watched.observe_step(before, after, span_s);
         }
         let pivot = |state: &State| self.momentum.pivot_m(model, state);
-        let done = loads::done(model, [before, after], &mut self.middle, pivot, span_s);
+        // A long stretch in parts: what acts on bodies may swing in it.
+        let mut done = loads::Done::NOTHING;
+        let mut from = before;
+        for to in moments.iter().map(|moment| &moment.state).chain([after]) {
+            done += loads::done(model, [from, to], &mut self.middle, pivot, to.time_s - from.time_s);
+            from = to;
+        }
         self.energy.observe(energy, done.work_j);
         self.momentum.observe(model, [before, before, after], None, &done, span_s);
         let gap_m = model.pin_gap_m(&after.bodies);

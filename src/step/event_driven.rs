@@ -224,6 +224,9 @@ impl EventDriven {
             if self.bounces_out(model, state, &self.found[k]) {
                 self.found[k].restitution = 0.0;
             }
+            if self.found[k].restitution == 0.0 {
+                self.found[k].tangential_restitution = 0.0;
+            }
         }
         let (forces, solved, work) = (&mut self.forces, &mut self.solved, &mut self.work);
         if !impact::strike(model, state, &self.found, self.law, forces, solved, work) {
@@ -422,7 +425,7 @@ impl EventDriven {
             (0.953089922969332, 0.11846344252809454),
         ];
         let span_s = after.time_s - before.time_s;
-        if self.held.is_empty() || span_s <= 0.0 {
+        if span_s <= 0.0 || (self.held.is_empty() && !model.has_loads()) {
             return Vec::new();
         }
         let moment = |(node, weight): (f64, f64)| {

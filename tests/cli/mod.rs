@@ -193,7 +193,7 @@ fn list_names_every_method_and_shape_that_can_be_written() {
     // The parser's own list, from its error message.
     let known = |set: &str| run(&["run", "configs/lecture/demo.yaml", "--set", set]).2;
     let (methods, shapes) = (known("method=nonsense"), known("scene.bodies.cube.shape=nonsense"));
-    assert!(names("methods").iter().all(|name| methods.contains(name.as_str())) && names("methods").len() == 5);
+    assert!(names("methods").iter().all(|name| methods.contains(name.as_str())) && names("methods").len() == 6);
     assert!(names("shapes").iter().all(|name| shapes.contains(name.as_str())) && names("shapes").len() == 7);
 }
 

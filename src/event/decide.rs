@@ -231,7 +231,11 @@ fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], slow: &[bool],
         }
         let a_W = block.frame[1] * a.y + block.frame[2] * a.z;
         let mode = match modes[i] {
-            Mode::Stick if a_W.norm() > ROUNDING * scale => Mode::Slide(a_W.normalize()),
+            // Against its force, which is known to more digits than an acceleration that has just begun.
+            Mode::Stick if a_W.norm() > ROUNDING * scale => {
+                let p_W = block.frame[1] * p[i].y + block.frame[2] * p[i].z;
+                Mode::Slide((-p_W).try_normalize(0.0).unwrap_or_else(|| a_W.normalize()))
+            }
             mode => mode,
         };
         let slip = if slow[i] { Slip::Young } else { Slip::Fast };

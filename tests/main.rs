@@ -4,6 +4,7 @@
 //! - `model/`: meshes, mass properties, containers, start states
 //! - `collide/`: contact points of solids with planes and with each other, candidate pairs
 //! - `methods/`: each method against its own recurrence, the exact motion, its conserved quantities
+//! - `event/`: motion from event to event, against closed forms, itself and what mechanics keeps
 //! - `exact/`: closed forms against 40-digit references
 //! - `measure/`: columns that `measure:` adds, against another way to their numbers
 //! - `map_a`: the lecture's stability notes against the measured table
@@ -26,6 +27,7 @@ mod cli;
 mod collide;
 mod configs;
 mod counters;
+mod event;
 mod exact;
 mod experiment;
 mod map_a;

@@ -1,0 +1,45 @@
+//! `event-driven`: held against closed forms, against itself at other tolerances, and against what mechanics keeps.
+
+mod balls;
+mod closed_forms;
+mod cube;
+mod never_hangs;
+mod painleve;
+mod same;
+mod symmetries;
+mod tolerance;
+
+use gotai::experiment::types::Experiment;
+use gotai::measure::error::Errors;
+use gotai::row::{Measured, Outcome};
+use gotai::state::State;
+use gotai::step::{Clock, Span, Stepper};
+use gotai::{model, plan::Plan};
+
+/// The largest of the errors of position, orientation and velocities against the closed form.
+fn worst_error(measured: &Measured) -> f64 {
+    let Measured { error_position_m, error_orientation_rad, error_velocity_m_s, error_angular_velocity_rad_s, .. } =
+        measured;
+    assert_eq!(measured.outcome, Outcome::Finished);
+    let all = [error_position_m, error_orientation_rad, error_velocity_m_s, error_angular_velocity_rad_s];
+    all.iter().map(|error| error.unwrap()).fold(0.0, f64::max)
+}
+
+fn apart_m(a: &State, b: &State) -> f64 {
+    Errors::between(a, b).position_m
+}
+
+/// The states right after each of the first impacts, up to the end.
+fn impacts(experiment: &Experiment, most: usize) -> Vec<State> {
+    let (model, mut state) = model::build(experiment).unwrap();
+    let clock = Clock::new(experiment.time.end_s, experiment.time.end_s);
+    let mut stepper = Stepper::new(&experiment.method, &Plan::new(&model, &experiment.method), &model, &state);
+    let mut found = Vec::new();
+    while !stepper.is_done(&state, &clock) && stepper.stalled().is_none() && found.len() < most {
+        stepper.step(&model, &mut state, &clock);
+        if stepper.span() == Span::Blow {
+            found.push(state.clone());
+        }
+    }
+    found
+}

@@ -29,12 +29,15 @@ pub struct Change {
 pub enum Decision {
     Holds(Vec<Held>),
     /// No force keeps this contact sliding, and none makes it stick: an impulse has to end the slip (Painlevé).
-    Jams(Touch),
+    Jams(Box<Touch>),
     Unsolved,
 }
 
 /// Of the largest acceleration: what the law's solution leaves.
 const ROUNDING: f64 = 1e-10;
+
+/// Of the largest acceleration: less does not tell a direction.
+const PLAIN: f64 = 1e-6;
 
 /// Fictitious slip over the largest acceleration.
 const FAST: f64 = 1e3;
@@ -123,7 +126,7 @@ fn alone(forces: &mut Forces, touch: &Touch, mode: Mode, slip: Slip) -> Option<D
     match mode {
         Mode::Slide(d) => {
             let k = block.A.row(0).transpose().dot(&edge(block.friction, &block.frame, &d));
-            if k > 1e-12 * block.A[(0, 0)] { holds(mode) } else { Some(Decision::Jams(touch.clone())) }
+            if k > 1e-12 * block.A[(0, 0)] { holds(mode) } else { Some(Decision::Jams(Box::new(touch.clone()))) }
         }
         Mode::Stick => {
             let p = -block.A.try_inverse()? * block.b;
@@ -191,7 +194,7 @@ fn slide_on(forces: &Forces, before: &[Mode], after: &[Mode]) -> bool {
             let a = block.velocity(&forces.added);
             let a_W = block.frame[1] * a.y + block.frame[2] * a.z;
             let along = d.dot(&a_W);
-            along >= -ROUNDING * largest && (a_W - d * along).norm() <= ROUNDING * largest
+            along >= PLAIN * largest && (a_W - d * along).norm() <= ROUNDING * largest
         }
         _ => true,
     })
@@ -273,7 +276,6 @@ pub fn margin(model: &Model, state: &State, held: &[Held], forces: &mut Forces, 
     };
     let modes: Vec<Mode> = held.iter().zip(&forces.here).map(mode).collect();
     let touches: Vec<Touch> = held.iter().map(|held| held.touch.clone()).collect();
-    let (p, added) = (forces.p.clone(), forces.added.clone());
     let now = by_law(forces, &modes, &touches, &vec![true; held.len()], work);
     match now {
         // Slightly positive: the true margin is not known.
@@ -282,9 +284,7 @@ pub fn margin(model: &Model, state: &State, held: &[Held], forces: &mut Forces, 
         {
             1e-3
         }
-        _ => {
-            (forces.p, forces.added) = (p, added);
-            least
-        }
+        // The forces are now those of the law: which contacts change is seen in them.
+        _ => least,
     }
 }

@@ -321,7 +321,8 @@ impl Eliminated {
         let mut rank = 0;
         while rank < n {
             let (r, c) = LU.view((rank, rank), (n - rank, n - rank)).icamax_full();
-            if !(LU[(rank + r, rank + c)].abs() > RANK * largest) {
+            let pivot = LU[(rank + r, rank + c)].abs();
+            if pivot.is_nan() || pivot <= RANK * largest {
                 break;
             }
             LU.swap_rows(rank, rank + r);

@@ -12,6 +12,7 @@ use crate::experiment::types::{Cone, Correction, Iteration};
 use crate::measure::work::Work;
 use crate::model::Model;
 use crate::solve::gauss_seidel::{self, Sweeps, Variant};
+use crate::solve::problem::Block;
 use crate::solve::{Impulse, newton};
 use crate::state::State;
 use nalgebra::Vector3;
@@ -28,8 +29,8 @@ pub struct Change {
 #[derive(Clone, Debug)]
 pub enum Decision {
     Holds(Vec<Held>),
-    /// No force keeps this contact sliding, and none makes it stick: an impulse has to end the slip (Painlevé).
-    Jams(Box<Touch>),
+    /// No force keeps a slip going, and none ends it: an impulse has to (Painlevé).
+    Jams,
     Unsolved,
 }
 
@@ -126,7 +127,7 @@ fn alone(forces: &mut Forces, touch: &Touch, mode: Mode, slip: Slip) -> Option<D
     match mode {
         Mode::Slide(d) => {
             let k = block.A.row(0).transpose().dot(&edge(block.friction, &block.frame, &d));
-            if k > 1e-12 * block.A[(0, 0)] { holds(mode) } else { Some(Decision::Jams(Box::new(touch.clone()))) }
+            if k > 1e-12 * block.A[(0, 0)] { holds(mode) } else { Some(Decision::Jams) }
         }
         Mode::Stick => {
             let p = -block.A.try_inverse()? * block.b;
@@ -229,6 +230,11 @@ fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], slow: &[bool],
     for (i, touch) in touches.iter().enumerate() {
         let block = &forces.problem.blocks[i];
         let a = block.velocity(&forces.added);
+        if let Mode::Slide(d) = modes[i]
+            && is_stopped(block, &p[i], &a, FAST * scale * d)
+        {
+            return Decision::Jams;
+        }
         if a.x > ROUNDING * scale {
             continue;
         }
@@ -246,6 +252,12 @@ fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], slow: &[bool],
     }
     forces.p = p;
     Decision::Holds(held)
+}
+
+/// Even the fictitious slip.
+fn is_stopped(block: &Block, p: &Impulse, a: &Vector3<f64>, slip_W: Vector3<f64>) -> bool {
+    let left = Vector3::new(0.0, a.y + slip_W.dot(&block.frame[1]), a.z + slip_W.dot(&block.frame[2]));
+    slip_W != Vector3::zeros() && p.x > 0.0 && left.norm() <= 1e-6 * slip_W.norm()
 }
 
 /// How far the contacts that hold are from a change, over the largest force: the least normal force, and what is left of

@@ -4,14 +4,13 @@
 //! the other laws are `solve::impact`. Held contacts take part. Bodies do not move in an impact.
 
 use super::forces::Forces;
-use super::touch::Touch;
 use crate::collide::{Contact, SolvedContact};
 use crate::experiment::types::{Cone, Correction, Impact, Iteration};
 use crate::measure::work::Work;
 use crate::model::Model;
 use crate::solve::gauss_seidel::{self, Sweeps, Variant};
 use crate::solve::impact::{Law, resolve};
-use crate::solve::problem::{ContactProblem, Twist};
+use crate::solve::problem::{Block, ContactProblem, Twist};
 use crate::solve::{Impulse, exact_contact, newton};
 use crate::state::State;
 
@@ -39,16 +38,6 @@ pub fn strike(
 ) -> bool {
     forces.gather_plain(model, state, contacts);
     let problem = &mut forces.problem;
-    let plastic = |problem: &ContactProblem, p: &mut [Impulse], work: &mut Work| {
-        if let [block] = &problem.blocks[..]
-            && block.pin.is_none()
-        {
-            p[0] = exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
-            return true;
-        }
-        let mut scratch = gauss_seidel::Scratch::with_capacity(problem.blocks.len(), 0);
-        newton::solve(problem, &sweeps(), p, &mut scratch, work)
-    };
     forces.p.clear();
     forces.p.resize(problem.blocks.len(), Impulse::zeros());
     let ended = match law {
@@ -71,25 +60,52 @@ pub fn strike(
     ended
 }
 
-/// Stops the slip of one contact by the impulse that this takes, if it is in the cone.
+/// Without restitution.
+fn plastic(problem: &ContactProblem, p: &mut [Impulse], work: &mut Work) -> bool {
+    if let [block] = &problem.blocks[..]
+        && block.pin.is_none()
+    {
+        p[0] = exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
+        return true;
+    }
+    let mut scratch = gauss_seidel::Scratch::with_capacity(problem.blocks.len(), 0);
+    newton::solve(problem, &sweeps(), p, &mut scratch, work)
+}
+
+/// Of the slip: an approach that is none.
+const HINT: f64 = 1e-6;
+
+/// Of contacts that only slip, the impulses that end a slip: besides none at all, these obey the law too. They are found
+/// from those of a slight approach, which has no others (F. Génot, B. Brogliato 1999). False: there are none.
 pub fn jam(
     model: &Model,
     state: &mut State,
-    touch: &Touch,
+    contacts: &[Contact],
     forces: &mut Forces,
     solved: &mut Vec<SolvedContact>,
+    work: &mut Work,
 ) -> bool {
-    let contact = touch.here(state).contact;
-    forces.gather_plain(model, state, &[contact]);
-    let block = &forces.problem.blocks[0];
-    let Some(inverse) = block.A.try_inverse() else { return false };
-    let p = -inverse * block.b;
-    if !(p.x > 0.0 && p.yz().norm() <= block.friction * p.x) {
+    forces.gather_plain(model, state, contacts);
+    forces.p.clear();
+    forces.p.resize(forces.problem.blocks.len(), Impulse::zeros());
+    let slip = forces.problem.blocks.iter().map(|block| block.b.yz().norm()).fold(0.0, f64::max);
+    let mut hinted = forces.problem.clone();
+    hinted.blocks.iter_mut().for_each(|block| block.b.x -= HINT * slip);
+    let mut ended = plastic(&hinted, &mut forces.p, work);
+    match &forces.problem.blocks[..] {
+        [only] if only.pin.is_none() => {
+            let stopping = only.A.try_inverse().map(|inverse| -inverse * only.b);
+            let inside = stopping.filter(|p| p.x > 0.0 && p.yz().norm() <= only.friction * p.x);
+            forces.p[0] = inside.unwrap_or_else(Impulse::zeros);
+        }
+        _ => ended = ended && plastic(&forces.problem, &mut forces.p, work),
+    }
+    let change = |(block, p): (&Block, &Impulse)| (block.A * p).norm();
+    let largest = forces.problem.blocks.iter().zip(&forces.p).map(change).fold(0.0, f64::max);
+    if !ended || largest <= 10.0 * HINT * slip {
         return false;
     }
-    forces.p.clear();
-    forces.p.push(p);
-    apply(model, state, forces, &[contact], solved);
+    apply(model, state, forces, contacts, solved);
     true
 }
 

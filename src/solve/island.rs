@@ -186,8 +186,18 @@ impl Island {
         let largest = most(&|(touch, p)| touch.scale * p.norm());
         let stopping =
             most(&|(touch, _)| touch.scale * if touch.law == Law::Pin { touch.b.norm() } else { -touch.b.x });
-        let moving = most(&|(touch, _)| touch.scale * touch.b.norm());
-        (if largest > 0.0 { largest } else { stopping }).max(SMALL * moving)
+        (if largest > 0.0 { largest } else { stopping }).max(SMALL * self.moving())
+    }
+
+    /// What the velocities amount to.
+    fn moving(&self) -> f64 {
+        self.touches.iter().map(|touch| touch.scale * touch.b.norm()).fold(0.0, f64::max)
+    }
+
+    /// A residual that rounding of the velocities leaves: impulses may be next to nothing beside a slip.
+    pub fn rounding(&self, p: &[Impulse]) -> f64 {
+        let scale = self.scale(p);
+        if scale > 0.0 { 4.0 * f64::EPSILON * self.moving() / scale } else { 0.0 }
     }
 
     /// How far the worst contact is from the law: the judge's residual.

@@ -32,7 +32,7 @@ const BACK: f64 = 4.0;
 const NEAR: f64 = 1e-2;
 
 /// Improves `p` until the residual of every island is below the tolerance, by at most `sweeps.most` proximal problems each,
-/// and makes it the smallest. Whether it is solved.
+/// and makes it the smallest. Whether it is solved, to the tolerance or to rounding.
 pub fn solve(
     problem: &ContactProblem,
     sweeps: &Sweeps,
@@ -60,7 +60,7 @@ pub fn solve(
             sweep(&mut others, MORE_SWEEPS, shuffled, work);
             *own = island.impulses(&others);
         };
-        solved &= solve_island(&island, sweeps, &mut own, more, work) <= sweeps.tolerance;
+        solved &= solve_island(&island, sweeps, &mut own, more, work);
         island.put(&own, p);
     }
     solved
@@ -72,8 +72,9 @@ fn solve_island(
     p: &mut Vec<Impulse>,
     mut sweep: impl FnMut(&mut Vec<Impulse>, &mut Work),
     work: &mut Work,
-) -> f64 {
+) -> bool {
     let mut best = island.residual(p);
+    let is_enough = |residual: f64, p: &[Impulse]| residual <= goal.tolerance.max(island.rounding(p));
     let keep = |best: &mut f64, p: &mut Vec<Impulse>, mut tried: Vec<Impulse>, work: &mut Work| {
         let residual = active_set::improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
         if residual < *best {
@@ -83,14 +84,14 @@ fn solve_island(
     if best <= NEAR {
         keep(&mut best, p, p.clone(), work);
     }
-    if best > goal.tolerance
+    if !is_enough(best, p)
         && let Some(found) = interior::solve(island, &mut work.newton_steps)
     {
         keep(&mut best, p, found, work);
     }
     let (mut centre, mut eta) = (p.clone(), FIRST_ETA);
     for _ in 0..goal.most {
-        if best <= goal.tolerance {
+        if is_enough(best, p) {
             break;
         }
         if let Some(next) = proximal::solve(island, &centre, eta, &mut work.newton_steps) {
@@ -105,9 +106,8 @@ fn solve_island(
     // A velocity that so exact impulses leave is rounding.
     let small = (100.0 * best).clamp(1e-13, 1e-10);
     let (least, residual) = smallest::impulses(island, p, small, &mut work.newton_steps);
-    if residual > best.max(goal.tolerance) {
-        return best;
+    if residual <= best || is_enough(residual, &least) {
+        (best, *p) = (residual, least);
     }
-    *p = least;
-    residual
+    is_enough(best, p)
 }

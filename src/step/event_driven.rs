@@ -5,7 +5,7 @@
 
 use super::Span;
 use super::stretch::{self, Stretch};
-use crate::collide::{Contact, Detector, Reach, SolvedContact};
+use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, decide, margin};
 use crate::event::dense::{Dense, Field, project};
@@ -22,6 +22,7 @@ use crate::measure::work::Work;
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::state::State;
+use std::collections::HashMap;
 
 /// What ends a stretch.
 #[derive(Clone, Debug)]
@@ -30,6 +31,8 @@ enum Event {
     Start,
     Impact,
     Change(Change),
+    /// No force keeps a slip going, and none ends it: an impulse has to (Painlevé).
+    Jam,
     /// A step of the integrator, and nothing else.
     Step,
 }
@@ -47,6 +50,8 @@ pub struct EventDriven {
     detector: Detector,
     found: Vec<Contact>,
     forces: Forces,
+    /// When a contact had its last impact.
+    struck_s: HashMap<Key, f64>,
     /// Of the projection.
     placing: Forces,
     scratch: State,
@@ -54,7 +59,7 @@ pub struct EventDriven {
     at_once: u32,
     counted_from: (f64, u64),
     /// Events lead no further from here.
-    trouble: Option<()>,
+    trouble: bool,
     /// Steps of equal length instead.
     stretch: Option<Stretch>,
     pub(super) span: Span,
@@ -94,11 +99,12 @@ impl EventDriven {
             detector: Detector::default(),
             found: Vec::with_capacity(16),
             forces: Forces::default(),
+            struck_s: HashMap::new(),
             placing: Forces::default(),
             scratch: start.clone(),
             at_once: 0,
             counted_from: (start.time_s, 0),
-            trouble: None,
+            trouble: false,
             stretch: None,
             span: Span::Motion,
             stalled: None,
@@ -108,49 +114,47 @@ impl EventDriven {
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, end_s: f64) {
-        if self.stretch.is_none() {
-            self.step_to_event(model, state, end_s);
-        }
-        if self.trouble.take().is_some() {
-            self.begin_stretch(model, state);
-        }
-        if self.stretch.is_some() {
+        if self.stretch.is_some() || !self.step_to_event(model, state, end_s) {
             self.step_of_stretch(model, state, end_s);
         }
     }
 
-    fn step_to_event(&mut self, model: &Model, state: &mut State, end_s: f64) {
+    /// False: nothing has changed yet.
+    fn step_to_event(&mut self, model: &Model, state: &mut State, end_s: f64) -> bool {
         state.step += 1;
         self.span = Span::Motion;
         let from_s = state.time_s;
         let event = std::mem::replace(&mut self.next, Event::Step);
-        self.work.events += u64::from(!matches!(event, Event::Start | Event::Step));
-        let blow = match event {
-            Event::Step => false,
-            Event::Start => {
+        self.work.events += u64::from(matches!(event, Event::Impact | Event::Change(_)));
+        let mut blow = false;
+        match event {
+            Event::Step => {}
+            Event::Start | Event::Impact => {
                 self.detect(model, state);
-                let struck = self.strike(model, state);
-                self.regroup(model, state, &Change::default()) || struck
-            }
-            Event::Impact => {
-                self.detect(model, state);
-                let struck = self.strike(model, state);
-                self.regroup(model, state, &Change::default()) || struck
+                blow = self.strike(model, state);
+                self.regroup(model, state, &Change::default());
             }
             Event::Change(change) => {
                 self.detect(model, state);
-                self.regroup(model, state, &change)
+                self.regroup(model, state, &change);
+            }
+            Event::Jam => {
+                self.detect(model, state);
+                blow = impact::jam(model, state, &self.found, &mut self.forces, &mut self.solved, &mut self.work);
+                self.stalled = (!blow).then_some(Criterion::Painleve);
+                self.next = Event::Change(Change::default());
             }
         };
         if blow {
             self.span = Span::Blow;
-        } else if self.stalled.is_none() && self.trouble.is_none() {
+        } else if self.stalled.is_none() && !self.trouble && !matches!(self.next, Event::Jam) {
             self.advance(model, state, end_s);
         }
         self.at_once = if state.time_s > from_s { 0 } else { self.at_once + 1 };
-        if self.at_once > AT_ONCE || self.accumulates(model, state) {
-            self.trouble = Some(());
+        if std::mem::take(&mut self.trouble) || self.at_once > AT_ONCE || self.accumulates(model, state) {
+            self.begin_stretch(model, state);
         }
+        blow || state.time_s > from_s
     }
 
     /// Events come faster than steps of equal length would take.
@@ -224,6 +228,9 @@ impl EventDriven {
             if self.bounces_out(model, state, &self.found[k]) {
                 self.found[k].restitution = 0.0;
             }
+            if strikes(&self.found[k]) {
+                self.struck_s.insert(self.found[k].key(), state.time_s);
+            }
             if self.found[k].restitution == 0.0 {
                 self.found[k].tangential_restitution = 0.0;
             }
@@ -237,54 +244,56 @@ impl EventDriven {
 
     /// The bounces that are left after this one do not matter (Zeno).
     fn bounces_out(&self, model: &Model, state: &State, contact: &Contact) -> bool {
-        let falling = -contact.normal.dot(&model.gravity_m_s2);
-        let left = 1.0 - contact.restitution;
-        if falling <= 0.0 || left <= 0.0 || contact.restitution == 0.0 {
+        let (approach, scale) = Self::approach_m_s(model, state, contact);
+        if contact.restitution == 0.0 || approach <= 0.0 {
             return false;
         }
-        let (approach, scale) = Self::approach_m_s(model, state, contact);
+        let falling = -contact.normal.dot(&model.gravity_m_s2);
         // A ball's bounces cost so little that they are followed to rounding.
         if self.found.len() == 1 && contact.ends().all(|(i, ..)| model.bodies[i].is_centred_ball()) {
-            return approach <= BOUNCED_OUT * scale;
+            return falling > 0.0 && contact.restitution < 1.0 && approach <= BOUNCED_OUT * scale;
         }
-        approach * approach / (2.0 * falling * left * left) <= self.negligible_m(model, contact)
+        // How high the last bounce was: from how fast it ended, and when it began or what pulls.
+        let lasted_s = self.struck_s.get(&contact.key()).map_or(f64::INFINITY, |at_s| state.time_s - at_s);
+        let fallen_m = if falling > 0.0 { approach * approach / (2.0 * falling) } else { f64::INFINITY };
+        let height_m = fallen_m.min(approach * lasted_s / 4.0);
+        let left = 1.0 - contact.restitution;
+        // What stays within δ cannot be followed, however elastic.
+        height_m <= left * left * self.negligible_m(model, contact) || height_m <= watch::DELTA * radius_m(model, contact)
     }
 
     /// A height that does not matter.
     fn negligible_m(&self, model: &Model, contact: &Contact) -> f64 {
-        let radius_m = contact.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).fold(f64::INFINITY, f64::min);
-        (ZENO * self.tolerance).max(10.0 * watch::DELTA * radius_m)
+        (ZENO * self.tolerance).max(10.0 * watch::DELTA * radius_m(model, contact))
     }
 
-    /// What holds from now on, and how everything moves. True: an impulse was needed to end a slip.
-    fn regroup(&mut self, model: &Model, state: &mut State, change: &Change) -> bool {
-        let Some(touches) = self.resting(model, state) else { return false };
+    /// What holds from now on, and how everything moves.
+    fn regroup(&mut self, model: &Model, state: &mut State, change: &Change) {
+        let Some(touches) = self.resting(model, state) else {
+            self.trouble = true;
+            return;
+        };
         let change = &Change { slow_m_s: slip::slow_m_s(model, self.tolerance).fading, ..change.clone() };
-        let decision = decide(model, state, touches, change, &mut self.forces, &mut self.work);
-        let mut jammed = false;
-        self.held = match decision {
-            Decision::Holds(held) => held,
-            Decision::Jams(touch) => {
-                jammed = impact::jam(model, state, &touch, &mut self.forces, &mut self.solved);
-                self.stalled = (!jammed).then_some(Criterion::Painleve);
-                self.next = Event::Change(Change::default());
-                return jammed;
+        match decide(model, state, touches, change, &mut self.forces, &mut self.work) {
+            Decision::Holds(held) => self.held = held,
+            Decision::Jams => {
+                self.next = Event::Jam;
+                return;
             }
             Decision::Unsolved => {
-                self.trouble = Some(());
-                return false;
+                self.trouble = true;
+                return;
             }
-        };
+        }
         if project(model, state, &self.held, &mut self.placing) || self.held.len() != self.forces.here.len() {
             self.forces.gather(model, state, self.held.iter().map(|held| &held.touch));
             self.forces.hold(&self.held, Choice::Least);
         }
         self.settle(model, state);
-        jammed
     }
 
     /// Of what touches, what does not leave. None: a contact of parts whose motion is not known.
-    fn resting(&mut self, model: &Model, state: &State) -> Option<Vec<Touch>> {
+    fn resting(&self, model: &Model, state: &State) -> Option<Vec<Touch>> {
         let mut resting = Vec::new();
         for contact in &self.found {
             let (approach, scale) = Self::approach_m_s(model, state, contact);
@@ -295,11 +304,7 @@ impl EventDriven {
             if -approach > rests_m_s.max(NO_SLIP * scale) {
                 continue;
             }
-            let Some(touch) = Touch::new(model, state, contact) else {
-                self.trouble = Some(());
-                return None;
-            };
-            resting.push(touch);
+            resting.push(Touch::new(model, state, contact)?);
         }
         Some(resting)
     }
@@ -320,7 +325,7 @@ impl EventDriven {
     fn advance(&mut self, model: &Model, state: &mut State, end_s: f64) {
         let mut to_s = end_s;
         if !self.integrate(model, state, end_s) {
-            self.trouble = Some(());
+            self.trouble = true;
             return;
         }
         if let Some(dense) = &self.dense {
@@ -438,4 +443,9 @@ impl EventDriven {
         };
         NODES.into_iter().map(moment).collect()
     }
+}
+
+/// Of the smaller body.
+fn radius_m(model: &Model, contact: &Contact) -> f64 {
+    contact.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).fold(f64::INFINITY, f64::min)
 }

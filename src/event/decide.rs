@@ -222,7 +222,7 @@ fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], slow: &[bool],
     };
     let mut p = vec![Impulse::zeros(); problem.blocks.len()];
     let mut scratch = gauss_seidel::Scratch::with_capacity(p.len(), 0);
-    if !newton::solve(&problem, &sweeps, &mut p, &mut scratch, work) {
+    if !newton::solve_evenly(&problem, &sweeps, &mut p, &mut scratch, work) {
         return Decision::Unsolved;
     }
     forces.problem.response(&p, &mut forces.added);

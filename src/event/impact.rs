@@ -60,7 +60,7 @@ pub fn strike(
     ended
 }
 
-/// Without restitution.
+/// Without restitution, from nothing.
 fn plastic(problem: &ContactProblem, p: &mut [Impulse], work: &mut Work) -> bool {
     if let [block] = &problem.blocks[..]
         && block.pin.is_none()
@@ -69,7 +69,7 @@ fn plastic(problem: &ContactProblem, p: &mut [Impulse], work: &mut Work) -> bool
         return true;
     }
     let mut scratch = gauss_seidel::Scratch::with_capacity(problem.blocks.len(), 0);
-    newton::solve(problem, &sweeps(), p, &mut scratch, work)
+    newton::solve_evenly(problem, &sweeps(), p, &mut scratch, work)
 }
 
 /// Of the slip: an approach that is none.
@@ -98,7 +98,10 @@ pub fn jam(
             let inside = stopping.filter(|p| p.x > 0.0 && p.yz().norm() <= only.friction * p.x);
             forces.p[0] = inside.unwrap_or_else(Impulse::zeros);
         }
-        _ => ended = ended && plastic(&forces.problem, &mut forces.p, work),
+        blocks => {
+            let mut scratch = gauss_seidel::Scratch::with_capacity(blocks.len(), 0);
+            ended = ended && newton::solve(&forces.problem, &sweeps(), &mut forces.p, &mut scratch, work);
+        }
     }
     let change = |(block, p): (&Block, &Impulse)| (block.A * p).norm();
     let largest = forces.problem.blocks.iter().zip(&forces.p).map(change).fold(0.0, f64::max);

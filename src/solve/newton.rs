@@ -28,6 +28,13 @@ const LEAST_ETA: f64 = 1e-8;
 const ON: f64 = 0.5;
 const BACK: f64 = 4.0;
 
+/// Of a proximal problem before another centre; and before another η.
+const ROUGH: f64 = 1e-6;
+const FINE: f64 = 1e-13;
+
+/// η at which impulses count as shared evenly.
+const EVEN_ETA: f64 = 1e-6;
+
 /// A residual from which Newton's method is worth a try before anything else.
 const NEAR: f64 = 1e-2;
 
@@ -66,6 +73,30 @@ pub fn solve(
     solved
 }
 
+/// The same from nothing, and by impulses that redundant contacts share evenly: where these decide about the motion
+/// (corners that slip different ways), the solution is that of contacts that give a little, all alike, as they give less and
+/// less; it does not depend on the order of the contacts.
+pub fn solve_evenly(
+    problem: &ContactProblem,
+    sweeps: &Sweeps,
+    p: &mut [Impulse],
+    scratch: &mut gauss_seidel::Scratch,
+    work: &mut Work,
+) -> bool {
+    for island in islands(problem) {
+        let nothing = vec![Impulse::zeros(); island.touches.len()];
+        let (mut own, mut eta) = (nothing.clone(), FIRST_ETA);
+        while eta >= EVEN_ETA {
+            let about = proximal::Problem { centre: &nothing, eta, tolerance: FINE };
+            let Some(next) = proximal::solve(&island, &about, &own, &mut work.newton_steps) else { break };
+            own = next;
+            eta /= BACK;
+        }
+        island.put(&own, p);
+    }
+    solve(problem, sweeps, p, scratch, work)
+}
+
 fn solve_island(
     island: &Island,
     goal: &Sweeps,
@@ -94,7 +125,8 @@ fn solve_island(
         if is_enough(best, p) {
             break;
         }
-        if let Some(next) = proximal::solve(island, &centre, eta, &mut work.newton_steps) {
+        let about = proximal::Problem { centre: &centre, eta, tolerance: ROUGH };
+        if let Some(next) = proximal::solve(island, &about, &centre, &mut work.newton_steps) {
             eta = (eta * ON).max(LEAST_ETA);
             centre = next;
         } else {

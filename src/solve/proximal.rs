@@ -17,9 +17,6 @@ const MOST: usize = 15;
 /// Halvings of a step before it is given up.
 const HALVINGS: usize = 30;
 
-/// Of |y| what may be missing: the next problem has another centre anyway.
-const TOLERANCE: f64 = 1e-6;
-
 /// p(y) and what it follows from.
 struct At {
     y: DVector<f64>,
@@ -51,11 +48,20 @@ impl At {
     }
 }
 
-/// The impulses of the proximal problem about `centre`, from the velocities that those make. None: not found.
-pub fn solve(island: &Island, centre: &[Impulse], eta: f64, steps: &mut u64) -> Option<Vec<Impulse>> {
-    let mut at = At::new(island, centre, eta, island.pushed(centre));
+/// The proximal problem about a centre.
+pub struct Problem<'a> {
+    pub centre: &'a [Impulse],
+    pub eta: f64,
+    /// Of |y| what may be missing.
+    pub tolerance: f64,
+}
+
+/// Its impulses, from the velocities that those of `from` make. None: not found.
+pub fn solve(island: &Island, problem: &Problem, from: &[Impulse], steps: &mut u64) -> Option<Vec<Impulse>> {
+    let Problem { centre, eta, tolerance } = *problem;
+    let mut at = At::new(island, centre, eta, island.pushed(from));
     for _ in 0..MOST {
-        if at.missing.norm() <= TOLERANCE * at.y.norm() {
+        if at.missing.norm() <= tolerance * at.y.norm() {
             return Some(at.p);
         }
         *steps += 1;

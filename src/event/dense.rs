@@ -4,7 +4,7 @@
 //! What holds is kept by accelerations; what drifts in a step, some part of its error, is taken off at its end by the
 //! smallest displacement and change of velocity (E. Eich 1993; `project`).
 
-use super::forces::{Choice, Forces, Held, Mode, Rows};
+use super::forces::{Choice, Forces, Held, Rows};
 use super::motion::{Bounds, Motion};
 use crate::integrate::dop853_tableau::{A, B, B3, D, E5, EXTRA};
 use crate::integrate::field::{advanced, sum};
@@ -231,20 +231,17 @@ impl Dense {
     }
 }
 
-/// Puts what is held back in place: gaps closed, no velocity along the rows that hold, by the smallest change in the metric
-/// of the masses. True: something had to be moved.
+/// Puts what is held back in place: gaps closed by the smallest change in the metric of the masses, and no velocity left
+/// along the rows that hold, by impulses that contacts can have: what is left of a rocking that is cut off is ended with the
+/// friction that would have come with it, so that the momentum is wrong by the square of it only. True: something had to be
+/// moved.
 pub fn project(model: &Model, state: &mut State, held: &[Held], forces: &mut Forces) -> bool {
     if held.is_empty() && model.pins.is_empty() {
         return false;
     }
     let moved = close_gaps(model, state, held, forces);
     forces.gather_velocities(model, state, held.iter().map(|held| &held.touch));
-    forces.rows.clear();
-    forces.rows.extend(held.iter().map(|held| match held.mode {
-        Mode::Stick => Rows::All,
-        Mode::Slide(_) => Rows::Normal(Vector3::x()),
-    }));
-    forces.rows.resize(forces.problem.blocks.len(), Rows::All);
+    forces.set_rows(held);
     let off = |(block, rows): (&Block, &Rows)| match rows {
         Rows::None => 0.0,
         Rows::Normal(_) => block.b.x.abs(),

@@ -173,6 +173,12 @@ impl Forces {
             self.problem.response(&self.p, &mut self.added);
             return true;
         }
+        self.set_rows(held);
+        self.solve(choice) && (choice == Choice::Any || self.push_only(held.len()))
+    }
+
+    /// What their forces may be.
+    pub fn set_rows(&mut self, held: &[Held]) {
         self.rows.clear();
         for ((held, here), block) in held.iter().zip(&self.here).zip(&self.problem.blocks) {
             self.rows.push(match held.mode {
@@ -181,7 +187,6 @@ impl Forces {
             });
         }
         self.rows.resize(self.problem.blocks.len(), Rows::All);
-        self.solve(choice) && (choice == Choice::Any || self.push_only(held.len()))
     }
 
     /// Of contacts that share forces, those that would pull are left out as long as the others can hold them: which of them

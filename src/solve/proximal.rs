@@ -14,6 +14,9 @@ use nalgebra::{DVector, Matrix3, Vector3};
 /// Newton steps after which the problem is given up: with a larger η it is easier.
 const MOST: usize = 15;
 
+/// Of |y|: what may be missing where no step makes it less.
+const ENOUGH: f64 = 1e-6;
+
 /// Halvings of a step before it is given up.
 const HALVINGS: usize = 30;
 
@@ -66,19 +69,22 @@ pub fn solve(island: &Island, problem: &Problem, from: &[Impulse], steps: &mut u
         }
         *steps += 1;
         let change = island.system(&at.slopes(island, eta))?.solve(&-&at.missing)?;
-        at = descend(island, centre, eta, &at, &change)?;
+        match descend(island, centre, eta, &at, &change) {
+            Some(next) => at = next,
+            None => break,
+        }
     }
-    None
+    (at.missing.norm() <= ENOUGH * at.y.norm()).then_some(at.p)
 }
 
 /// The longest of the halved steps after which less is missing.
 fn descend(island: &Island, centre: &[Impulse], eta: f64, at: &At, change: &DVector<f64>) -> Option<At> {
     /// Of the decrease that the slope promises.
-    const ENOUGH: f64 = 1e-4;
+    const PART: f64 = 1e-4;
     let mut part = 1.0;
     for _ in 0..HALVINGS {
         let next = At::new(island, centre, eta, &at.y + change * part);
-        if next.missing.norm() <= (1.0 - ENOUGH * part) * at.missing.norm() {
+        if next.missing.norm() <= (1.0 - PART * part) * at.missing.norm() {
             return Some(next);
         }
         part /= 2.0;

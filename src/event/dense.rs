@@ -234,7 +234,7 @@ impl Dense {
 /// Puts what is held back in place: gaps closed by the smallest change in the metric of the masses, and no velocity left
 /// along the rows that hold, by impulses that contacts can have: what is left of a rocking that is cut off is ended with the
 /// friction that would have come with it, so that the momentum is wrong by the square of it only. True: something had to be
-/// moved.
+/// moved. The impulses are left in `forces`.
 pub fn project(model: &Model, state: &mut State, held: &[Held], forces: &mut Forces) -> bool {
     if held.is_empty() && model.pins.is_empty() {
         return false;
@@ -249,6 +249,7 @@ pub fn project(model: &Model, state: &mut State, held: &[Held], forces: &mut For
     };
     let largest = forces.problem.blocks.iter().zip(&forces.rows).map(off).fold(0.0, f64::max);
     let speed = state.bodies.iter().map(|at| at.v_WB.amax()).fold(0.0, f64::max);
+    forces.p.clear();
     if largest <= 2.0 * f64::EPSILON * speed {
         return moved;
     }

@@ -30,7 +30,7 @@ pub fn improve(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mu
             break;
         }
         *steps += 1;
-        let Some(next) = step(island, &now) else { break };
+        let Some(next) = step(island, &now, false) else { break };
         now = next;
         let residual = island.residual(&now);
         if residual < best {
@@ -41,6 +41,44 @@ pub fn improve(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mu
         }
     }
     best
+}
+
+/// η where redundant impulses are measured from zero: of |p| squared so much is added to what is least.
+const EVEN_ETA: f64 = 1e-5;
+
+/// Steps to impulses that are shared evenly, and the change of them that is none, as a part of the largest.
+const MOST_EVEN: usize = 6;
+const SAME: f64 = 1e-10;
+
+/// Redundant contacts that slip different ways leave a continuum of solutions, each with velocities of its own. Goes, within
+/// it, to the one with the least Σ|p|² (p with units), that of contacts that give a little, all alike. What pulls there is
+/// left out. The residual.
+pub fn even(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
+    let mut residual = island.residual(p);
+    for _ in 0..MOST_EVEN {
+        *steps += 1;
+        let Some(mut next) = step(island, p, true) else { break };
+        let reached = improve(island, &mut next, tolerance, steps);
+        if reached > residual.max(tolerance) {
+            break;
+        }
+        let largest = next.iter().map(|p| p.norm()).fold(0.0, f64::max);
+        let change = next.iter().zip(&*p).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        (residual, *p) = (reached, next);
+        if change <= SAME * largest {
+            break;
+        }
+    }
+    residual
+}
+
+/// Whether there may be such a continuum: four normals have three directions to press a body.
+pub fn may_be_shared(island: &Island, p: &[Impulse]) -> bool {
+    let slips = |(touch, p): (&Touch, &Impulse)| {
+        let friction = touch.law.friction();
+        friction > 0.0 && p.x > 0.0 && p.yz().norm() >= friction * p.x * (1.0 - 1e-9)
+    };
+    p.len() > 3 && island.touches.iter().zip(p).any(slips)
 }
 
 /// What a contact's impulse does when velocities change: Δp = `jump` − K (u + Δu).
@@ -61,20 +99,51 @@ impl Linear {
             _ if friction == 0.0 => stay(normal.transpose() * normal / ETA),
             Place::Inside => stay(Matrix3::identity() / ETA),
             Place::Side { t, .. } => {
-                let (edge, across) = (law::edge(&t, friction), law::across(&t));
-                let slip = (u.y * u.y + u.z * u.z).sqrt();
-                let E = if p.x > 0.0 { slip / (friction * p.x) } else { f64::INFINITY };
-                let K = edge * normal / ETA + across * across.transpose() / (E + ETA);
+                let edge = law::edge(&t, friction);
+                let K = edge * normal / ETA + turning(p, u, &t, friction);
                 Linear { jump: edge * p.x.max(0.0) - p, K, slips: true }
             }
         }
     }
+
+    /// With impulses measured from zero. `small`: velocities that are rounding.
+    fn even(touch: &Touch, p: &Impulse, u: &Vector3<f64>, eta: f64, small: f64) -> Self {
+        let friction = touch.law.friction();
+        let normal = RowVector3::new(1.0, 0.0, 0.0);
+        let slip = (u.y * u.y + u.z * u.z).sqrt();
+        let t = match law::place(&(p - law::dual(u, touch.law)), touch.law) {
+            _ if touch.law == Law::Pin || friction == 0.0 => return Linear::new(touch, p, u),
+            // It touches without a force: it may have one.
+            Place::Tip if u.x > small || slip <= small => return Linear::new(touch, p, u),
+            Place::Tip => Vector3::new(0.0, -u.y / slip, -u.z / slip),
+            Place::Inside => return Linear { jump: -p, K: Matrix3::identity() / eta, slips: false },
+            Place::Side { t, .. } => t,
+        };
+        Linear { jump: -p, K: law::edge(&t, friction) * normal / eta + turning(p, u, &t, friction), slips: true }
+    }
 }
 
-fn step(island: &Island, p: &[Impulse]) -> Option<Vec<Impulse>> {
+/// Of what slips across: p turns with it.
+fn turning(p: &Impulse, u: &Vector3<f64>, t: &Vector3<f64>, friction: f64) -> Matrix3<f64> {
+    let across = law::across(t);
+    let slip = (u.y * u.y + u.z * u.z).sqrt();
+    let E = if p.x > 0.0 { slip / (friction * p.x) } else { f64::INFINITY };
+    across * across.transpose() / (E + ETA)
+}
+
+fn step(island: &Island, p: &[Impulse], even: bool) -> Option<Vec<Impulse>> {
     let u = island.velocities(&island.pushed(p));
-    let linear: Vec<Linear> =
-        island.touches.iter().zip(p).zip(&u).map(|((touch, p), u)| Linear::new(touch, p, u)).collect();
+    let small = ROUNDING.sqrt() * island.scale(p);
+    let largest = island.touches.iter().map(|touch| touch.scale).fold(0.0, f64::max);
+    let linear = |((touch, p), u): ((&Touch, &Impulse), &Vector3<f64>)| {
+        let part = touch.scale / largest;
+        if even {
+            Linear::even(touch, p, u, EVEN_ETA * part * part, small / touch.scale)
+        } else {
+            Linear::new(touch, p, u)
+        }
+    };
+    let linear: Vec<Linear> = island.touches.iter().zip(p).zip(&u).map(linear).collect();
     let K: Vec<Matrix3<f64>> = linear.iter().map(|linear| linear.K).collect();
     let at_rest: Vec<Impulse> = linear.iter().zip(&u).map(|(linear, u)| linear.jump - linear.K * u).collect();
     let change = island.system(&K)?.solve(&island.pushed(&at_rest))?;

@@ -4,8 +4,9 @@
 //! once it is known which contacts stick and slip). Otherwise an interior-point method (`interior.rs`) comes near from
 //! nothing. Where friction wedges bodies and its path turns back, proximal problems with a falling η go on from there
 //! (`proximal.rs`), and where one of those is not solved, sweeps of exact projected Gauss–Seidel. All of them work on six
-//! velocities a body, in sparse blocks; contacts may be as redundant as they like, and pins are among them. Last, of all
-//! impulses that make these velocities the smallest are taken (`smallest.rs`), wherever the iteration started.
+//! velocities a body, in sparse blocks; contacts may be as redundant as they like, and pins are among them. Last, redundant
+//! contacts share their impulses evenly: those that slip (`active_set::even`), and then, of all impulses that make these
+//! velocities, the smallest are taken (`smallest.rs`), wherever the iteration started.
 //!
 //! Allocates. Residuals are the judge's (`measure::residual`), worked out from J and M⁻¹ as the solver has them.
 
@@ -28,11 +29,10 @@ const LEAST_ETA: f64 = 1e-8;
 const ON: f64 = 0.5;
 const BACK: f64 = 4.0;
 
-/// Of a proximal problem before another centre; and before another η.
+/// Of |y| what may be missing before another centre, or another η.
 const ROUGH: f64 = 1e-6;
-const FINE: f64 = 1e-13;
 
-/// The least η from which impulses shared evenly are extrapolated: what rounding of velocities leaves goes with 1/η².
+/// The least η of the way to impulses shared evenly.
 const EVEN_ETA: f64 = 1e-3;
 
 /// A residual from which Newton's method is worth a try before anything else.
@@ -73,9 +73,8 @@ pub fn solve(
     solved
 }
 
-/// The same from nothing, and by impulses that redundant contacts share evenly: where these decide about the motion
-/// (corners that slip different ways), the solution is that of contacts that give a little, all alike, as they give less and
-/// less; it does not depend on the order of the contacts.
+/// The same from nothing, on a way that does not depend on the order of the contacts: by proximal problems about nothing, with
+/// a falling η.
 pub fn solve_evenly(
     problem: &ContactProblem,
     sweeps: &Sweeps,
@@ -89,23 +88,16 @@ pub fn solve_evenly(
     solve(problem, sweeps, p, scratch, work)
 }
 
-/// Three proximal problems about nothing, extrapolated to η = 0 (L. F. Richardson).
 fn evenly(island: &Island, work: &mut Work) -> Vec<Impulse> {
     let nothing = vec![Impulse::zeros(); island.touches.len()];
-    let mut last = [nothing.clone(), nothing.clone(), nothing.clone()];
-    let mut eta = FIRST_ETA;
+    let (mut p, mut eta) = (nothing.clone(), FIRST_ETA);
     while eta >= EVEN_ETA {
-        let about = proximal::Problem { centre: &nothing, eta, tolerance: FINE };
-        let Some(next) = proximal::solve(island, &about, &last[2], &mut work.newton_steps) else {
-            return last[2].clone();
-        };
-        last.rotate_left(1);
-        last[2] = next;
+        let about = proximal::Problem { centre: &nothing, eta, tolerance: ROUGH };
+        let Some(next) = proximal::solve(island, &about, &p, &mut work.newton_steps) else { break };
+        p = next;
         eta /= BACK;
     }
-    let [a, b, c] = &last;
-    let at_0 = |((a, b), c): ((&Impulse, &Impulse), &Impulse)| (c * 64.0 - b * 20.0 + a) / 45.0;
-    a.iter().zip(b).zip(c).map(at_0).collect()
+    p
 }
 
 fn solve_island(
@@ -145,6 +137,9 @@ fn solve_island(
             sweep(&mut centre, work);
         }
         keep(&mut best, p, centre.clone(), work);
+    }
+    if is_enough(best, p) && active_set::may_be_shared(island, p) {
+        best = active_set::even(island, p, goal.tolerance.max(island.rounding(p)), &mut work.newton_steps);
     }
     // A velocity that so exact impulses leave is rounding.
     let small = (100.0 * best).clamp(1e-13, 1e-10);

@@ -132,7 +132,11 @@ impl EventDriven {
             Event::Start | Event::Impact => {
                 self.detect(model, state);
                 blow = self.strike(model, state);
+                self.placing.p.clear();
                 self.regroup(model, state, &Change::default());
+                if blow {
+                    self.add_placing();
+                }
             }
             Event::Change(change) => {
                 self.detect(model, state);
@@ -293,6 +297,17 @@ impl EventDriven {
             self.forces.hold(&self.held, Choice::Least);
         }
         self.settle(model, state);
+    }
+
+    /// What ended the rest of a rocking belongs to the impact.
+    fn add_placing(&mut self) {
+        let Forces { here, problem, p, .. } = &self.placing;
+        for ((here, block), p) in here.iter().zip(&problem.blocks).zip(p) {
+            let key = here.contact.key();
+            if let Some(solved) = self.solved.iter_mut().find(|solved| solved.contact.key() == key) {
+                solved.impulse_W += block.in_world(p);
+            }
+        }
     }
 
     /// Of what touches, what does not leave. None: a contact of parts whose motion is not known.

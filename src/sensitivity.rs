@@ -17,6 +17,7 @@ use crate::run::{clock, only_step};
 use crate::state::State;
 use crate::step::Clock;
 use nalgebra::Vector3;
+use std::time::Instant;
 
 /// Of the largest bounding radius: above the tolerances of methods that control their error, below what bends a motion.
 const PART: f64 = 1e-6;
@@ -44,9 +45,10 @@ pub fn sensitivity(experiment: &Experiment, model: &Model, start: &State, end: &
     }
     let size_m = perturbation_m(model);
     let held = held(model, start, size_m);
+    let started = Instant::now();
     let arrived = (0..FRAME.len()).filter_map(|k| {
         let twin = displaced(start, |i| along(&held[i], &FRAME[(i + k) % 3]), size_m, end.time_s);
-        let apart_m = apart_m(&twin_end(experiment, model, twin?, end)?, end);
+        let apart_m = apart_m(&twin_end(experiment, model, twin?, end, started)?, end);
         finite(apart_m / size_m)
     });
     arrived.reduce(f64::max)
@@ -115,12 +117,13 @@ fn displaced(
     moved.then_some(twin)
 }
 
-/// At the time of the run's end, however the run has come to it.
-fn twin_end(experiment: &Experiment, model: &Model, twin: State, end: &State) -> Option<State> {
+/// At the time of the run's end, however the run has come to it. The twins together have the wall time of the run.
+fn twin_end(experiment: &Experiment, model: &Model, twin: State, end: &State, started: Instant) -> Option<State> {
     let follows_events = experiment.method.follows_events();
     let clock = if follows_events { Clock::new(end.time_s, end.time_s) } else { clock(experiment) };
     let most = if follows_events { end.step.saturating_mul(PATIENCE) } else { end.step };
-    let limits = Limits { steps: Some(most), ..Limits::default() };
+    let left_s = |wall_s: f64| wall_s - started.elapsed().as_secs_f64();
+    let limits = Limits { steps: Some(most), wall_s: experiment.limits.wall_s.map(left_s), ..Limits::default() };
     let twin = only_step(&experiment.method, model, twin, &clock, &limits).state;
     let arrived = if follows_events { twin.time_s >= end.time_s } else { twin.step == end.step };
     arrived.then_some(twin)

@@ -48,8 +48,8 @@ impl Paths<'_> {
 }
 
 /// δ: of the bounding radius, and of the coordinates.
-pub const DELTA: f64 = 1e-13;
-pub const ULPS: f64 = 8.0 * f64::EPSILON;
+const DELTA: f64 = 1e-13;
+const ULPS: f64 = 8.0 * f64::EPSILON;
 
 pub fn delta_m(radius_m: f64, coordinate_m: f64) -> f64 {
     DELTA * radius_m + ULPS * coordinate_m
@@ -332,9 +332,14 @@ fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Windo
     })
 }
 
+/// δ of a contact: of the smaller body.
+pub fn delta_at_m(model: &Model, contact: &Contact) -> f64 {
+    let radius_m = contact.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).fold(f64::INFINITY, f64::min);
+    delta_m(radius_m, contact.p_WC.amax() + radius_m)
+}
+
 /// Whether a contact of the contact test is within δ.
 pub fn is_closed(model: &Model, contact: &Contact) -> bool {
-    let radius_m = contact.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).fold(f64::INFINITY, f64::min);
     // The search ends within δ, the projection of what is held likewise.
-    contact.gap_m <= 20.0 * delta_m(radius_m, contact.p_WC.amax() + radius_m)
+    contact.gap_m <= 20.0 * delta_at_m(model, contact)
 }

@@ -51,6 +51,9 @@ impl Criterion {
     }
 }
 
+/// Of a fall of all bodies by their size: an energy that is rounding.
+const NOTHING: f64 = 1e-9;
+
 /// The rules of one run.
 pub struct Divergence {
     energy_limit_j: Option<f64>,
@@ -60,11 +63,14 @@ pub struct Divergence {
 }
 
 impl Divergence {
-    pub fn new(rules: &Diverge, start: &Energy) -> Self {
-        // A start value of 0 (or below it, where no floor holds the scene) says nothing about the scale.
+    pub fn new(rules: &Diverge, model: &Model, start: &Energy) -> Self {
+        // A start value of 0, or what rounding leaves of it (or below it, where no floor holds the scene), says nothing
+        // about the scale.
         let start_j = start.total_j();
+        let falls_j = |body: &Body| body.mass_kg * model.gravity_m_s2.norm() * body.bounding_radius_m;
+        let fall_j: f64 = model.bodies.iter().filter(|body| !body.driven).map(falls_j).sum();
         Divergence {
-            energy_limit_j: rules.energy_factor.filter(|_| start_j > 0.0).map(|factor| factor * start_j),
+            energy_limit_j: rules.energy_factor.filter(|_| start_j > NOTHING * fall_j).map(|factor| factor * start_j),
             escape: rules.escape,
             speed_m_s: rules.speed_m_s,
             penetration_m: rules.penetration_m,

@@ -79,7 +79,7 @@ impl Judge {
             contacts_max: 0,
             pin_gap_max_m: model.pin_gap_m(&start.bodies),
             watched: Watched::default(),
-            divergence: Divergence::new(rules, &energy),
+            divergence: Divergence::new(rules, model, &energy),
             moment_s: moment_s(model),
             middle: start.clone(),
             pushes: vec![Push::NONE; model.bodies.len()],

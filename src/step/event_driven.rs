@@ -154,9 +154,6 @@ impl EventDriven {
         } else if self.stalled.is_none() && !self.trouble && !matches!(self.next, Event::Jam) {
             self.advance(model, state, end_s);
         }
-        if std::env::var("GT").is_ok() {
-            eprintln!("TRACE {:.15} dt {:.3e} {:?} next {:?} held {:?} dense h {:?} unsolved {} found {:?}", state.time_s, state.time_s - from_s, self.span, self.next, self.held.iter().map(|h| (h.touch.key().2, h.mode)).collect::<Vec<_>>(), self.dense.as_ref().map(|d| d.h), self.work.unsolved, self.found.iter().map(|c| (c.feature.1, c.gap_m, Self::approach_m_s(model, state, c).0)).collect::<Vec<_>>());
-        }
         self.at_once = if state.time_s > from_s { 0 } else { self.at_once + 1 };
         if std::mem::take(&mut self.trouble) || self.at_once > AT_ONCE || self.accumulates(model, state) {
             self.begin_stretch(model, state);
@@ -266,12 +263,12 @@ impl EventDriven {
         let height_m = fallen_m.min(approach * lasted_s / 4.0);
         let left = 1.0 - contact.restitution;
         // What stays within δ cannot be followed, however elastic.
-        height_m <= left * left * self.negligible_m(model, contact) || height_m <= watch::DELTA * radius_m(model, contact)
+        height_m <= left * left * self.negligible_m(model, contact) || height_m <= watch::delta_at_m(model, contact)
     }
 
     /// A height that does not matter.
     fn negligible_m(&self, model: &Model, contact: &Contact) -> f64 {
-        (ZENO * self.tolerance).max(10.0 * watch::DELTA * radius_m(model, contact))
+        (ZENO * self.tolerance).max(10.0 * watch::delta_at_m(model, contact))
     }
 
     /// What holds from now on, and how everything moves.
@@ -461,9 +458,4 @@ impl EventDriven {
         };
         NODES.into_iter().map(moment).collect()
     }
-}
-
-/// Of the smaller body.
-fn radius_m(model: &Model, contact: &Contact) -> f64 {
-    contact.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).fold(f64::INFINITY, f64::min)
 }

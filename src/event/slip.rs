@@ -19,6 +19,9 @@ pub fn slow_m_s(model: &Model, tolerance_m: f64) -> Slow {
     Slow { young: 0.01 * speed * libm::pow(part, 0.4), fading: speed * (2e-4 * part).sqrt() }
 }
 
+/// Of the time in which a slip would end.
+const BEFORE_END: f64 = 0.9;
+
 /// Says of all slips what they are at the beginning of a step, from the accelerations in `forces`. The longest step for
 /// which that stays so.
 pub fn look(model: &Model, held: &mut [Held], state: &State, tolerance_m: f64, forces: &Forces) -> f64 {
@@ -37,7 +40,10 @@ pub fn look(model: &Model, held: &mut [Held], state: &State, tolerance_m: f64, f
             _ if speed < slow.fading && a_W.dot(&slip) < 0.0 => Slip::Fading,
             _ => Slip::Fast,
         };
+        let braked = -a_W.dot(&slip);
         most_s = match held.slip {
+            // Not over its end, where its direction is singular, before it fades.
+            Slip::Fast if braked > 0.0 => most_s.min(BEFORE_END * speed * speed / braked),
             Slip::Fast => most_s,
             Slip::Young => most_s.min(youth_s).min(slow.young / a_W.norm()),
             Slip::Fading => most_s.min(4.0 * speed / a_W.norm()),

@@ -154,6 +154,9 @@ impl EventDriven {
         } else if self.stalled.is_none() && !self.trouble && !matches!(self.next, Event::Jam) {
             self.advance(model, state, end_s);
         }
+        if std::env::var("GT").is_ok() {
+            eprintln!("TRACE {:.15} dt {:.3e} {:?} next {:?} held {:?} dense h {:?} unsolved {} found {:?}", state.time_s, state.time_s - from_s, self.span, self.next, self.held.iter().map(|h| (h.touch.key().2, h.mode)).collect::<Vec<_>>(), self.dense.as_ref().map(|d| d.h), self.work.unsolved, self.found.iter().map(|c| (c.feature.1, c.gap_m, Self::approach_m_s(model, state, c).0)).collect::<Vec<_>>());
+        }
         self.at_once = if state.time_s > from_s { 0 } else { self.at_once + 1 };
         if std::mem::take(&mut self.trouble) || self.at_once > AT_ONCE || self.accumulates(model, state) {
             self.begin_stretch(model, state);

@@ -1,4 +1,5 @@
-//! When a contact that holds stops doing so: its slip ends, it begins to slip, or it opens.
+//! When a contact that holds stops doing so: its slip ends, it begins to slip, it opens, or it comes to the border of a face or
+//! the end of an edge.
 
 use super::decide::{Change, margin};
 use super::forces::{Forces, Held, Mode, NO_SLIP, Slip, meeting_m_s};
@@ -44,7 +45,16 @@ impl Looking<'_> {
     }
 
     fn has_changed(&mut self, t_s: f64) -> bool {
-        self.slip_left(t_s) < 0.0 || self.force_left(t_s) < PULL
+        self.has_left(t_s) || (self.paths.dense.is_some() && (self.slip_left(t_s) < 0.0 || self.force_left(t_s) < PULL))
+    }
+
+    /// A face or an edge, at its border.
+    fn has_left(&mut self, t_s: f64) -> bool {
+        if !self.held.iter().any(|held| held.touch.is_bounded()) {
+            return false;
+        }
+        self.look(t_s);
+        self.held.iter().any(|held| held.touch.left_m(self.at) < 0.0)
     }
 
     /// The least slip along its direction, of all that slide, over the speeds there; with room for rounding.
@@ -82,7 +92,7 @@ impl Looking<'_> {
     /// Which contacts open and which begin to slip.
     fn what(&mut self, t_s: f64) -> Change {
         let mut change = Change::default();
-        if self.force_left(t_s) >= PULL {
+        if self.paths.dense.is_none() || self.force_left(t_s) >= PULL {
             return change;
         }
         let largest = self.forces.p.iter().map(|p| p.norm()).fold(0.0, f64::max);

@@ -1,7 +1,7 @@
 //! Motion from event to event: between events it is smooth and known, in closed form or by a continuous method of high
 //! order; events are roots in time. `step/event_driven.rs` is the loop; here is what it is made of.
 //!
-//! - `touch`: a point of contact in any state, and its rates
+//! - `touch`: a point of contact in any state, and its rates; `shown`: which parts of two bodies meet there
 //! - `forces`: the forces that keep what is in contact together
 //! - `decide`: which contacts hold, stick, slide
 //! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion; `slip`: where that is stiff
@@ -10,8 +10,9 @@
 //! - `impact`: the laws of impact at one moment
 //!
 //! Errors. A gap beyond δ = 1e-13 of the body (and rounding of its coordinates) is never stepped over. Impacts that would
-//! never end (Zeno) end when the height of the bounces left, times 1/(1 − e)², is below a millionth of the tolerance:
-//! the contact then holds, and no position is wrong by more than that.
+//! never end (Zeno) end when the height of the bounces left, times 1/(1 − e)², is below a millionth of the tolerance, or what
+//! is left stays within δ: the contact then holds. What is left of a rocking is ended with the friction that comes with it; that
+//! its contacts have to pull for this is seen in the residual of that blow.
 
 pub mod change;
 pub mod decide;
@@ -20,6 +21,7 @@ pub mod forces;
 pub mod impact;
 pub mod motion;
 pub mod settle;
+pub mod shown;
 pub mod slip;
 pub mod touch;
 pub mod watch;

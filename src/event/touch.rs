@@ -6,6 +6,7 @@
 //! changes by β = ω_A × ṙ_A − ω_B × ṙ_B, and its normal part by n·β + ṅ·u: for a rolling sphere ṙ = 0, for a corner
 //! ṙ = ω × r (F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996, ch. 4).
 
+use super::shown::{Ball, Border, Face, Line, Part, Shown, Spot, shown, within_m};
 use crate::collide::solid::Solid;
 use crate::collide::{Contact, Key};
 use crate::model::{Body, Geometry, Model};
@@ -18,32 +19,26 @@ pub struct Touch {
     /// As of the contact test; friction and restitution are in it.
     found: Contact,
     parts: Parts,
+    /// It began within the borders of faces and the ends of edges, by so much or a little less.
+    slack_m: Option<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 enum Parts {
     /// A part of one body on a plane of the other, or of the container.
-    OnPlane { of: usize, part: Part, plane: Plane },
-    /// Two balls: centres in body axes, and radii.
-    Balls([(Vector3<f64>, f64); 2]),
-}
-
-/// A convex part that has one point farthest in every direction; from the centre of mass, body axes.
-#[derive(Clone, Debug, PartialEq)]
-enum Part {
-    /// Of radius 0: a corner.
-    Ball {
-        centre_B: Vector3<f64>,
-        radius_m: f64,
+    OnPlane {
+        of: usize,
+        part: Part,
+        plane: Plane,
     },
-    Rim {
-        centre_B: Vector3<f64>,
-        axis_B: Vector3<f64>,
-        radius_m: f64,
-    },
-    Ellipsoid {
-        centre_B: Vector3<f64>,
-        semi_axes_m: Vector3<f64>,
+    Balls([Ball; 2]),
+    /// Two edges, or round sides, that cross.
+    Lines([Line; 2]),
+    /// The ball is of the first body, or of the other.
+    BallOnLine {
+        first: bool,
+        ball: Ball,
+        line: Line,
     },
 }
 
@@ -53,6 +48,7 @@ struct Plane {
     of: Option<usize>,
     normal: Vector3<f64>,
     offset_m: f64,
+    border: Border,
 }
 
 /// A touch in one state.
@@ -97,7 +93,67 @@ impl Touch {
             None => on_container(model, state, found),
             Some(other) => between(model, state, found, other),
         };
-        Some(Touch { found: *found, parts: parts? })
+        let mut touch = Touch { found: *found, parts: parts?, slack_m: None };
+        let slack_m = BORDER * found.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).sum::<f64>();
+        touch.slack_m = (touch.inside_m(state) >= -slack_m).then_some(slack_m);
+        Some(touch)
+    }
+
+    /// It may come to a border.
+    pub fn is_bounded(&self) -> bool {
+        let ends = match &self.parts {
+            Parts::OnPlane { plane, .. } => plane.border != Border::Nowhere,
+            Parts::Balls(balls) => balls.iter().any(|ball| !ball.cone.is_empty()),
+            Parts::Lines(_) | Parts::BallOnLine { .. } => true,
+        };
+        ends && self.slack_m.is_some()
+    }
+
+    /// How far it is from having left a face or an edge. Negative: it has.
+    pub fn left_m(&self, state: &State) -> f64 {
+        match self.slack_m {
+            Some(slack_m) if self.is_bounded() => self.inside_m(state) + 2.0 * slack_m,
+            _ => f64::INFINITY,
+        }
+    }
+
+    fn inside_m(&self, state: &State) -> f64 {
+        let at = |i: usize| &state.bodies[i];
+        let along = |line: &Line, s: f64| (s - line.ends_m[0]).min(line.ends_m[1] - s);
+        match &self.parts {
+            Parts::OnPlane { plane: Plane { of: Some(of), border, .. }, .. } => {
+                let base = at(*of);
+                let p_W = self.here(state).contact.p_WC - base.p_WB;
+                border.inside_m(&base.q_WB.inverse_transform_vector(&p_W))
+            }
+            Parts::OnPlane { .. } => f64::INFINITY,
+            Parts::Balls(balls) => {
+                let at = self.pair(&at);
+                let centre = [0, 1].map(|i| at[i].p_WB + at[i].q_WB * balls[i].centre_B);
+                let within = |i: usize| {
+                    within_m(&balls[i].cone, &at[i].q_WB.inverse_transform_vector(&(centre[1 - i] - centre[i])))
+                };
+                within(0).min(within(1))
+            }
+            Parts::Lines(lines) => {
+                let Crossing { s, t, .. } = Crossing::new(&self.pair(&at), lines);
+                along(&lines[0], s).min(along(&lines[1], t))
+            }
+            Parts::BallOnLine { first, ball, line } => {
+                let [a, b] = self.pair(&at);
+                let (of_ball, of_line) = if *first { (a, b) } else { (b, a) };
+                let apart = of_ball.p_WB + of_ball.q_WB * ball.centre_B - of_line.p_WB - of_line.q_WB * line.point_B;
+                let out_B = of_line.q_WB.inverse_transform_vector(&apart);
+                let off = apart - of_line.q_WB * line.direction_B * out_B.dot(&line.direction_B);
+                along(line, out_B.dot(&line.direction_B))
+                    .min(within_m(&line.cone, &out_B))
+                    .min(within_m(&ball.cone, &of_ball.q_WB.inverse_transform_vector(&-off)))
+            }
+        }
+    }
+
+    fn pair<'a>(&self, at: &impl Fn(usize) -> &'a BodyState) -> [&'a BodyState; 2] {
+        [self.found.body, self.found.other.unwrap_or(self.found.body)].map(at)
     }
 
     pub fn key(&self) -> Key {
@@ -127,6 +183,8 @@ impl Touch {
         let (mut contact, rates) = match &self.parts {
             Parts::OnPlane { of, part, plane } => self.on_plane(&at, *of, part, plane),
             Parts::Balls(balls) => self.balls(&at, balls),
+            Parts::Lines(lines) => self.lines(&at, lines),
+            Parts::BallOnLine { first, ball, line } => self.ball_on_line(&at, *first, ball, line),
         };
         let (a, b) = (at(contact.body), contact.other.map(&at));
         contact.r_BC_W = contact.p_WC - a.p_WB;
@@ -159,20 +217,16 @@ impl Touch {
         (contact, Rates { r_A, r_B, normal: normal_rate * sign })
     }
 
-    fn balls<'a>(
-        &self,
-        bodies: &impl Fn(usize) -> &'a BodyState,
-        balls: &[(Vector3<f64>, f64); 2],
-    ) -> (Contact, Rates) {
-        let at = [self.found.body, self.found.other.unwrap_or(self.found.body)].map(bodies);
-        let arm = [0, 1].map(|i| at[i].q_WB * balls[i].0);
+    fn balls<'a>(&self, bodies: &impl Fn(usize) -> &'a BodyState, balls: &[Ball; 2]) -> (Contact, Rates) {
+        let at = self.pair(bodies);
+        let arm = [0, 1].map(|i| at[i].q_WB * balls[i].centre_B);
         let arm_rate = [0, 1].map(|i| at[i].w_WB.cross(&arm[i]));
         let apart = at[0].p_WB + arm[0] - at[1].p_WB - arm[1];
         let apart_rate = at[0].v_WB + arm_rate[0] - at[1].v_WB - arm_rate[1];
         let distance = apart.norm();
         let normal = apart / distance;
         let normal_rate = (apart_rate - normal * normal.dot(&apart_rate)) / distance;
-        let [radius_A, radius_B] = [balls[0].1, balls[1].1];
+        let [radius_A, radius_B] = [balls[0].radius_m, balls[1].radius_m];
         let contact = Contact {
             p_WC: at[0].p_WB + arm[0] - normal * radius_A,
             normal,
@@ -182,6 +236,92 @@ impl Touch {
         let (r_A, r_B) = (arm_rate[0] - normal_rate * radius_A, arm_rate[1] + normal_rate * radius_B);
         (contact, Rates { r_A, r_B, normal: normal_rate })
     }
+
+    /// The nearest points of two lines: w = c_1 + s d_1 − c_2 − t d_2 is across both, always.
+    fn lines<'a>(&self, bodies: &impl Fn(usize) -> &'a BodyState, lines: &[Line; 2]) -> (Contact, Rates) {
+        let at = self.pair(bodies);
+        let Crossing { arm, d, s, t, w } = Crossing::new(&at, lines);
+        let arm_rate = [0, 1].map(|i| at[i].w_WB.cross(&arm[i]));
+        let d_rate = [0, 1].map(|i| at[i].w_WB.cross(&d[i]));
+        let fixed = at[0].v_WB + arm_rate[0] + d_rate[0] * s - at[1].v_WB - arm_rate[1] - d_rate[1] * t;
+        let across = [0, 1].map(|i| -d[i].dot(&fixed) - d_rate[i].dot(&w));
+        let [s_rate, t_rate] = crossed(d[0].dot(&d[1]), across);
+        let cross = d[0].cross(&d[1]);
+        let (sign, length) = (cross.dot(&self.found.normal).signum(), cross.norm());
+        let normal = cross * (sign / length);
+        let cross_rate = (d_rate[0].cross(&d[1]) + d[0].cross(&d_rate[1])) * sign;
+        let normal_rate = (cross_rate - normal * normal.dot(&cross_rate)) / length;
+        let [radius_A, radius_B] = [lines[0].radius_m, lines[1].radius_m];
+        let contact = Contact {
+            p_WC: at[0].p_WB + arm[0] + d[0] * s - normal * radius_A,
+            normal,
+            gap_m: normal.dot(&w) - radius_A - radius_B,
+            ..self.found
+        };
+        let r_A = arm_rate[0] + d_rate[0] * s + d[0] * s_rate - normal_rate * radius_A;
+        let r_B = arm_rate[1] + d_rate[1] * t + d[1] * t_rate + normal_rate * radius_B;
+        (contact, Rates { r_A, r_B, normal: normal_rate })
+    }
+
+    fn ball_on_line<'a>(
+        &self,
+        bodies: &impl Fn(usize) -> &'a BodyState,
+        first: bool,
+        ball: &Ball,
+        line: &Line,
+    ) -> (Contact, Rates) {
+        let [a, b] = self.pair(bodies);
+        let (of_ball, of_line) = if first { (a, b) } else { (b, a) };
+        let (arm, foot, d) =
+            (of_ball.q_WB * ball.centre_B, of_line.q_WB * line.point_B, of_line.q_WB * line.direction_B);
+        let w = &of_line.w_WB;
+        let (arm_rate, foot_rate, d_rate) = (of_ball.w_WB.cross(&arm), w.cross(&foot), w.cross(&d));
+        let apart = of_ball.p_WB + arm - of_line.p_WB - foot;
+        let apart_rate = of_ball.v_WB + arm_rate - of_line.v_WB - foot_rate;
+        let s = d.dot(&apart);
+        let s_rate = d_rate.dot(&apart) + d.dot(&apart_rate);
+        let off = apart - d * s;
+        let off_rate = apart_rate - d * s_rate - d_rate * s;
+        let distance = off.norm();
+        // From the line to the ball.
+        let out = off / distance;
+        let out_rate = (off_rate - out * out.dot(&off_rate)) / distance;
+        let r_ball = arm_rate - out_rate * ball.radius_m;
+        let r_line = foot_rate + d_rate * s + d * s_rate + out_rate * line.radius_m;
+        let (sign, r_A, r_B) = if first { (1.0, r_ball, r_line) } else { (-1.0, r_line, r_ball) };
+        let contact = Contact {
+            p_WC: of_ball.p_WB + arm - out * ball.radius_m,
+            normal: out * sign,
+            gap_m: distance - ball.radius_m - line.radius_m,
+            ..self.found
+        };
+        (contact, Rates { r_A, r_B, normal: out_rate * sign })
+    }
+}
+
+/// Two lines: where they are nearest to each other.
+struct Crossing {
+    arm: [Vector3<f64>; 2],
+    d: [Vector3<f64>; 2],
+    s: f64,
+    t: f64,
+    w: Vector3<f64>,
+}
+
+impl Crossing {
+    fn new(at: &[&BodyState; 2], lines: &[Line; 2]) -> Self {
+        let arm = [0, 1].map(|i| at[i].q_WB * lines[i].point_B);
+        let d = [0, 1].map(|i| at[i].q_WB * lines[i].direction_B);
+        let apart = at[0].p_WB + arm[0] - at[1].p_WB - arm[1];
+        let [s, t] = crossed(d[0].dot(&d[1]), d.map(|d| -d.dot(&apart)));
+        Crossing { arm, d, s, t, w: apart + d[0] * s - d[1] * t }
+    }
+}
+
+/// x − b y = r_1, b x − y = r_2.
+fn crossed(b: f64, r: [f64; 2]) -> [f64; 2] {
+    let determinant = b * b - 1.0;
+    [(b * r[1] - r[0]) / determinant, (r[1] - b * r[0]) / determinant]
 }
 
 impl Part {
@@ -189,7 +329,7 @@ impl Part {
     fn farthest(&self, at: &BodyState, d: &Vector3<f64>, d_rate: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         let with_body = |r: Vector3<f64>| at.w_WB.cross(&r);
         match self {
-            Part::Ball { centre_B, radius_m } => {
+            Part::Ball(Ball { centre_B, radius_m, .. }) => {
                 let arm = at.q_WB * centre_B;
                 (arm + d * *radius_m, with_body(arm) + d_rate * *radius_m)
             }
@@ -220,13 +360,13 @@ impl Part {
 }
 
 fn corner(centre_B: Vector3<f64>) -> Part {
-    Part::Ball { centre_B, radius_m: 0.0 }
+    Part::Ball(Ball::new(centre_B, 0.0))
 }
 
 fn on_container(model: &Model, state: &State, found: &Contact) -> Option<Parts> {
     let (face, node) = found.feature;
     let face = model.container.as_ref()?.faces[face as usize];
-    let plane = Plane { of: None, normal: face.normal, offset_m: face.offset_m };
+    let plane = Plane { of: None, normal: face.normal, offset_m: face.offset_m, border: Border::Nowhere };
     let part = lowest(&model.bodies[found.body], &state.bodies[found.body], node, found)?;
     Some(Parts::OnPlane { of: found.body, part, plane })
 }
@@ -240,10 +380,10 @@ fn lowest(body: &Body, at: &BodyState, node: u32, found: &Contact) -> Option<Par
     };
     let y = Vector3::y();
     Some(match solid {
-        Solid::Sphere { radius_m } => Part::Ball { centre_B: centre, radius_m: *radius_m },
+        Solid::Sphere { radius_m } => Part::Ball(Ball::new(centre, *radius_m)),
         Solid::Capsule { radius_m, half_height_m } => {
             let end = if node == 0 { -half_height_m } else { *half_height_m };
-            Part::Ball { centre_B: centre + y * end, radius_m: *radius_m }
+            Part::Ball(Ball::new(centre + y * end, *radius_m))
         }
         Solid::Ellipsoid { semi_axes_m } => Part::Ellipsoid { centre_B: centre, semi_axes_m: *semi_axes_m },
         Solid::Cylinder { radius_m, half_height_m } => {
@@ -262,90 +402,69 @@ fn lowest(body: &Body, at: &BodyState, node: u32, found: &Contact) -> Option<Par
 /// Of a cap (rad): flatter, four points of its rim stand for it.
 const TILTED: f64 = 1e-8;
 
-/// What a solid shows to another one.
-enum Shown {
-    Ball(Vector3<f64>, f64),
-    Face {
-        normal_B: Vector3<f64>,
-        offset_m: f64,
-    },
-    Ellipsoid(Vector3<f64>, Vector3<f64>),
-    /// An edge or something else that is curved.
-    Other,
-}
+/// Of the bounding radii: so far beyond a border is not beyond it. The contact test takes points as one within half of it.
+const BORDER: f64 = 2e-9;
+
+/// Of unit vectors: less than this is parallel.
+const PARALLEL: f64 = 1e-6;
 
 fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Option<Parts> {
     let bodies = [found.body, other];
-    let shown = |side: usize, out: Vector3<f64>| {
-        let (body, at) = (&model.bodies[bodies[side]], &state.bodies[bodies[side]]);
-        let p_B = at.q_WB.inverse_transform_vector(&(found.p_WC - at.p_WB));
-        Some((shows(body, &p_B, &at.q_WB.inverse_transform_vector(&out))?, p_B))
+    let at = bodies.map(|i| &state.bodies[i]);
+    let p_B = at.map(|at| at.q_WB.inverse_transform_vector(&(found.p_WC - at.p_WB)));
+    let show = |side: usize, out: Vector3<f64>| {
+        shown(&model.bodies[bodies[side]], &p_B[side], &at[side].q_WB.inverse_transform_vector(&out))
     };
-    let (a, p_A) = shown(0, -found.normal)?;
-    let (b, p_B) = shown(1, found.normal)?;
-    let plane = |of: usize, normal: Vector3<f64>, offset_m: f64| Plane { of: Some(of), normal, offset_m };
-    let on = |of: usize, part: Part, plane: Plane| Some(Parts::OnPlane { of, part, plane });
-    match (a, b) {
-        (Shown::Ball(a, r), Shown::Ball(b, s)) => Some(Parts::Balls([(a, r), (b, s)])),
-        (a, Shown::Face { normal_B, offset_m }) => on(bodies[0], part(a, p_A)?, plane(other, normal_B, offset_m)),
-        (Shown::Face { normal_B, offset_m }, b) => on(other, part(b, p_B)?, plane(bodies[0], normal_B, offset_m)),
+    let (a, b) = (show(0, -found.normal)?, show(1, found.normal)?);
+    if let (Spot::Line(line_A), Spot::Line(line_B)) = (&a.spot, &b.spot) {
+        let cross = (at[0].q_WB * line_A.direction_B).cross(&(at[1].q_WB * line_B.direction_B));
+        if cross.norm() > PARALLEL {
+            return Some(Parts::Lines([line_A.clone(), line_B.clone()]));
+        }
+    }
+    let on = |of: usize, face: &Face, base: usize| {
+        let plane = Plane {
+            of: Some(bodies[base]),
+            normal: face.normal_B,
+            offset_m: face.offset_m,
+            border: face.border.clone(),
+        };
+        let spot = if of == 0 { &a.spot } else { &b.spot };
+        Parts::OnPlane { of: bodies[of], part: part(spot, p_B[of]), plane }
+    };
+    match (&a, &b) {
+        // What is a corner or an edge of one is held by the face of the other.
+        (Shown { face: Some(face), spot: Spot::Inside }, Shown { spot, .. }) if *spot != Spot::Inside => {
+            Some(on(1, face, 0))
+        }
+        (_, Shown { face: Some(face), .. }) => Some(on(0, face, 1)),
+        (Shown { face: Some(face), .. }, _) => Some(on(1, face, 0)),
+        _ => round(&a.spot, &b.spot),
+    }
+}
+
+/// Without any face.
+fn round(a: &Spot, b: &Spot) -> Option<Parts> {
+    let ball = |spot: &Spot| match spot {
+        Spot::Part(Part::Ball(ball)) => Some(ball.clone()),
+        _ => None,
+    };
+    let on_line = |first: bool, ball: Ball, line: &Line| {
+        (ball.radius_m + line.radius_m > 0.0).then(|| Parts::BallOnLine { first, ball, line: line.clone() })
+    };
+    match (ball(a), ball(b), a, b) {
+        (Some(a), Some(b), ..) if a.radius_m + b.radius_m > 0.0 => Some(Parts::Balls([a, b])),
+        (Some(ball), _, _, Spot::Line(line)) => on_line(true, ball, line),
+        (_, Some(ball), Spot::Line(line), _) => on_line(false, ball, line),
         _ => None,
     }
 }
 
-/// Two faces, or a face and an edge: the point stays one of the body's.
-fn part(shown: Shown, p_B: Vector3<f64>) -> Option<Part> {
-    match shown {
-        Shown::Ball(centre_B, radius_m) => Some(Part::Ball { centre_B, radius_m }),
-        Shown::Ellipsoid(centre_B, semi_axes_m) => Some(Part::Ellipsoid { centre_B, semi_axes_m }),
-        Shown::Face { .. } => Some(corner(p_B)),
-        Shown::Other => None,
+/// On a face the point of a line that lies there stays one of the body's, and so does one of another face.
+fn part(spot: &Spot, p_B: Vector3<f64>) -> Part {
+    match spot {
+        Spot::Part(part) => part.clone(),
+        Spot::Line(line) => Part::Ball(Ball::new(line.point_B, line.radius_m)),
+        Spot::Inside => corner(p_B),
     }
-}
-
-/// At a point of its surface with this outward normal, both in body axes.
-fn shows(body: &Body, p_B: &Vector3<f64>, out_B: &Vector3<f64>) -> Option<Shown> {
-    /// Of a unit vector: the normal is the face's.
-    const ALONG: f64 = 1e-9;
-    /// Of the bounding radius: the point is the corner.
-    const AT: f64 = 1e-7;
-    let (solid, centre) = body.solid()?;
-    let near = AT * body.bounding_radius_m;
-    let face =
-        |normal_B: Vector3<f64>, offset_m: f64| Shown::Face { normal_B, offset_m: offset_m + normal_B.dot(centre) };
-    let y = Vector3::y();
-    Some(match solid {
-        Solid::Sphere { radius_m } => Shown::Ball(*centre, *radius_m),
-        Solid::Ellipsoid { semi_axes_m } => Shown::Ellipsoid(*centre, *semi_axes_m),
-        Solid::Capsule { radius_m, half_height_m } => {
-            let ends = [-half_height_m, *half_height_m].map(|end| centre + y * end);
-            let end = ends.into_iter().find(|end| (p_B - out_B * *radius_m - end).norm() <= near);
-            end.map_or(Shown::Other, |end| Shown::Ball(end, *radius_m))
-        }
-        Solid::Box { half_m } => {
-            let axis = out_B.iamax();
-            let normal_B = Vector3::ith(axis, out_B[axis].signum());
-            if (out_B - normal_B).norm() <= ALONG {
-                face(normal_B, half_m[axis])
-            } else {
-                let own = p_B - centre;
-                let at = half_m.zip_map(&own, |half, x| half.copysign(x));
-                if (own - at).norm() <= near { Shown::Ball(centre + at, 0.0) } else { Shown::Other }
-            }
-        }
-        Solid::Cylinder { half_height_m, .. } => {
-            let normal_B = y * out_B.y.signum();
-            if (out_B - normal_B).norm() <= ALONG { face(normal_B, *half_height_m) } else { Shown::Other }
-        }
-        Solid::Convex(hull) => {
-            let own = p_B - centre;
-            let along = hull.faces.iter().find(|face| (face.normal - out_B).norm() <= ALONG);
-            let at = hull.vertices.iter().find(|v| (*v - own).norm() <= near);
-            match (along, at) {
-                (Some(f), _) => face(f.normal, f.normal.dot(&hull.vertices[f.corners[0] as usize])),
-                (None, Some(v)) => Shown::Ball(centre + v, 0.0),
-                _ => Shown::Other,
-            }
-        }
-    })
 }

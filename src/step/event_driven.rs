@@ -154,9 +154,6 @@ impl EventDriven {
         } else if self.stalled.is_none() && !self.trouble && !matches!(self.next, Event::Jam) {
             self.advance(model, state, end_s);
         }
-        if std::env::var("GT").is_ok() {
-            eprintln!("TRACE {:.15} dt {:.3e} {:?} next {:?} held {:?} dense h {:?} unsolved {} found {:?}", state.time_s, state.time_s - from_s, self.span, self.next, self.held.iter().map(|h| (h.touch.key().2, h.mode)).collect::<Vec<_>>(), self.dense.as_ref().map(|d| d.h), self.work.unsolved, self.found.iter().map(|c| (c.feature.1, c.gap_m, Self::approach_m_s(model, state, c).0)).collect::<Vec<_>>());
-        }
         self.at_once = if state.time_s > from_s { 0 } else { self.at_once + 1 };
         if std::mem::take(&mut self.trouble) || self.at_once > AT_ONCE || self.accumulates(model, state) {
             self.begin_stretch(model, state);
@@ -353,19 +350,20 @@ impl EventDriven {
         if let Some(t_s) = self.ends_s.filter(|t_s| *t_s <= to_s) {
             (to_s, self.next) = (t_s, Event::Change(Change::default()));
         }
-        if self.contact {
-            let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref() };
-            let window = Window { from_s: state.time_s, to_s };
-            if let Some(t_s) = watch::first(&paths, &self.held, window, &mut self.work) {
-                (to_s, self.next) = (t_s, Event::Impact);
-            }
-        }
-        if self.dense.is_some() && !self.held.is_empty() {
+        if self.held.iter().any(|held| self.dense.is_some() || held.touch.is_bounded()) {
             let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref() };
             let (forces, at, work) = (&mut self.forces, &mut self.scratch, &mut self.work);
             let mut looking = Looking { paths, held: &self.held, forces, at, work };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
                 (to_s, self.next) = (t_s, Event::Change(change));
+            }
+        }
+        // Last: beyond the border of a face others touch that are not held.
+        if self.contact {
+            let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref() };
+            let window = Window { from_s: state.time_s, to_s };
+            if let Some(t_s) = watch::first(&paths, &self.held, window, &mut self.work) {
+                (to_s, self.next) = (t_s, Event::Impact);
             }
         }
         self.end_at(model, state, to_s);

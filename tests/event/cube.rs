@@ -50,11 +50,9 @@ fn its_end_is_right_to_the_tolerance() {
             apart_m(&rough.state, &fine.state) / rough.measured.sensitivity.unwrap().max(1.0)
         })
         .collect();
-    let good = apart.iter().filter(|apart| **apart < 1e-8).count();
     let worst = apart.iter().copied().fold(0.0, f64::max);
-    eprintln!("CE {good} {worst:e}");
-    // measured: 22 of 24, the others 3.1e-7 at most
-    assert!(good >= 22 && worst < 3e-6, "{good}: {apart:?}");
+    // measured: 2.1e-12
+    assert!(worst < 1e-10, "{apart:?}");
 }
 
 #[test]
@@ -71,7 +69,6 @@ fn its_impacts_are_right_to_the_tolerance() {
         apart.fold(0.0, f64::max) / grown
     });
     let worst = apart.reduce(|| 0.0, f64::max);
-    eprintln!("CI {worst:e}");
     // measured: 5.5e-11
     assert!(worst < 1e-9, "{worst:e}");
 }
@@ -99,7 +96,6 @@ fn steps_converge_to_it_at_order_1() {
         .collect();
     let means = [0, 1, 2, 3].map(|k| (logs.iter().map(|log| log[k]).sum::<f64>() / logs.len() as f64).exp());
     let order = order(&steps, &means);
-    eprintln!("CO {order} {means:?}");
     // measured: 0.95, from 17 mm to 2.3 mm
     assert!((order - 1.0).abs() < 0.15, "{order} {means:?}");
 }

@@ -1,6 +1,7 @@
 //! `event-driven`: held against closed forms, against itself at other tolerances, and against what mechanics keeps.
 
 mod balls;
+mod borders;
 mod closed_forms;
 mod cube;
 mod never_hangs;

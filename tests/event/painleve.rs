@@ -87,7 +87,6 @@ fn too_much_friction_stops_the_tip_at_once() {
             let (got, wanted) = (Vector2::new(v.x - 1.0, v.y), stopping(&rod, 1.0));
             let tip = Vector2::new(v.x - w.z * rod.tip_m.y, v.y + w.z * rod.tip_m.x);
             assert_eq!(ended.measured.outcome, Outcome::Finished, "{}", rod.what);
-            eprintln!("PM {} {:e}", rod.what, (got - wanted).norm());
             // measured: 3.4e-9, what gravity adds
             assert!((got - wanted).norm() < 5e-8 && tip.norm() < 5e-8, "{}, {friction}: {got} {tip}", rod.what);
             if rod.what == "convex" {
@@ -103,7 +102,6 @@ fn with_less_friction_or_backwards_it_slides_on() {
         for (speed, friction) in [(1.0, 1.2), (-1.0, 1.2), (-1.0, 2.0)] {
             let ended = slid(&rod, speed, friction, 1e-9);
             let change = (ended.state.bodies[0].v_WB.x - speed).abs();
-            eprintln!("PC {change:e}");
             // measured: 7.5e-8: at most ten times its weight, for a nanosecond
             assert!(change < 1e-6, "{}, {speed}, {friction}: {change:e}", rod.what);
         }
@@ -131,7 +129,6 @@ fn it_comes_to_rest_or_says_why_not() {
             m.energy_rise_max_rel.unwrap()
         })
         .reduce(|| 0.0, f64::max);
-    eprintln!("PR {worst:e}");
     // measured: 8.3e-13
     assert!(worst < 1e-11, "{worst:e}");
 }

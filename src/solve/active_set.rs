@@ -46,20 +46,19 @@ pub fn improve(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mu
 /// η where redundant impulses are measured from zero: of |p| squared so much is added to what is least.
 const EVEN_ETA: f64 = 1e-5;
 
-/// Steps to impulses that are shared evenly, and the change of them that is none, as a part of the largest.
-const MOST_EVEN: usize = 6;
+/// Of the largest impulse: a change that is none.
 const SAME: f64 = 1e-10;
 
 /// Redundant contacts that slip different ways leave a continuum of solutions, each with velocities of its own. Goes, within
 /// it, to the one with the least Σ|p|² (p with units), that of contacts that give a little, all alike. What pulls there is
 /// left out. The residual.
-pub fn even(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
+pub fn even(island: &Island, p: &mut Vec<Impulse>, rounds: usize, tolerance: f64, steps: &mut u64) -> f64 {
     let mut residual = island.residual(p);
-    for _ in 0..MOST_EVEN {
+    for _ in 0..rounds {
         *steps += 1;
         let Some(mut next) = step(island, p, true) else { break };
         let reached = improve(island, &mut next, tolerance, steps);
-        if reached > residual.max(tolerance) {
+        if reached > residual.max(tolerance).max(island.rounding(&next)) {
             break;
         }
         let largest = next.iter().map(|p| p.norm()).fold(0.0, f64::max);

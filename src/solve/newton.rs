@@ -35,6 +35,10 @@ const ROUGH: f64 = 1e-6;
 /// The least η of the way to impulses shared evenly.
 const EVEN_ETA: f64 = 1e-3;
 
+/// Rounds toward impulses that contacts that slip share evenly: those of a step begin with the last step's.
+const ONCE: usize = 1;
+const UNTIL_EVEN: usize = 6;
+
 /// A residual from which Newton's method is worth a try before anything else.
 const NEAR: f64 = 1e-2;
 
@@ -44,6 +48,17 @@ pub fn solve(
     problem: &ContactProblem,
     sweeps: &Sweeps,
     p: &mut [Impulse],
+    scratch: &mut gauss_seidel::Scratch,
+    work: &mut Work,
+) -> bool {
+    improve(problem, sweeps, p, ONCE, scratch, work)
+}
+
+fn improve(
+    problem: &ContactProblem,
+    sweeps: &Sweeps,
+    p: &mut [Impulse],
+    rounds: usize,
     scratch: &mut gauss_seidel::Scratch,
     work: &mut Work,
 ) -> bool {
@@ -67,7 +82,7 @@ pub fn solve(
             sweep(&mut others, MORE_SWEEPS, shuffled, work);
             *own = island.impulses(&others);
         };
-        solved &= solve_island(&island, sweeps, &mut own, more, work);
+        solved &= solve_island(&island, sweeps, &mut own, rounds, more, work);
         island.put(&own, p);
     }
     solved
@@ -85,7 +100,7 @@ pub fn solve_evenly(
     for island in islands(problem) {
         island.put(&evenly(&island, work), p);
     }
-    solve(problem, sweeps, p, scratch, work)
+    improve(problem, sweeps, p, UNTIL_EVEN, scratch, work)
 }
 
 fn evenly(island: &Island, work: &mut Work) -> Vec<Impulse> {
@@ -104,11 +119,15 @@ fn solve_island(
     island: &Island,
     goal: &Sweeps,
     p: &mut Vec<Impulse>,
+    rounds: usize,
     mut sweep: impl FnMut(&mut Vec<Impulse>, &mut Work),
     work: &mut Work,
 ) -> bool {
     let mut best = island.residual(p);
-    let is_enough = |residual: f64, p: &[Impulse]| residual <= goal.tolerance.max(island.rounding(p));
+    // A tolerance of 0 asks for more than there is.
+    let is_enough = |residual: f64, p: &[Impulse]| {
+        residual <= goal.tolerance || (goal.tolerance > 0.0 && residual <= island.rounding(p))
+    };
     let keep = |best: &mut f64, p: &mut Vec<Impulse>, mut tried: Vec<Impulse>, work: &mut Work| {
         let residual = active_set::improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
         if residual < *best {
@@ -139,7 +158,7 @@ fn solve_island(
         keep(&mut best, p, centre.clone(), work);
     }
     if is_enough(best, p) && active_set::may_be_shared(island, p) {
-        best = active_set::even(island, p, goal.tolerance.max(island.rounding(p)), &mut work.newton_steps);
+        best = active_set::even(island, p, rounds, goal.tolerance, &mut work.newton_steps);
     }
     // A velocity that so exact impulses leave is rounding.
     let small = (100.0 * best).clamp(1e-13, 1e-10);

@@ -79,9 +79,9 @@ fn impacts_of_a_whole_face_are_solved() {
         worst = worst.max(m.residual_max.unwrap());
         steps += m.work_newton_steps;
     }
-    // measured: 9.2e-11, and 1899 linear systems of six unknowns
+    // measured: 9.2e-11, and 3068 linear systems of six unknowns, 1169 of them to share what slips evenly
     assert!(worst <= 1e-10, "{worst}");
-    assert!(steps < 2500, "{steps}");
+    assert!(steps < 4000, "{steps}");
 }
 
 #[test]

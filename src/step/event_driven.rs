@@ -22,7 +22,7 @@ use crate::measure::work::Work;
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::state::State;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// What ends a stretch.
 #[derive(Clone, Debug)]
@@ -50,8 +50,8 @@ pub struct EventDriven {
     detector: Detector,
     found: Vec<Contact>,
     forces: Forces,
-    /// When a contact had its last impact.
-    struck_s: HashMap<Key, f64>,
+    /// When a contact had its last impact, if it may have more.
+    struck_s: BTreeMap<Key, f64>,
     /// Of the projection.
     placing: Forces,
     scratch: State,
@@ -99,7 +99,7 @@ impl EventDriven {
             detector: Detector::default(),
             found: Vec::with_capacity(16),
             forces: Forces::default(),
-            struck_s: HashMap::new(),
+            struck_s: BTreeMap::new(),
             placing: Forces::default(),
             scratch: start.clone(),
             at_once: 0,
@@ -229,11 +229,9 @@ impl EventDriven {
             return false;
         }
         for k in 0..self.found.len() {
-            if self.bounces_out(model, state, &self.found[k]) {
+            let contact = self.found[k];
+            if self.bounces_out(model, state, &contact) {
                 self.found[k].restitution = 0.0;
-            }
-            if strikes(&self.found[k]) {
-                self.struck_s.insert(self.found[k].key(), state.time_s);
             }
             if self.found[k].restitution == 0.0 {
                 self.found[k].tangential_restitution = 0.0;
@@ -247,7 +245,7 @@ impl EventDriven {
     }
 
     /// The bounces that are left after this one do not matter (Zeno).
-    fn bounces_out(&self, model: &Model, state: &State, contact: &Contact) -> bool {
+    fn bounces_out(&mut self, model: &Model, state: &State, contact: &Contact) -> bool {
         let (approach, scale) = Self::approach_m_s(model, state, contact);
         if contact.restitution == 0.0 || approach <= 0.0 {
             return false;
@@ -258,7 +256,8 @@ impl EventDriven {
             return falling > 0.0 && contact.restitution < 1.0 && approach <= BOUNCED_OUT * scale;
         }
         // How high the last bounce was: from how fast it ended, and when it began or what pulls.
-        let lasted_s = self.struck_s.get(&contact.key()).map_or(f64::INFINITY, |at_s| state.time_s - at_s);
+        let last_s = self.struck_s.insert(contact.key(), state.time_s);
+        let lasted_s = last_s.map_or(f64::INFINITY, |at_s| state.time_s - at_s);
         let fallen_m = if falling > 0.0 { approach * approach / (2.0 * falling) } else { f64::INFINITY };
         let height_m = fallen_m.min(approach * lasted_s / 4.0);
         let left = 1.0 - contact.restitution;
@@ -277,6 +276,11 @@ impl EventDriven {
             self.trouble = true;
             return;
         };
+        if touches.is_empty() && model.pins.is_empty() {
+            self.held.clear();
+            self.settle(model, state);
+            return;
+        }
         let change = &Change { slow_m_s: slip::slow_m_s(model, self.tolerance).fading, ..change.clone() };
         match decide(model, state, touches, change, &mut self.forces, &mut self.work) {
             Decision::Holds(held) => self.held = held,

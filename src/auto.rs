@@ -6,8 +6,9 @@
 //! too, its step halved until two runs agree or the budget is used up; the more accurate of the two is taken. The budget is counted in steps and not in seconds, so that
 //! the choice is the same on every machine.
 //!
-//! An estimate is twice the largest distance of a body between the two runs, and some units of rounding of the largest
-//! coordinate. It sees positions at the end alone.
+//! An estimate is some times the largest distance of a body between the two runs, and some units of rounding of the largest
+//! coordinate: of steps twice, whose error halves at least; of tolerances five times, as a rougher run may be as lucky as the
+//! finer one. It sees positions at the end alone.
 
 use crate::experiment::types::{Auto, EventDriven, Experiment, Measure, Method, Scheme, Solver, TimeStepping};
 use crate::integrate::SMALLEST_GLOBAL;
@@ -23,7 +24,8 @@ use std::time::Instant;
 const FINER: f64 = 100.0;
 /// Tolerances above the one asked for, before `event-driven` is given up.
 const ROUGHER: u32 = 4;
-const SAFETY: f64 = 2.0;
+const SAFETY_OF_STEPS: f64 = 2.0;
+const SAFETY_OF_TOLERANCES: f64 = 5.0;
 /// Of the largest coordinate.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Steps to begin with, where the file has none.
@@ -107,7 +109,7 @@ impl Scene<'_> {
             if !is_whole(&fine) {
                 break;
             }
-            let estimate_m = self.estimate_m(&run, &fine);
+            let estimate_m = self.estimate_m(&run, &fine, SAFETY_OF_TOLERANCES);
             if estimate_m <= self.tolerance {
                 return (candidate(tolerance, estimate_m), true);
             }
@@ -118,7 +120,7 @@ impl Scene<'_> {
         for _ in 0..ROUGHER {
             let rougher = tolerance * FINER;
             let rough = self.follow(rougher);
-            best = candidate(tolerance, self.estimate_m(&rough, &run));
+            best = candidate(tolerance, self.estimate_m(&rough, &run, SAFETY_OF_TOLERANCES));
             if best.estimate_m.is_finite() {
                 return (best, is_whole(&rough) && is_whole(&run));
             }
@@ -140,7 +142,7 @@ impl Scene<'_> {
                 break;
             }
             let fine = self.run(&by_steps(), step_s);
-            let estimate_m = self.estimate_m(&rough, &fine);
+            let estimate_m = self.estimate_m(&rough, &fine, SAFETY_OF_STEPS);
             if estimate_m < best.estimate_m {
                 best = candidate(step_s, estimate_m);
             }
@@ -161,13 +163,13 @@ impl Scene<'_> {
         only_step(method, self.model, self.start.clone(), &clock, &self.experiment.limits)
     }
 
-    fn estimate_m(&self, rough: &Stepped, fine: &Stepped) -> f64 {
+    fn estimate_m(&self, rough: &Stepped, fine: &Stepped, safety: f64) -> f64 {
         let arrived = [rough, fine].iter().all(|run| run.stopped.is_none());
         if !arrived || !fine.state.bodies.iter().chain(&rough.state.bodies).all(BodyState::is_finite) {
             return f64::INFINITY;
         }
         let largest_m = fine.state.bodies.iter().map(|at| at.p_WB.amax()).fold(0.0, f64::max);
-        SAFETY * Errors::between(&rough.state, &fine.state).position_m + ROUNDING * largest_m
+        safety * Errors::between(&rough.state, &fine.state).position_m + ROUNDING * largest_m
     }
 }
 

@@ -64,7 +64,7 @@ fn the_tolerance_means_what_it_says() {
     let which =
         |verdict| scenes.iter().zip(&judged).filter(move |(_, judged)| **judged == verdict).map(|(scene, _)| scene);
     let (wrong, late): (Vec<_>, Vec<_>) = (which(Some(false)).collect(), which(None).collect());
-    // measured: none of 288
+    // measured: 1 of 288, a box whose error is 1.6e-8 at 1e-9
     assert!(wrong.len() <= 2, "{wrong:?}");
     // measured: none
     assert!(late.is_empty(), "{late:?}");

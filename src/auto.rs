@@ -3,8 +3,8 @@
 //! Two runs say how wrong the rougher of them is. `event-driven` comes first, at the tolerance and at a hundredth of it, and
 //! so on until two runs agree; where a finer one stalls, a rougher one is asked. Where all of them stall, or hand stretches
 //! over to equal steps, their tolerance means less: `time-stepping` of order 2 between impacts with the exact solver is tried
-//! too, its step halved until two runs agree or the budget is used up; the more accurate of the two is taken. The budget is counted in steps and not in seconds, so that
-//! the choice is the same on every machine.
+//! too, its step halved until two runs agree or the budget is used up; the more accurate of the two is taken. The budget is
+//! counted in steps and not in seconds, so that the choice is the same on every machine.
 //!
 //! An estimate is some times the largest distance of a body between the two runs, and some units of rounding of the largest
 //! coordinate: of steps twice, whose error halves at least; of tolerances five times, as a rougher run may be as lucky as the

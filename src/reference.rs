@@ -76,6 +76,11 @@ pub fn of(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> 
     Ok(made)
 }
 
+/// The same; where no file can be written, for this case alone.
+pub fn of_or_made(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> Option<Reference> {
+    of(dir, experiment, model, start).unwrap_or_else(|_| made(experiment, model, start))
+}
+
 /// A file that is torn counts as missing.
 fn read(path: &Path) -> Option<Reference> {
     serde_json::from_slice(&std::fs::read(path).ok()?).ok()
@@ -90,8 +95,7 @@ pub fn made(experiment: &Experiment, model: &Model, start: &State) -> Option<Ref
     let apart_m = |(a, b): (&State, &State)| Errors::between(a, b).position_m;
     let samples: Vec<Sample> =
         first.states.iter().zip(&second.states).map(|pair| Sample::new(pair.0, apart_m(pair))).collect();
-    let largest_m = model.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max);
-    let parting_m = (PARTED * largest_m).max(PARTED_TOLERANCES * tolerance);
+    let parting_m = (PARTED * model.largest_radius_m()).max(PARTED_TOLERANCES * tolerance);
     Some(Reference {
         id: id(experiment)?,
         build: BUILD.to_string(),

@@ -1,6 +1,6 @@
 //! THE MAIN LOOP: advance the state, show every step to the judges and the recorders, end in an outcome.
 
-use crate::auto;
+use crate::auto::{self, Choice};
 use crate::collide::SolvedContact;
 use crate::collide::approach::Approach;
 use crate::due::{Due, Shown};
@@ -36,7 +36,7 @@ pub fn run(experiment: &Experiment, model: &Model, start: State, sampler: Option
     run_against(experiment, model, start, sampler, reference.as_ref())
 }
 
-/// The same against a reference that is there. A sampler's ticks are those of what `auto` chooses.
+/// The same against a reference that is there.
 pub fn run_against(
     experiment: &Experiment,
     model: &Model,
@@ -44,9 +44,20 @@ pub fn run_against(
     sampler: Option<&mut Sampler>,
     reference: Option<&Reference>,
 ) -> Ended {
-    let Some(choice) = auto::choose(experiment, model, &start) else {
-        return run_chosen(experiment, model, start, sampler, reference);
-    };
+    let choice = auto::choose(experiment, model, &start);
+    run_as(choice.as_ref(), experiment, model, start, sampler, reference)
+}
+
+/// The same as what `auto` has chosen, if the experiment leaves that to it.
+pub fn run_as(
+    choice: Option<&Choice>,
+    experiment: &Experiment,
+    model: &Model,
+    start: State,
+    sampler: Option<&mut Sampler>,
+    reference: Option<&Reference>,
+) -> Ended {
+    let Some(choice) = choice else { return run_chosen(experiment, model, start, sampler, reference) };
     let mut ended = run_chosen(&choice.experiment, model, start, sampler, reference);
     choice.describe(&mut ended.measured);
     ended

@@ -56,7 +56,7 @@ pub fn sensitivity(experiment: &Experiment, model: &Model, start: &State, end: &
 
 /// Of points without size in metres.
 fn perturbation_m(model: &Model) -> f64 {
-    let largest_m = model.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max);
+    let largest_m = model.largest_radius_m();
     if largest_m > 0.0 { PART * largest_m } else { PART }
 }
 

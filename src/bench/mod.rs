@@ -141,15 +141,13 @@ pub fn run(trial: &Trial, bench: &Bench, scene: &str) -> std::result::Result<Row
     // The search for a method is not what is timed.
     let choice = auto::choose(&trial.experiment, model, start);
     let experiment = choice.as_ref().map_or(&trial.experiment, |choice| &choice.experiment);
-    let judged = catch_unwind(AssertUnwindSafe(|| match &trial.reference {
-        Some(reference) => run::run_against(experiment, model, start.clone(), None, Some(reference)),
-        None => run::run(experiment, model, start.clone(), None),
+    let judged = catch_unwind(AssertUnwindSafe(|| {
+        let made = trial.reference.is_none().then(|| reference::made(experiment, model, start)).flatten();
+        let reference = trial.reference.as_ref().or(made.as_ref());
+        run::run_as(choice.as_ref(), &trial.experiment, model, start.clone(), None, reference)
     }));
     let (measured, end) = match judged {
-        Ok(mut ended) => {
-            choice.iter().for_each(|choice| choice.describe(&mut ended.measured));
-            (ended.measured, Some(ended.state))
-        }
+        Ok(ended) => (ended.measured, Some(ended.state)),
         Err(panic) => (Measured::failed(panics::message(panic.as_ref()).to_string()), None),
     };
     let steps = match experiment.method.accuracy() {

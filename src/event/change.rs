@@ -45,21 +45,17 @@ impl Looking<'_> {
     }
 
     fn has_changed(&mut self, t_s: f64) -> bool {
-        self.has_left(t_s) || (self.paths.dense.is_some() && (self.slip_left(t_s) < 0.0 || self.force_left(t_s) < PULL))
+        self.look(t_s);
+        self.has_left() || (self.paths.dense.is_some() && (self.slip_left() < 0.0 || self.force_left() < PULL))
     }
 
     /// A face or an edge, at its border.
-    fn has_left(&mut self, t_s: f64) -> bool {
-        if !self.held.iter().any(|held| held.touch.is_bounded()) {
-            return false;
-        }
-        self.look(t_s);
+    fn has_left(&self) -> bool {
         self.held.iter().any(|held| held.touch.left_m(self.at) < 0.0)
     }
 
     /// The least slip along its direction, of all that slide, over the speeds there; with room for rounding.
-    fn slip_left(&mut self, t_s: f64) -> f64 {
-        self.look(t_s);
+    fn slip_left(&self) -> f64 {
         let left = self.held.iter().map(|held| match held.slides() {
             Some(d) if held.slip != Slip::Young => {
                 held.touch.here(self.at).slip_W().dot(&d) / meeting_m_s(self.paths.model, self.at, held.touch.bodies())
@@ -70,8 +66,7 @@ impl Looking<'_> {
         left.fold(1.0, f64::min)
     }
 
-    fn force_left(&mut self, t_s: f64) -> f64 {
-        self.look(t_s);
+    fn force_left(&mut self) -> f64 {
         margin(self.paths.model, self.at, self.held, self.forces, self.work)
     }
 
@@ -92,7 +87,8 @@ impl Looking<'_> {
     /// Which contacts open and which begin to slip.
     fn what(&mut self, t_s: f64) -> Change {
         let mut change = Change::default();
-        if self.paths.dense.is_none() || self.force_left(t_s) >= PULL {
+        self.look(t_s);
+        if self.paths.dense.is_none() || self.force_left() >= PULL {
             return change;
         }
         let largest = self.forces.p.iter().map(|p| p.norm()).fold(0.0, f64::max);
@@ -102,7 +98,7 @@ impl Looking<'_> {
             if p.x <= near {
                 change.opening.push(key);
             } else if held.mode == Mode::Stick && p.yz().norm() >= held.touch.friction() * p.x - near {
-                let d = -(block.frame[1] * p.y + block.frame[2] * p.z);
+                let d = -block.along_W(p);
                 change.slipping.extend(d.try_normalize(0.0).map(|d| (key, d)));
             }
         }

@@ -8,10 +8,8 @@
 
 use super::forces::{Choice, Forces, Held, Mode, NO_SLIP, Rows, Slip, direction, edge, meeting_m_s};
 use super::touch::{Here, Touch};
-use crate::experiment::types::{Cone, Correction, Iteration};
 use crate::measure::work::Work;
 use crate::model::Model;
-use crate::solve::gauss_seidel::{self, Sweeps, Variant};
 use crate::solve::problem::Block;
 use crate::solve::{Impulse, newton};
 use crate::state::State;
@@ -39,6 +37,9 @@ const ROUNDING: f64 = 1e-10;
 
 /// Of the largest acceleration: less does not tell a direction.
 const PLAIN: f64 = 1e-6;
+
+/// Proximal problems of an island before the law is given up.
+const MOST: u32 = 200;
 
 /// Fictitious slip over the largest acceleration.
 const FAST: f64 = 1e3;
@@ -136,7 +137,7 @@ fn alone(forces: &mut Forces, touch: &Touch, mode: Mode, slip: Slip) -> Option<D
             }
             let p = crate::solve::exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
             let a = block.b + block.A * p;
-            let d = block.frame[1] * a.y + block.frame[2] * a.z;
+            let d = block.along_W(&a);
             if p.x <= 0.0 { Some(Decision::Holds(Vec::new())) } else { holds(Mode::Slide(d.try_normalize(0.0)?)) }
         }
     }
@@ -175,8 +176,7 @@ fn failing_sticks(forces: &Forces, modes: &[Mode]) -> Vec<usize> {
 /// Those that fail, and with them all that stick on, slide against their force.
 fn made_to_slide(forces: &Forces, modes: &[Mode], failing: &[usize]) -> Vec<Mode> {
     let slide = |i: usize| {
-        let (p, frame) = (&forces.p[i], &forces.problem.blocks[i].frame);
-        let d = -(frame[1] * p.y + frame[2] * p.z);
+        let d = -forces.problem.blocks[i].along_W(&forces.p[i]);
         d.try_normalize(0.0).map_or(Mode::Stick, Mode::Slide)
     };
     let change = |(i, mode): (usize, &Mode)| match mode {
@@ -193,7 +193,7 @@ fn slide_on(forces: &Forces, before: &[Mode], after: &[Mode]) -> bool {
         (Mode::Stick, Mode::Slide(d)) => {
             let block = &forces.problem.blocks[i];
             let a = block.velocity(&forces.added);
-            let a_W = block.frame[1] * a.y + block.frame[2] * a.z;
+            let a_W = block.along_W(&a);
             let along = d.dot(&a_W);
             along >= PLAIN * largest && (a_W - d * along).norm() <= ROUNDING * largest
         }
@@ -211,18 +211,8 @@ fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], slow: &[bool],
             block.b.z += FAST * scale * d.dot(&block.frame[2]);
         }
     }
-    let sweeps = Sweeps {
-        iteration: Iteration::GaussSeidel,
-        correction: Correction::PerContact,
-        cone: Cone::Disc,
-        most: 200,
-        tolerance: 1e-12,
-        friction: true,
-        variant: Variant::default(),
-    };
     let mut p = vec![Impulse::zeros(); problem.blocks.len()];
-    let mut scratch = gauss_seidel::Scratch::with_capacity(p.len(), 0);
-    if !newton::solve_evenly(&problem, &sweeps, &mut p, &mut scratch, work) {
+    if !newton::solve_evenly(&problem, MOST, &mut p, work) {
         return Decision::Unsolved;
     }
     forces.problem.response(&p, &mut forces.added);
@@ -238,11 +228,11 @@ fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], slow: &[bool],
         if a.x > ROUNDING * scale {
             continue;
         }
-        let a_W = block.frame[1] * a.y + block.frame[2] * a.z;
+        let a_W = block.along_W(&a);
         let mode = match modes[i] {
             // Against its force, which is known to more digits than an acceleration that has just begun.
             Mode::Stick if a_W.norm() > ROUNDING * scale => {
-                let p_W = block.frame[1] * p[i].y + block.frame[2] * p[i].z;
+                let p_W = block.along_W(&p[i]);
                 Mode::Slide((-p_W).try_normalize(0.0).unwrap_or_else(|| a_W.normalize()))
             }
             mode => mode,

@@ -5,26 +5,17 @@
 
 use super::forces::Forces;
 use crate::collide::{Contact, SolvedContact};
-use crate::experiment::types::{Cone, Correction, Impact, Iteration};
+use crate::experiment::types::Impact;
 use crate::measure::work::Work;
 use crate::model::Model;
-use crate::solve::gauss_seidel::{self, Sweeps, Variant};
+use crate::solve::gauss_seidel::Scratch;
 use crate::solve::impact::{Law, resolve};
 use crate::solve::problem::{Block, ContactProblem, Twist};
 use crate::solve::{Impulse, exact_contact, newton};
 use crate::state::State;
 
-fn sweeps() -> Sweeps {
-    Sweeps {
-        iteration: Iteration::GaussSeidel,
-        correction: Correction::PerContact,
-        cone: Cone::Disc,
-        most: 500,
-        tolerance: 1e-12,
-        friction: true,
-        variant: Variant::default(),
-    }
-}
+/// Proximal problems of an island before the law is given up.
+const MOST: u32 = 500;
 
 /// Changes the velocities, and tells the impulses. False: the law did not come to its end.
 pub fn strike(
@@ -68,8 +59,7 @@ fn plastic(problem: &ContactProblem, p: &mut [Impulse], work: &mut Work) -> bool
         p[0] = exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
         return true;
     }
-    let mut scratch = gauss_seidel::Scratch::with_capacity(problem.blocks.len(), 0);
-    newton::solve_evenly(problem, &sweeps(), p, &mut scratch, work)
+    newton::solve_evenly(problem, MOST, p, work)
 }
 
 /// Of the slip: an approach that is none.
@@ -99,8 +89,9 @@ pub fn jam(
             forces.p[0] = inside.unwrap_or_else(Impulse::zeros);
         }
         blocks => {
-            let mut scratch = gauss_seidel::Scratch::with_capacity(blocks.len(), 0);
-            ended = ended && newton::solve(&forces.problem, &sweeps(), &mut forces.p, &mut scratch, work);
+            let mut scratch = Scratch::with_capacity(blocks.len(), 0);
+            ended =
+                ended && newton::solve(&forces.problem, &newton::to_rounding(MOST), &mut forces.p, &mut scratch, work);
         }
     }
     let change = |(block, p): (&Block, &Impulse)| (block.A * p).norm();

@@ -97,7 +97,7 @@ impl Settling<'_> {
             let (here, block) = (&self.forces.here[*k], &self.forces.problem.blocks[*k]);
             let Some(d) = self.held[*k].slides() else { continue };
             let change = block.velocity(&self.forces.added);
-            let change_W = block.frame[1] * change.y + block.frame[2] * change.z;
+            let change_W = block.along_W(&change);
             let along = d.dot(&change_W);
             if (change_W - d * along).norm() > NONE * scale {
                 return None;

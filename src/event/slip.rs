@@ -8,15 +8,21 @@ use crate::state::State;
 /// tolerance.
 #[derive(Clone, Copy, Debug)]
 pub struct Slow {
-    pub young: f64,
-    pub fading: f64,
+    pub young_m_s: f64,
+    pub fading_m_s: f64,
+    /// However slowly a slip begins: what accelerates it grows with the fall.
+    youth_s: f64,
 }
 
-/// A young slip s ≈ ½ j t² has its direction wrong by about t², and its place by t⁵; one that fades ends after s²/2a.
-pub fn slow_m_s(model: &Model, tolerance_m: f64) -> Slow {
-    let (g, size_m) = falls(model);
-    let (speed, part) = ((g * size_m).sqrt(), tolerance_m / size_m);
-    Slow { young: 0.01 * speed * libm::pow(part, 0.4), fading: speed * (2e-4 * part).sqrt() }
+impl Slow {
+    /// A young slip s ≈ ½ j t² has its direction wrong by about t², and its place by t⁵; one that fades ends after s²/2a.
+    pub fn new(model: &Model, tolerance_m: f64) -> Self {
+        let (g, size_m) = falls(model);
+        let (speed, part) = ((g * size_m).sqrt(), tolerance_m / size_m);
+        let young_m_s = 0.01 * speed * libm::pow(part, 0.4);
+        let youth_s = (2.0 * young_m_s / (g * (g / size_m).sqrt())).sqrt();
+        Slow { young_m_s, fading_m_s: speed * (2e-4 * part).sqrt(), youth_s }
+    }
 }
 
 /// Of the time in which a slip would end.
@@ -24,20 +30,16 @@ const BEFORE_END: f64 = 0.9;
 
 /// Says of all slips what they are at the beginning of a step, from the accelerations in `forces`. The longest step for
 /// which that stays so.
-pub fn look(model: &Model, held: &mut [Held], state: &State, tolerance_m: f64, forces: &Forces) -> f64 {
-    let slow = slow_m_s(model, tolerance_m);
-    let (g, size_m) = falls(model);
-    // However slowly it begins: what accelerates it grows with the fall.
-    let youth_s = (2.0 * slow.young / (g * (g / size_m).sqrt())).sqrt();
+pub fn look(slow: &Slow, held: &mut [Held], state: &State, forces: &Forces) -> f64 {
     let mut most_s = f64::INFINITY;
     for (held, block) in held.iter_mut().zip(&forces.problem.blocks).filter(|(held, _)| held.slides().is_some()) {
         let slip = held.touch.here(state).slip_W();
         let speed = slip.norm();
         let a = block.velocity(&forces.added);
-        let a_W = block.frame[1] * a.y + block.frame[2] * a.z;
+        let a_W = block.along_W(&a);
         held.slip = match held.slip {
-            Slip::Young if speed < slow.young => Slip::Young,
-            _ if speed < slow.fading && a_W.dot(&slip) < 0.0 => Slip::Fading,
+            Slip::Young if speed < slow.young_m_s => Slip::Young,
+            _ if speed < slow.fading_m_s && a_W.dot(&slip) < 0.0 => Slip::Fading,
             _ => Slip::Fast,
         };
         let braked = -a_W.dot(&slip);
@@ -45,14 +47,14 @@ pub fn look(model: &Model, held: &mut [Held], state: &State, tolerance_m: f64, f
             // Not over its end, where its direction is singular, before it fades.
             Slip::Fast if braked > 0.0 => most_s.min(BEFORE_END * speed * speed / braked),
             Slip::Fast => most_s,
-            Slip::Young => most_s.min(youth_s).min(slow.young / a_W.norm()),
+            Slip::Young => most_s.min(slow.youth_s).min(slow.young_m_s / a_W.norm()),
             Slip::Fading => most_s.min(4.0 * speed / a_W.norm()),
         };
         // What is next to nothing has the direction of rounding.
         let known = match held.slip {
             Slip::Fast => 0.0,
-            Slip::Young => 0.01 * slow.young,
-            Slip::Fading => 0.01 * slow.fading,
+            Slip::Young => 0.01 * slow.young_m_s,
+            Slip::Fading => 0.01 * slow.fading_m_s,
         };
         if speed > known {
             held.mode = Mode::Slide(slip / speed);
@@ -63,7 +65,7 @@ pub fn look(model: &Model, held: &mut [Held], state: &State, tolerance_m: f64, f
 
 /// Gravity, and the size of the largest body.
 pub fn falls(model: &Model) -> (f64, f64) {
-    let size_m = model.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max);
+    let size_m = model.largest_radius_m();
     (model.gravity_m_s2.norm(), if size_m > 0.0 { size_m } else { 1.0 })
 }
 

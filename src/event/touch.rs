@@ -140,13 +140,9 @@ impl Touch {
                 along(&lines[0], s).min(along(&lines[1], t))
             }
             Parts::BallOnLine { first, ball, line } => {
-                let [a, b] = self.pair(&at);
-                let (of_ball, of_line) = if *first { (a, b) } else { (b, a) };
-                let apart = of_ball.p_WB + of_ball.q_WB * ball.centre_B - of_line.p_WB - of_line.q_WB * line.point_B;
-                let out_B = of_line.q_WB.inverse_transform_vector(&apart);
-                let off = apart - of_line.q_WB * line.direction_B * out_B.dot(&line.direction_B);
-                along(line, out_B.dot(&line.direction_B))
-                    .min(within_m(&line.cone, &out_B))
+                let Beside { of_ball, of_line, s, off, .. } = Beside::new(self.pair(&at), *first, ball, line);
+                along(line, s)
+                    .min(within_m(&line.cone, &of_line.q_WB.inverse_transform_vector(&off)))
                     .min(within_m(&ball.cone, &of_ball.q_WB.inverse_transform_vector(&-off)))
             }
         }
@@ -270,17 +266,12 @@ impl Touch {
         ball: &Ball,
         line: &Line,
     ) -> (Contact, Rates) {
-        let [a, b] = self.pair(bodies);
-        let (of_ball, of_line) = if first { (a, b) } else { (b, a) };
-        let (arm, foot, d) =
-            (of_ball.q_WB * ball.centre_B, of_line.q_WB * line.point_B, of_line.q_WB * line.direction_B);
+        let Beside { of_ball, of_line, arm, foot, d, apart, s, off } =
+            Beside::new(self.pair(bodies), first, ball, line);
         let w = &of_line.w_WB;
         let (arm_rate, foot_rate, d_rate) = (of_ball.w_WB.cross(&arm), w.cross(&foot), w.cross(&d));
-        let apart = of_ball.p_WB + arm - of_line.p_WB - foot;
         let apart_rate = of_ball.v_WB + arm_rate - of_line.v_WB - foot_rate;
-        let s = d.dot(&apart);
         let s_rate = d_rate.dot(&apart) + d.dot(&apart_rate);
-        let off = apart - d * s;
         let off_rate = apart_rate - d * s_rate - d_rate * s;
         let distance = off.norm();
         // From the line to the ball.
@@ -315,6 +306,29 @@ impl Crossing {
         let apart = at[0].p_WB + arm[0] - at[1].p_WB - arm[1];
         let [s, t] = crossed(d[0].dot(&d[1]), d.map(|d| -d.dot(&apart)));
         Crossing { arm, d, s, t, w: apart + d[0] * s - d[1] * t }
+    }
+}
+
+/// A ball beside a line: c_ball = c_line + s d + off, off across the line.
+struct Beside<'a> {
+    of_ball: &'a BodyState,
+    of_line: &'a BodyState,
+    arm: Vector3<f64>,
+    foot: Vector3<f64>,
+    d: Vector3<f64>,
+    apart: Vector3<f64>,
+    s: f64,
+    off: Vector3<f64>,
+}
+
+impl<'a> Beside<'a> {
+    fn new([a, b]: [&'a BodyState; 2], first: bool, ball: &Ball, line: &Line) -> Self {
+        let (of_ball, of_line) = if first { (a, b) } else { (b, a) };
+        let (arm, foot) = (of_ball.q_WB * ball.centre_B, of_line.q_WB * line.point_B);
+        let d = of_line.q_WB * line.direction_B;
+        let apart = of_ball.p_WB + arm - of_line.p_WB - foot;
+        let s = d.dot(&apart);
+        Beside { of_ball, of_line, arm, foot, d, apart, s, off: apart - d * s }
     }
 }
 

@@ -203,7 +203,7 @@ impl Judge {
 }
 
 fn moment_s(model: &Model) -> f64 {
-    let size_m = model.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max);
+    let size_m = model.largest_radius_m();
     let g = model.gravity_m_s2.norm();
     if g > 0.0 { 0.01 * (size_m / g).sqrt() } else { 0.0 }
 }

@@ -50,6 +50,11 @@ impl Model {
         self.pins.iter().any(|pin| joins(pin, a, b) || joins(pin, b, a))
     }
 
+    /// Of the bodies' bounding spheres; 0: points.
+    pub fn largest_radius_m(&self) -> f64 {
+        self.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max)
+    }
+
     /// Of the body at `p_WB`: −m g·(p − p₀).
     pub fn potential_j(&self, body: &Body, p_WB: &Vector3<f64>) -> f64 {
         -body.mass_kg * self.gravity_m_s2.dot(&(p_WB - self.potential_zero_m))

@@ -132,17 +132,18 @@ fn turning(p: &Impulse, u: &Vector3<f64>, t: &Vector3<f64>, friction: f64) -> Ma
 
 fn step(island: &Island, p: &[Impulse], even: bool) -> Option<Vec<Impulse>> {
     let u = island.velocities(&island.pushed(p));
-    let small = ROUNDING.sqrt() * island.scale(p);
-    let largest = island.touches.iter().map(|touch| touch.scale).fold(0.0, f64::max);
-    let linear = |((touch, p), u): ((&Touch, &Impulse), &Vector3<f64>)| {
-        let part = touch.scale / largest;
-        if even {
-            Linear::even(touch, p, u, EVEN_ETA * part * part, small / touch.scale)
-        } else {
-            Linear::new(touch, p, u)
-        }
+    let touches = || island.touches.iter().zip(p).zip(&u);
+    let linear: Vec<Linear> = if even {
+        let small = ROUNDING.sqrt() * island.scale(p);
+        let largest = island.touches.iter().map(|touch| touch.scale).fold(0.0, f64::max);
+        let eta = |touch: &Touch| {
+            let part = touch.scale / largest;
+            EVEN_ETA * part * part
+        };
+        touches().map(|((touch, p), u)| Linear::even(touch, p, u, eta(touch), small / touch.scale)).collect()
+    } else {
+        touches().map(|((touch, p), u)| Linear::new(touch, p, u)).collect()
     };
-    let linear: Vec<Linear> = island.touches.iter().zip(p).zip(&u).map(linear).collect();
     let K: Vec<Matrix3<f64>> = linear.iter().map(|linear| linear.K).collect();
     let at_rest: Vec<Impulse> = linear.iter().zip(&u).map(|(linear, u)| linear.jump - linear.K * u).collect();
     let change = island.system(&K)?.solve(&island.pushed(&at_rest))?;

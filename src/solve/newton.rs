@@ -14,7 +14,7 @@ use super::gauss_seidel::{self, Sweeps, Variant};
 use super::island::{Island, islands};
 use super::problem::ContactProblem;
 use super::{Impulse, active_set, interior, proximal, smallest};
-use crate::experiment::types::{Local, Order};
+use crate::experiment::types::{Cone, Correction, Iteration, Local, Order};
 use crate::measure::work::Work;
 
 /// Sweeps to begin with: few contacts are mostly settled by them. And sweeps between two tries where nothing else helps.
@@ -28,9 +28,6 @@ const FIRST_ETA: f64 = 0.1;
 const LEAST_ETA: f64 = 1e-8;
 const ON: f64 = 0.5;
 const BACK: f64 = 4.0;
-
-/// Of |y| what may be missing before another centre, or another η.
-const ROUGH: f64 = 1e-6;
 
 /// The least η of the way to impulses shared evenly.
 const EVEN_ETA: f64 = 1e-3;
@@ -51,11 +48,12 @@ pub fn solve(
     scratch: &mut gauss_seidel::Scratch,
     work: &mut Work,
 ) -> bool {
-    improve(problem, sweeps, p, ONCE, scratch, work)
+    improve(problem, &islands(problem), sweeps, p, ONCE, scratch, work)
 }
 
 fn improve(
     problem: &ContactProblem,
+    islands: &[Island],
     sweeps: &Sweeps,
     p: &mut [Impulse],
     rounds: usize,
@@ -66,7 +64,6 @@ fn improve(
         let sweeps = Sweeps { most, tolerance: 0.0, variant, ..*sweeps };
         gauss_seidel::iterate(problem, &sweeps, p, scratch, work);
     };
-    let islands = islands(problem);
     let near = |island: &Island| island.residual(&island.impulses(p)) <= NEAR;
     if !islands.iter().all(near) {
         let most = if problem.is_dense() { SWEEPS_OF_FEW } else { SWEEPS };
@@ -82,33 +79,41 @@ fn improve(
             sweep(&mut others, MORE_SWEEPS, shuffled, work);
             *own = island.impulses(&others);
         };
-        solved &= solve_island(&island, sweeps, &mut own, rounds, more, work);
+        solved &= solve_island(island, sweeps, &mut own, rounds, more, work);
         island.put(&own, p);
     }
     solved
 }
 
-/// The same from nothing, on a way that does not depend on the order of the contacts: by proximal problems about nothing, with
-/// a falling η.
-pub fn solve_evenly(
-    problem: &ContactProblem,
-    sweeps: &Sweeps,
-    p: &mut [Impulse],
-    scratch: &mut gauss_seidel::Scratch,
-    work: &mut Work,
-) -> bool {
-    for island in islands(problem) {
-        island.put(&evenly(&island, work), p);
+/// What whoever steps from event to event asks for.
+pub fn to_rounding(most: u32) -> Sweeps {
+    Sweeps {
+        iteration: Iteration::GaussSeidel,
+        correction: Correction::PerContact,
+        cone: Cone::Disc,
+        most,
+        tolerance: 1e-12,
+        friction: true,
+        variant: Variant::default(),
     }
-    improve(problem, sweeps, p, UNTIL_EVEN, scratch, work)
+}
+
+/// To rounding and from nothing, on a way that does not depend on the order of the contacts: by proximal problems about
+/// nothing, with a falling η.
+pub fn solve_evenly(problem: &ContactProblem, most: u32, p: &mut [Impulse], work: &mut Work) -> bool {
+    let islands = islands(problem);
+    for island in &islands {
+        island.put(&evenly(island, work), p);
+    }
+    let mut scratch = gauss_seidel::Scratch::with_capacity(p.len(), 0);
+    improve(problem, &islands, &to_rounding(most), p, UNTIL_EVEN, &mut scratch, work)
 }
 
 fn evenly(island: &Island, work: &mut Work) -> Vec<Impulse> {
     let nothing = vec![Impulse::zeros(); island.touches.len()];
     let (mut p, mut eta) = (nothing.clone(), FIRST_ETA);
     while eta >= EVEN_ETA {
-        let about = proximal::Problem { centre: &nothing, eta, tolerance: ROUGH };
-        let Some(next) = proximal::solve(island, &about, &p, &mut work.newton_steps) else { break };
+        let Some(next) = proximal::solve(island, &nothing, &p, eta, &mut work.newton_steps) else { break };
         p = next;
         eta /= BACK;
     }
@@ -147,8 +152,7 @@ fn solve_island(
         if is_enough(best, p) {
             break;
         }
-        let about = proximal::Problem { centre: &centre, eta, tolerance: ROUGH };
-        if let Some(next) = proximal::solve(island, &about, &centre, &mut work.newton_steps) {
+        if let Some(next) = proximal::solve(island, &centre, &centre, eta, &mut work.newton_steps) {
             eta = (eta * ON).max(LEAST_ETA);
             centre = next;
         } else {

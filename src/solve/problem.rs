@@ -472,6 +472,11 @@ impl Block {
         if self.pin.is_some() { *p } else { corrected(p, self.friction, cone) }
     }
 
+    /// The part of a vector along the surface, in world axes.
+    pub fn along_W(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        self.frame[1] * v.y + self.frame[2] * v.z
+    }
+
     /// An impulse in world axes.
     pub fn in_world(&self, p: &Impulse) -> Vector3<f64> {
         self.frame[0] * p.x + self.frame[1] * p.y + self.frame[2] * p.z

@@ -14,8 +14,8 @@ use nalgebra::{DVector, Matrix3, Vector3};
 /// Newton steps after which the problem is given up: with a larger η it is easier.
 const MOST: usize = 15;
 
-/// Of |y|: what may be missing where no step makes it less.
-const ENOUGH: f64 = 1e-6;
+/// Of |y| what may be missing: the next problem has another centre, or another η, anyway.
+const TOLERANCE: f64 = 1e-6;
 
 /// Halvings of a step before it is given up.
 const HALVINGS: usize = 30;
@@ -42,6 +42,10 @@ impl At {
         At { y, u, z, p, missing }
     }
 
+    fn is_found(&self) -> bool {
+        self.missing.norm() <= TOLERANCE * self.y.norm()
+    }
+
     /// What p(y) changes with −u.
     fn slopes(&self, island: &Island, eta: f64) -> Vec<Matrix3<f64>> {
         let slope = |((touch, z), u): ((&Touch, &Vector3<f64>), &Vector3<f64>)| {
@@ -51,30 +55,18 @@ impl At {
     }
 }
 
-/// The proximal problem about a centre.
-pub struct Problem<'a> {
-    pub centre: &'a [Impulse],
-    pub eta: f64,
-    /// Of |y| what may be missing.
-    pub tolerance: f64,
-}
-
-/// Its impulses, from the velocities that those of `from` make. None: not found.
-pub fn solve(island: &Island, problem: &Problem, from: &[Impulse], steps: &mut u64) -> Option<Vec<Impulse>> {
-    let Problem { centre, eta, tolerance } = *problem;
+/// The impulses of the proximal problem about `centre`, from the velocities that those of `from` make. None: not found.
+pub fn solve(island: &Island, centre: &[Impulse], from: &[Impulse], eta: f64, steps: &mut u64) -> Option<Vec<Impulse>> {
     let mut at = At::new(island, centre, eta, island.pushed(from));
     for _ in 0..MOST {
-        if at.missing.norm() <= tolerance * at.y.norm() {
+        if at.is_found() {
             return Some(at.p);
         }
         *steps += 1;
         let change = island.system(&at.slopes(island, eta))?.solve(&-&at.missing)?;
-        match descend(island, centre, eta, &at, &change) {
-            Some(next) => at = next,
-            None => break,
-        }
+        at = descend(island, centre, eta, &at, &change)?;
     }
-    (at.missing.norm() <= ENOUGH * at.y.norm()).then_some(at.p)
+    at.is_found().then_some(at.p)
 }
 
 /// The longest of the halved steps after which less is missing.

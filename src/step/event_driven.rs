@@ -10,11 +10,12 @@ use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, decide, margin};
 use crate::event::dense::{Dense, Field, project};
 use crate::event::forces::{Choice, Forces, Held, NO_SLIP, meeting_m_s};
+use crate::event::impact;
 use crate::event::motion::Motion;
 use crate::event::settle::settle;
+use crate::event::slip::{self, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
-use crate::event::{impact, slip};
 use crate::experiment::types::{EventDriven as Settings, Impact};
 use crate::measure::Moment;
 use crate::measure::divergence::Criterion;
@@ -39,6 +40,11 @@ enum Event {
 
 pub struct EventDriven {
     tolerance: f64,
+    slow: Slow,
+    /// Of the integrator: a force that swings is not stepped over.
+    longest_s: f64,
+    /// Of steps of equal length.
+    stretch_s: f64,
     law: Impact,
     contact: bool,
     motions: Vec<Motion>,
@@ -89,6 +95,9 @@ impl EventDriven {
     pub fn new(settings: &Settings, plan: &Plan, model: &Model, start: &State) -> Self {
         EventDriven {
             tolerance: settings.tolerance,
+            slow: Slow::new(model, settings.tolerance),
+            longest_s: slip::longest_s(model),
+            stretch_s: stretch::length_s(model),
             law: settings.impact,
             contact: plan.contact,
             motions: Vec::with_capacity(model.bodies.len()),
@@ -155,15 +164,15 @@ impl EventDriven {
             self.advance(model, state, end_s);
         }
         self.at_once = if state.time_s > from_s { 0 } else { self.at_once + 1 };
-        if std::mem::take(&mut self.trouble) || self.at_once > AT_ONCE || self.accumulates(model, state) {
+        if std::mem::take(&mut self.trouble) || self.at_once > AT_ONCE || self.accumulates(state) {
             self.begin_stretch(model, state);
         }
         blow || state.time_s > from_s
     }
 
     /// Events come faster than steps of equal length would take.
-    fn accumulates(&mut self, model: &Model, state: &State) -> bool {
-        if state.time_s - self.counted_from.0 > stretch::length_s(model) {
+    fn accumulates(&mut self, state: &State) -> bool {
+        if state.time_s - self.counted_from.0 > self.stretch_s {
             self.counted_from = (state.time_s, self.work.events);
         }
         let most = if self.dense.is_some() { MANY_DENSE } else { MANY };
@@ -281,7 +290,7 @@ impl EventDriven {
             self.settle(model, state);
             return;
         }
-        let change = &Change { slow_m_s: slip::slow_m_s(model, self.tolerance).fading, ..change.clone() };
+        let change = &Change { slow_m_s: self.slow.fading_m_s, ..change.clone() };
         match decide(model, state, touches, change, &mut self.forces, &mut self.work) {
             Decision::Holds(held) => self.held = held,
             Decision::Jams => {
@@ -377,10 +386,10 @@ impl EventDriven {
     fn integrate(&mut self, model: &Model, state: &State, end_s: f64) -> bool {
         let Some(mut dense) = self.dense.take() else { return true };
         self.scratch.copy_from(state);
-        let mut most_s = slip::longest_s(model);
+        let mut most_s = self.longest_s;
         if self.held.iter().any(|held| held.slides().is_some()) {
             margin(model, state, &self.held, &mut self.forces, &mut self.work);
-            most_s = most_s.min(slip::look(model, &mut self.held, state, self.tolerance, &self.forces));
+            most_s = most_s.min(slip::look(&self.slow, &mut self.held, state, &self.forces));
         }
         dense.restart(state);
         let good = dense.step(&mut self.field(model), end_s, most_s);

@@ -6,7 +6,6 @@ use crate::auto;
 use crate::case::Case;
 use crate::due::ticks;
 use crate::experiment::types::{Record, RecordCases, RecordTo};
-use crate::measure::reference::Reference;
 use crate::model::{self, Model};
 use crate::panics;
 use crate::record::RecordError;
@@ -182,15 +181,11 @@ pub fn build_and_run(case: &Case, dir: &Path, targets: &[Target]) -> (Measured, 
 
 /// Runs one case and writes its recordings.
 pub fn run_case(case: &Case, model: &Model, start: State, dir: &Path, targets: &[Target]) -> (Ended, Written) {
-    let reference = reference_of(dir, case, model, &start);
+    let reference = reference::of_or_made(dir, &case.experiment, model, &start);
     let choice = auto::choose(&case.experiment, model, &start);
     let experiment = choice.as_ref().map_or(&case.experiment, |choice| &choice.experiment);
     let run = |sampler: Option<&mut Sampler>| {
-        let mut ended = run::run_against(experiment, model, start, sampler, reference.as_ref());
-        if let Some(choice) = &choice {
-            choice.describe(&mut ended.measured);
-        }
-        ended
+        run::run_as(choice.as_ref(), &case.experiment, model, start, sampler, reference.as_ref())
     };
     if targets.is_empty() {
         return (run(None), Ok(()));
@@ -204,12 +199,6 @@ pub fn run_case(case: &Case, model: &Model, start: State, dir: &Path, targets: &
         }
         Err(error) => (run(None), Err(error)),
     }
-}
-
-/// From its file; where none can be written, for this case alone.
-fn reference_of(dir: &Path, case: &Case, model: &Model, start: &State) -> Option<Reference> {
-    let experiment = &case.experiment;
-    reference::of(dir, experiment, model, start).unwrap_or_else(|_| reference::made(experiment, model, start))
 }
 
 /// What `record.to` means in this build; nothing said: everything it can write.

@@ -145,8 +145,7 @@ impl Cell {
 
     fn run(&self, experiment: &Experiment, point: &[usize], dir: &Path) -> Result<Measured, ExperimentError> {
         let (model, start) = build(&self.file, point, experiment)?;
-        let reference = reference::of(dir, experiment, &model, &start);
-        let reference = reference.unwrap_or_else(|_| reference::made(experiment, &model, &start));
+        let reference = reference::of_or_made(dir, experiment, &model, &start);
         Ok(run::run_against(experiment, &model, start, None, reference.as_ref()).measured)
     }
 

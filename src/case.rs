@@ -1,7 +1,6 @@
 //! One point of a sweep: a resolved experiment and its id.
 
 use crate::experiment::types::{Experiment, Record};
-use crate::sweep::search::Cell;
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 
@@ -13,22 +12,24 @@ pub struct Case {
     pub axes: Map<String, Value>,
     /// Of a search: its first run.
     pub experiment: Experiment,
-    /// Many runs that make one row: a bisection.
-    pub search: Option<Cell>,
 }
 
 impl Case {
     pub fn new(experiment: Experiment, axes: Map<String, Value>) -> Self {
-        Case { id: id(&[canonical(&experiment)]), axes, experiment, search: None }
+        Case { id: id(&[canonical(&experiment)]), axes, experiment }
     }
 
-    /// `ends` are the experiments at both ends of the bracket, of everything that is tried together.
-    pub fn of_search(cell: Cell, ends: Vec<Experiment>, axes: Map<String, Value>) -> Self {
+    /// Many runs that make one row: `ends` are the experiments at both ends of a bracket, of everything that is tried
+    /// together; `rule` says how they are searched.
+    ///
+    /// # Panics
+    /// Without an experiment.
+    pub fn of_search(rule: String, ends: Vec<Experiment>, axes: Map<String, Value>) -> Self {
         let mut parts: Vec<_> = ends.iter().map(canonical).collect();
-        parts.push(cell.rule().into_bytes());
+        parts.push(rule.into_bytes());
         let experiment = ends.into_iter().next();
-        let experiment = experiment.expect("a cell has at least one member");
-        Case { id: id(&parts), axes, experiment, search: Some(cell) }
+        let experiment = experiment.expect("a search has an end");
+        Case { id: id(&parts), axes, experiment }
     }
 }
 

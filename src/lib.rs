@@ -18,57 +18,48 @@
 // The kernels read like the papers: R_WB, I_B, A.
 #![allow(non_snake_case)]
 
-// In reading order: rustfmt sorts within a paragraph only.
-pub mod experiment;
+// From the ground up: a room imports only from the rooms above it in this list (`tests/tidy.rs`). rustfmt sorts within a
+// paragraph only.
+pub mod build_info;
+pub mod clock;
+pub mod files;
+pub mod math;
+pub mod outcome;
+mod panics;
+pub mod state;
+pub mod work;
 
-pub mod sweep;
+pub mod rows;
+pub mod shape;
+
+pub mod experiment;
+pub mod report;
 
 pub mod case;
-
+pub mod check;
 pub mod model;
 
-pub mod state;
-
-pub mod plan;
-
-pub mod run;
-
-pub mod due;
-
-pub mod sensitivity;
-
-pub mod auto;
-
-pub mod reference;
-
-pub mod step;
-
-pub mod linear;
-
+pub mod collide;
 pub mod integrate;
 
-pub mod collide;
-
+pub mod exact;
+pub mod plan;
+pub mod scene;
+pub mod shown;
 pub mod solve;
 
 pub mod event;
-
 pub mod measure;
 
-pub mod exact;
-
-pub mod row;
-
 pub mod record;
+pub mod step;
 
-pub mod check;
+pub mod run;
+
+pub mod study;
+
+pub mod sweep;
 
 pub mod bench;
 
-pub mod report;
-
 pub mod cli;
-
-pub mod build_info;
-
-mod panics;

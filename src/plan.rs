@@ -2,9 +2,8 @@
 //!
 //! A skip follows from a property that is checked, never from one mesh or scene, and changes no bit of the motion.
 
-use crate::auto::HALVINGS;
 use crate::collide::approach::Approach;
-use crate::experiment::types::{Auto, Impact, Method};
+use crate::experiment::types::{Auto, Impact, Method, Scheme};
 use crate::model::Model;
 
 /// Decided once a run.
@@ -48,14 +47,20 @@ impl Plan {
         stages.extend(choice(method));
         let newton = method.impact() == Impact::Newton;
         let constraint = has_contact && !matches!(method, Method::Penalty(_));
-        Plan {
-            contact: has_contact,
-            constraint,
-            friction: has_friction,
-            approach: Approach::of(method),
-            newton,
-            stages,
-        }
+        Plan { contact: has_contact, constraint, friction: has_friction, approach: approach(method), newton, stages }
+    }
+}
+
+/// How a method steps through a contact.
+fn approach(method: &Method) -> Approach {
+    match method {
+        Method::TimeStepping(stepping) => match stepping.scheme {
+            Scheme::SemiImplicit => Approach::Start,
+            Scheme::Moreau => Approach::Middle,
+        },
+        // From event to event an impact takes no time, and forces do not act in it.
+        Method::EventDriven(_) | Method::Auto(_) => Approach::Inside,
+        Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) => Approach::Inside,
     }
 }
 
@@ -148,7 +153,7 @@ fn choice(method: &Method) -> Option<Stage> {
     let Method::Auto(Auto { tolerance }) = method else { return None };
     let why = format!(
         "event-driven at {tolerance:e} and finer, until two runs agree to {tolerance:e} m; where all stall or fall back, \
-         time-stepping (moreau, newton), its step halved at most {HALVINGS} times"
+         time-stepping (moreau, newton), its step halved a dozen times at most"
     );
     Some(stage("choice of method", true, why))
 }

@@ -3,8 +3,8 @@
 use crate::yaml::{CUBE_IN_BOX, experiment};
 use gotai::experiment::types::Integrator;
 use gotai::measure::Judge;
-use gotai::model::build;
 use gotai::plan::Plan;
+use gotai::scene::build;
 use gotai::step::Stepper;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -44,7 +44,7 @@ static ALLOCATOR: Counting = Counting;
 fn allocations(sets: &[&str]) -> (u64, u64) {
     let experiment = experiment(CUBE_IN_BOX, sets);
     let (model, start) = build(&experiment).unwrap();
-    let clock = gotai::run::clock(&experiment);
+    let clock = experiment.clock();
     let plan = Plan::new(&model, &experiment.method);
     let mut stepper = Stepper::new(&experiment.method, &plan, &model, &start);
     let mut judge = Judge::new(&model, &start, &experiment.diverge, &plan);

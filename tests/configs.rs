@@ -3,7 +3,7 @@
 use crate::scratch;
 use crate::tidy::files;
 use gotai::experiment::ExperimentFile;
-use gotai::row::Outcome;
+use gotai::outcome::Outcome;
 use gotai::sweep::plan::cases;
 use gotai::sweep::runner::build_and_run;
 use rayon::prelude::*;

@@ -2,8 +2,8 @@
 //! runs that explode within 4 s, by mesh and time step.
 
 use crate::yaml;
-use gotai::row::Outcome;
-use gotai::run::run;
+use gotai::outcome::Outcome;
+use gotai::study::run;
 use gotai::sweep::plan::cases;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -32,7 +32,7 @@ fn map(sets: &[&str]) -> (BTreeMap<(String, String), u64>, f64) {
     let measured: Vec<_> = cases
         .par_iter()
         .map(|case| {
-            let (model, start) = gotai::model::build(&case.experiment).unwrap();
+            let (model, start) = gotai::scene::build(&case.experiment).unwrap();
             run(&case.experiment, &model, start, None).measured
         })
         .collect();

@@ -2,8 +2,9 @@
 
 use gotai::experiment::ExperimentFile;
 use gotai::experiment::types::Experiment;
-use gotai::row::Measured;
-use gotai::run::{self, Ended};
+use gotai::rows::Measured;
+use gotai::run::Ended;
+use gotai::study;
 use gotai::sweep::plan;
 use std::path::Path;
 
@@ -18,8 +19,8 @@ pub fn experiment(text: &str, sets: &[&str]) -> Experiment {
 
 /// Runs without recorders.
 pub fn run(experiment: &Experiment) -> Ended {
-    let (model, start) = gotai::model::build(experiment).unwrap();
-    run::run(experiment, &model, start, None)
+    let (model, start) = gotai::scene::build(experiment).unwrap();
+    study::run(experiment, &model, start, None)
 }
 
 pub fn measured(text: &str, sets: &[&str]) -> Measured {

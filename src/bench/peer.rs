@@ -5,10 +5,11 @@
 //! makes its own steps, the step is their mean.
 
 use super::timing;
-use crate::auto;
 use crate::experiment::{ExperimentError, ExperimentFile};
 use crate::state::BodyState;
-use crate::sweep::plan::{build, single_case};
+use crate::study::choose;
+use crate::sweep::build::build;
+use crate::sweep::plan::single_case;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use std::path::Path;
@@ -37,7 +38,7 @@ pub fn run(scene: &str, repeats: u32, step_s: f64, settings: &[String]) -> Resul
     let file = ExperimentFile::from_text(Path::new("scene"), &experiment.to_string(), &[])?;
     let written = single_case(&file)?.experiment;
     let (model, start) = build(&file, &[], &written)?;
-    let chosen = auto::choose(&written, &model, &start).map_or(written, |choice| choice.experiment);
+    let chosen = choose::choose(&written, &model, &start).map_or(written, |choice| choice.experiment);
     let timed = timing::time(&chosen, &model, &start, repeats.max(1));
     let end = &timed.end;
     if end.time_s < chosen.time.end_s {

@@ -1,11 +1,11 @@
 //! How long the steps of a run take, and nothing but the steps: no judge, no recorder, no allocation.
 
+use crate::clock::Clock;
 use crate::experiment::types::Experiment;
 use crate::model::Model;
 use crate::plan::Plan;
-use crate::run::clock;
 use crate::state::State;
-use crate::step::{Clock, Stepper};
+use crate::step::Stepper;
 use std::time::{Duration, Instant};
 
 /// Of one run.
@@ -23,7 +23,7 @@ const MOST_TOGETHER: usize = 1 << 12;
 
 /// Times a run that reaches its end.
 pub fn time(experiment: &Experiment, model: &Model, start: &State, repeats: u32) -> Timed {
-    let clock = clock(experiment);
+    let clock = experiment.clock();
     let plan = Plan::new(model, &experiment.method);
     let fresh = || (Stepper::new(&experiment.method, &plan, model, start), start.clone());
     let together = |n: usize| {

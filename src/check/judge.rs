@@ -2,12 +2,12 @@
 //!
 //! No row selected, a null or a number that is not finite: not met, never a pass.
 
-use super::trend::{cochran_armitage, mann_kendall};
-use super::{Cells, Schema, selected, strata};
+use super::schema::{Cells, Schema, selected, strata};
 use crate::experiment::expect::{Comparison, Expectation, What};
 use crate::experiment::filter::Filter;
 use crate::experiment::predicate::{Bounds, Column, Predicate, Quantity};
-use crate::measure::order;
+use crate::math::order;
+use crate::math::trend::{cochran_armitage, mann_kendall};
 use serde::Serialize;
 use serde_json::Value;
 

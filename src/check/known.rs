@@ -1,13 +1,13 @@
 //! What an expectation or a search names must exist: said before the first run, with file, line and key.
 
-use super::Schema;
+use super::schema::Schema;
 use crate::experiment::ExperimentError;
 use crate::experiment::expect::{Expectation, What};
 use crate::experiment::filter::{Condition, Filter, is_same, shown_cell};
 use crate::experiment::key_path::{KeyPath, Path};
 use crate::experiment::predicate::{Column, Predicate, Quantity};
 use crate::experiment::search::{Search, search_path};
-use crate::measure::divergence::Criterion;
+use crate::outcome::Criterion;
 
 type Result = std::result::Result<(), ExperimentError>;
 

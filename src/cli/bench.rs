@@ -1,14 +1,16 @@
 //! `gotai bench`: run time against error, as a table, files and a diagram.
 
+use super::args::{ExperimentArgs, OutputArgs};
+use super::error::CliError;
+use super::output::{print, print_json};
 use super::progress::Bar;
 use super::sweeping::{Config, configs};
 use super::table::table;
-use super::{CliError, ExperimentArgs, OutputArgs, print, print_json};
-use crate::bench::table::{Row, methods, order, pareto, to_csv};
-use crate::bench::{self, Trial, timing};
+use crate::bench::{self, Contender, timing};
 use crate::experiment::ExperimentFile;
 use crate::experiment::bench::Bench;
 use crate::report;
+use crate::rows::trials::{Trial, methods, order, pareto, to_csv};
 use crate::sweep::runner::Progress;
 use clap::Args;
 use comfy_table::TableComponent;
@@ -29,11 +31,11 @@ pub struct Command {
 }
 
 /// A file whose trials have all been checked.
-struct Planned {
+struct PlannedBench {
     config: Config,
     file: ExperimentFile,
     bench: Bench,
-    trials: Vec<Trial>,
+    trials: Vec<Contender>,
 }
 
 impl Command {
@@ -57,7 +59,7 @@ impl Command {
         Ok(ExitCode::from(u8::from(all.iter().any(|row| row.outcome == "failed"))))
     }
 
-    fn planned(&self) -> Result<Vec<Planned>, CliError> {
+    fn planned(&self) -> Result<Vec<PlannedBench>, CliError> {
         let given = self.config.display();
         let mut planned = Vec::new();
         for config in configs(std::slice::from_ref(&self.config))? {
@@ -65,7 +67,7 @@ impl Command {
             match file.bench().cloned() {
                 Some(bench) => {
                     let trials = bench::plan(&file, &bench)?;
-                    planned.push(Planned { config, file, bench, trials });
+                    planned.push(PlannedBench { config, file, bench, trials });
                 }
                 None if config.is_of_folder => {}
                 None => return Err(CliError::Input(format!("{given}: bench: missing: nothing to compare"))),
@@ -77,7 +79,7 @@ impl Command {
         Ok(planned)
     }
 
-    fn make_references(&self, trials: &mut [Trial], dir: &Path) -> Result<(), CliError> {
+    fn make_references(&self, trials: &mut [Contender], dir: &Path) -> Result<(), CliError> {
         if trials.iter().any(|trial| trial.experiment.reference.is_some()) {
             let bar = Bar::new(self.output.quiet);
             bar.begin("references", 1);
@@ -88,7 +90,7 @@ impl Command {
     }
 
     /// All trials of a file, on a thread that stays where it is.
-    fn on_one_core(&self, planned: &Planned) -> Result<Vec<Row>, CliError> {
+    fn on_one_core(&self, planned: &PlannedBench) -> Result<Vec<Trial>, CliError> {
         let work = || {
             if !timing::pin() && !self.output.quiet {
                 eprintln!("gotai: this system does not let a thread stay on one core: times may scatter more");
@@ -115,13 +117,13 @@ impl Command {
 }
 
 /// The question, else the file's name.
-fn title(planned: &Planned) -> String {
+fn title(planned: &PlannedBench) -> String {
     let question = planned.trials.iter().find_map(|trial| trial.experiment.question.clone());
     question.unwrap_or_else(|| planned.file.path().display().to_string())
 }
 
 /// `bench.json`, `.csv`, `.svg`, `.png`.
-fn write(dir: &Path, title: &str, rows: &[Row]) -> Result<(), CliError> {
+fn write(dir: &Path, title: &str, rows: &[Trial]) -> Result<(), CliError> {
     let diagram = report::bench::diagram(title, rows);
     let failed = |error: &dyn std::fmt::Display| CliError::Machine(format!("{}: {error}", dir.display()));
     let mut json = serde_json::to_vec(rows).map_err(|error| failed(&error))?;
@@ -136,7 +138,7 @@ fn write(dir: &Path, title: &str, rows: &[Row]) -> Result<(), CliError> {
     files.iter().try_for_each(|(name, content)| std::fs::write(dir.join(name), content)).map_err(|error| failed(&error))
 }
 
-fn shown(config: &Path, rows: &[Row], dir: &Path) -> String {
+fn shown(config: &Path, rows: &[Trial], dir: &Path) -> String {
     let column = rows.first().map_or("error", |row| row.error_kind.as_str());
     let header = ["front", "method", "step_s", "tolerance", "steps", column, "wall_s", "wall_median_s", "outcome"];
     let mut table = table(&header);
@@ -167,7 +169,7 @@ fn shown(config: &Path, rows: &[Row], dir: &Path) -> String {
     text + &format!("  diagram: {}", dir.join("bench.svg").display())
 }
 
-fn order_line(rows: &[Row], method: &str) -> Option<String> {
+fn order_line(rows: &[Trial], method: &str) -> Option<String> {
     let order = order(rows, method)?;
     let pairwise: Vec<String> = order.pairwise.iter().map(|slope| format!("{slope:.2}")).collect();
     let own_steps = rows.iter().any(|row| row.method == method && row.step_s.is_none());

@@ -1,12 +1,15 @@
 //! `gotai check`: runs experiments and judges their `expect:`. The command of a CI.
 
-use super::sweeping::{Config, Planned, SweepArgs, Swept, configs};
+use super::checked::Checked;
+use super::error::CliError;
+use super::junit;
+use super::output::{print, print_json};
+use super::sweeping::{Config, PlannedSweep, SweepArgs, Swept, configs};
 use super::table::table;
-use super::{CliError, junit, print, print_json};
-use crate::check::{Judged, Schema, cells_of, judge, refuse_unknown};
+use crate::check::{Schema, cells_of, judge, refuse_unknown};
 use crate::experiment::types::RecordTo;
 use crate::measure::more;
-use crate::sweep::search;
+use crate::sweep::cell;
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -22,22 +25,6 @@ pub struct Command {
     junit: Option<PathBuf>,
     #[command(flatten)]
     sweep: SweepArgs,
-}
-
-/// A file, its sweep and its verdicts.
-pub struct Checked {
-    pub swept: Swept,
-    pub judged: Vec<Judged>,
-}
-
-impl Checked {
-    pub fn name(&self) -> String {
-        self.swept.config.display().to_string()
-    }
-
-    fn is_met(&self) -> bool {
-        self.judged.iter().all(|judged| judged.met) && self.swept.failed() == 0
-    }
 }
 
 impl Command {
@@ -65,7 +52,7 @@ impl Command {
         Ok(ExitCode::from(u8::from(!checked.iter().all(Checked::is_met))))
     }
 
-    fn planned(&self) -> Result<Vec<(Planned, Schema)>, CliError> {
+    fn planned(&self) -> Result<Vec<(PlannedSweep, Schema)>, CliError> {
         let mut planned = Vec::new();
         for config in configs(&self.configs)? {
             planned.extend(self.plan_one(config)?);
@@ -77,7 +64,7 @@ impl Command {
         Ok(planned)
     }
 
-    fn plan_one(&self, config: Config) -> Result<Option<(Planned, Schema)>, CliError> {
+    fn plan_one(&self, config: Config) -> Result<Option<(PlannedSweep, Schema)>, CliError> {
         let file = self.sweep.load(&config)?;
         if file.expect().is_empty() {
             let path = config.path.display();
@@ -96,15 +83,15 @@ impl Command {
 }
 
 /// The columns that the rows of a plan have.
-fn schema(planned: &Planned) -> Schema {
+fn schema(planned: &PlannedSweep) -> Schema {
     let mut names: Vec<String> = Vec::new();
-    for name in planned.cases.iter().flat_map(|case| more::names(&case.experiment)) {
+    for name in planned.cases.iter().flat_map(|planned| more::names(&planned.case.experiment)) {
         if !names.contains(&name) {
             names.push(name);
         }
     }
     let search = planned.file.search();
-    names.extend(search.iter().flat_map(|_| search::COLUMNS.map(str::to_string)));
+    names.extend(search.iter().flat_map(|_| cell::COLUMNS.map(str::to_string)));
     Schema::new(planned.file.axes(), search.and_then(|search| search.over), &names)
 }
 

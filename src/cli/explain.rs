@@ -1,17 +1,18 @@
 //! `gotai explain`: what a scene needs, what is skipped and why, and what the sweep will cost.
 
-use super::{CliError, ExperimentArgs, OutputArgs, print, print_json};
-use crate::case::Case;
-use crate::due::ticks;
+use super::args::{ExperimentArgs, OutputArgs};
+use super::error::CliError;
+use super::output::{print, print_json};
 use crate::experiment::types::{Method, Shape};
-use crate::model;
 use crate::plan::{Plan, Stage};
 use crate::record::sampler::steps_between;
-use crate::reference;
-use crate::run::clock;
-use crate::sensitivity;
+use crate::run::ticks::ticks;
+use crate::scene;
 use crate::step::Stepper;
+use crate::study::reference;
+use crate::study::sensitivity;
 use crate::sweep::plan::cases;
+use crate::sweep::planned::Planned;
 use crate::sweep::recordings::{FEW, known_before};
 use crate::sweep::runner::targets;
 use clap::Args;
@@ -95,10 +96,10 @@ fn tally_json(tally: &Tally) -> serde_json::Value {
     json!({ "name": tally.name, "runs": tally.runs, "skipped": tally.skipped, "why": tally.whys })
 }
 
-fn tallies(cases: &[Case]) -> Vec<Tally> {
+fn tallies(cases: &[Planned]) -> Vec<Tally> {
     let mut tallies: Vec<Tally> = Vec::new();
-    for case in cases {
-        let Ok((model, _)) = model::build(&case.experiment) else { continue };
+    for Planned { case, .. } in cases {
+        let Ok((model, _)) = scene::build(&case.experiment) else { continue };
         for Stage { name, runs, why } in Plan::new(&model, &case.experiment.method).stages {
             let at = tallies.iter().position(|tally| tally.name == name).unwrap_or_else(|| {
                 tallies.push(Tally { name, runs: 0, skipped: 0, whys: Vec::new() });
@@ -115,21 +116,22 @@ fn tallies(cases: &[Case]) -> Vec<Tally> {
 }
 
 /// Extrapolated from trials of a few cases, evenly through the plan.
-fn cost(cases: &[Case]) -> Cost {
+fn cost(cases: &[Planned]) -> Cost {
     const TRIALS: usize = 12;
-    let steps = cases.iter().map(|case| clock(&case.experiment).steps * runs(case)).sum();
+    let steps = cases.iter().map(|planned| planned.case.experiment.clock().steps * runs(planned)).sum();
     let trials = cases.len().min(TRIALS);
     let tried = (0..trials).map(|i| &cases[i * cases.len() / trials]);
     let seconds = tried.map(trial_s).sum::<f64>() * cases.len() as f64 / trials.max(1) as f64;
-    let references: BTreeSet<_> = cases.iter().filter_map(|case| reference::id(&case.experiment)).collect();
+    let references: BTreeSet<_> = cases.iter().filter_map(|planned| reference::id(&planned.case.experiment)).collect();
     Cost { cases: cases.len(), references: references.len(), steps, seconds, bytes: bytes(cases) }
 }
 
 /// Time of the whole case, from as many of its steps as fit in a moment.
-fn trial_s(case: &Case) -> f64 {
+fn trial_s(planned: &Planned) -> f64 {
+    let case = &planned.case;
     const MOMENT: Duration = Duration::from_millis(200);
-    let Ok((model, mut state)) = model::build(&case.experiment) else { return 0.0 };
-    let clock = clock(&case.experiment);
+    let Ok((model, mut state)) = scene::build(&case.experiment) else { return 0.0 };
+    let clock = case.experiment.clock();
     let mut stepper =
         Stepper::new(&case.experiment.method, &Plan::new(&model, &case.experiment.method), &model, &state);
     let started = Instant::now();
@@ -144,24 +146,24 @@ fn trial_s(case: &Case) -> f64 {
     // With three twins, and two more runs for what two runs agree in.
     let twins = if sensitivity::is_wanted(&case.experiment) { 3.0 } else { 0.0 };
     let tried = if matches!(case.experiment.method, Method::Auto(_)) { 2.0 } else { 0.0 };
-    started.elapsed().as_secs_f64() * (1.0 + twins + tried) * runs(case) as f64 / part.max(1e-3)
+    started.elapsed().as_secs_f64() * (1.0 + twins + tried) * runs(planned) as f64 / part.max(1e-3)
 }
 
 /// Of a search about how many; all counted with the steps of the first one, which is mostly the longest.
-fn runs(case: &Case) -> u64 {
-    case.search.as_ref().map_or(1, |cell| cell.expected_runs() as u64)
+fn runs(planned: &Planned) -> u64 {
+    planned.search.as_ref().map_or(1, |cell| cell.expected_runs() as u64)
 }
 
 /// Sizes measured with one body and 0 to 8 contacts, zstd level 1: bytes a sample in one file.
-fn bytes(cases: &[Case]) -> u64 {
+fn bytes(cases: &[Planned]) -> u64 {
     const OF_A_BODY: u64 = 150;
     const OF_A_CONTACT: u64 = 60;
     const LIKELY_CONTACTS: u64 = 3;
-    let Some(first) = cases.first().filter(|case| case.search.is_none()) else { return 0 };
+    let Some(Planned { case: first, search: None }) = cases.first() else { return 0 };
     let files = targets(first.experiment.record.to).len() as u64;
     let rule = first.experiment.record.cases;
     let recorded = known_before(rule, cases.len()).map_or(FEW.min(cases.len()), |known| known.len());
-    let per_case = |case: &Case| {
+    let per_case = |Planned { case, .. }: &Planned| {
         let clock = ticks(&case.experiment);
         let samples = clock.steps / steps_between(&case.experiment.record, &clock) + 1;
         let bodies = &case.experiment.scene.bodies;

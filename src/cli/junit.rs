@@ -1,7 +1,7 @@
 //! Verdicts as a JUnit file: a suite an experiment, a test an expectation.
 
-use super::CliError;
-use super::check::Checked;
+use super::checked::Checked;
+use super::error::CliError;
 use crate::check::Judged;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::path::Path;

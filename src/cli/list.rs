@@ -1,6 +1,8 @@
 //! `gotai list`: what can be written, one line each.
 
-use super::{CliError, OutputArgs, print, print_json};
+use super::args::OutputArgs;
+use super::error::CliError;
+use super::output::{print, print_json};
 use crate::experiment::types::{Accuracy, Exact, Integrator};
 use crate::integrate::claims::{Claim, Kept, claim};
 use clap::{Args, ValueEnum};

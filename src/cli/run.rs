@@ -1,17 +1,21 @@
 //! `gotai run`: one experiment, its recordings, a summary.
 
+use super::args::{ExperimentArgs, OutputArgs, RunArgs};
+use super::error::CliError;
+use super::output::{print, print_json};
 use super::progress::Bar;
-use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, print, print_json};
 use crate::build_info::BUILD;
 use crate::case::Case;
 use crate::collide::SolvedContact;
 use crate::model::{self, Model};
+use crate::outcome::Outcome;
 use crate::plan::Plan;
 use crate::record::writer::Target;
-use crate::reference;
-use crate::row::{Measured, Outcome, Row};
+use crate::rows::{Measured, Row};
 use crate::run::Ended;
-use crate::sweep::plan::{build, single_case};
+use crate::study::reference;
+use crate::sweep::build::build;
+use crate::sweep::plan::single_case;
 use crate::sweep::runner::{Progress, run_case};
 use clap::Args;
 use nalgebra::Vector3;

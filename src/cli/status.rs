@@ -1,8 +1,11 @@
 //! `gotai status`: how much of a sweep is done.
 
-use super::{CliError, OutputArgs, print, print_json};
+use super::args::OutputArgs;
+use super::error::CliError;
+use super::output::{print, print_json};
 use crate::build_info::BUILD;
-use crate::row::{Outcome, count};
+use crate::outcome::Outcome;
+use crate::rows::count;
 use crate::sweep::store::{Store, rows};
 use clap::Args;
 use serde_json::json;

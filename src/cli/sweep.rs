@@ -1,8 +1,10 @@
 //! `gotai sweep`: the axes' cases on all cores, a row each; run again, it does only what is missing.
 
+use super::error::CliError;
+use super::output::{print, print_json};
 use super::sweeping::{SweepArgs, Swept, configs};
-use super::{CliError, print, print_json};
-use crate::row::{Outcome, count};
+use crate::outcome::Outcome;
+use crate::rows::count;
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;

@@ -1,13 +1,15 @@
 //! What `sweep` and `check` share: files of a folder, their cases, running what is missing.
 
+use super::args::{ExperimentArgs, OutputArgs, RunArgs, below_configs, default_out};
+use super::error::CliError;
 use super::progress::Bar;
-use super::{CliError, ExperimentArgs, OutputArgs, RunArgs, below_configs, default_out};
-use crate::case::Case;
 use crate::experiment::ExperimentFile;
 use crate::experiment::types::RecordTo;
+use crate::outcome::Outcome;
 use crate::record::writer::Target;
-use crate::row::{Outcome, Row, count};
-use crate::sweep::plan::{PlanFile, cases};
+use crate::rows::{Row, count};
+use crate::sweep::plan::{cases, plan_file};
+use crate::sweep::planned::Planned;
 use crate::sweep::runner::{Job, build_and_run, lock};
 use crate::sweep::store::Store;
 use clap::Args;
@@ -39,10 +41,10 @@ pub struct Config {
 }
 
 /// A file whose cases have all been checked.
-pub struct Planned {
+pub struct PlannedSweep {
     pub config: Config,
     pub file: ExperimentFile,
-    pub cases: Vec<Case>,
+    pub cases: Vec<Planned>,
     targets: Vec<Target>,
 }
 
@@ -72,22 +74,22 @@ impl SweepArgs {
         config: Config,
         file: ExperimentFile,
         instead: Option<RecordTo>,
-    ) -> Result<Planned, CliError> {
+    ) -> Result<PlannedSweep, CliError> {
         let cases = cases(&file)?;
-        let said = cases.first().and_then(|case| case.experiment.record.to);
+        let said = cases.first().and_then(|first| first.case.experiment.record.to);
         let targets = self.run.targets(instead.or(said))?;
-        Ok(Planned { config, file, cases, targets })
+        Ok(PlannedSweep { config, file, cases, targets })
     }
 
-    pub fn sweep(&self, planned: &Planned) -> Result<Swept, CliError> {
-        let Planned { config, cases, targets, .. } = planned;
+    pub fn sweep(&self, planned: &PlannedSweep) -> Result<Swept, CliError> {
+        let PlannedSweep { config, cases, targets, .. } = planned;
         let dir = config.out(self.run.out.as_deref());
-        let store = Arc::new(Mutex::new(Store::open(&dir, PlanFile::new(cases), self.keep)?));
+        let store = Arc::new(Mutex::new(Store::open(&dir, plan_file(cases), self.keep)?));
         keep_rows_when_interrupted(&store, &dir)?;
         if self.output.verbose {
             eprintln!("{}: {} cases into {}", config.path.display(), cases.len(), dir.display());
         }
-        let work = |case: &Case, targets: &[Target]| build_and_run(case, &dir, targets);
+        let work = |planned: &Planned, targets: &[Target]| build_and_run(planned, &dir, targets);
         let bar = Bar::new(self.output.quiet);
         let job = Job { dir: &dir, targets, work: &work, progress: &bar };
         let ran = quietly(|| job.sweep(cases, &store))?;

@@ -3,7 +3,6 @@
 //! D. E. Stewart, J. C. Trinkle, Int. J. Numer. Meth. Engng 39 (1996) 2673).
 
 use super::Contact;
-use crate::experiment::types::{Method, Scheme};
 use crate::model::Model;
 use nalgebra::Vector3;
 
@@ -66,18 +65,6 @@ pub fn is_closed(model: &Model, contact: &Contact) -> bool {
 }
 
 impl Approach {
-    pub fn of(method: &Method) -> Self {
-        match method {
-            Method::TimeStepping(stepping) => match stepping.scheme {
-                Scheme::SemiImplicit => Approach::Start,
-                Scheme::Moreau => Approach::Middle,
-            },
-            // From event to event an impact takes no time, and forces do not act in it.
-            Method::EventDriven(_) | Method::Auto(_) => Approach::Inside,
-            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) => Approach::Inside,
-        }
-    }
-
     /// Whether this is an impact with a rebound, by whatever law, and not a contact that comes to rest.
     pub fn strikes(&self, model: &Model, contact: &Contact, [before, gained]: [f64; 2], step_s: f64) -> bool {
         let gap_m = if is_closed(model, contact) { 0.0 } else { contact.gap_m };

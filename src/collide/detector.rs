@@ -2,13 +2,13 @@
 
 use super::approach::ULPS;
 use super::broad::{Bounds, Broad};
-use super::pair::touches;
-use super::solid::{Pose, Touch};
 use super::{Contact, faces};
-use crate::measure::work::Work;
 use crate::model::surface::Surface;
 use crate::model::{Body, Model};
+use crate::shape::pair::touches;
+use crate::shape::solid::{Meeting, Pose};
 use crate::state::{BodyState, State};
+use crate::work::Work;
 use nalgebra::Vector3;
 
 /// How far apart two things may be and still be a contact.
@@ -79,7 +79,7 @@ pub struct Detector {
     solids: Vec<usize>,
     bounds: Vec<Bounds>,
     pairs: Vec<(u32, u32)>,
-    touches: Vec<Touch>,
+    touches: Vec<Meeting>,
 }
 
 impl Detector {

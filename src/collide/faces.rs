@@ -1,9 +1,9 @@
 //! Points of a body against the faces of a container. A face farther from the centre of mass than the bounding radius is
 //! skipped with one dot product.
 
-use super::solid::Solid;
 use crate::model::container::Face;
 use crate::model::{Body, Geometry};
+use crate::shape::solid::Solid;
 use crate::state::BodyState;
 use nalgebra::Vector3;
 

@@ -5,8 +5,8 @@ use super::decide::{Change, margin};
 use super::forces::{Forces, Held, Mode, NO_SLIP, Slip, meeting_m_s};
 use super::watch::Paths;
 use crate::collide::Key;
-use crate::measure::work::Work;
 use crate::state::State;
+use crate::work::Work;
 
 /// Looks at the forces in a step of the integrator.
 const LOOKS: u32 = 4;

@@ -6,13 +6,14 @@
 //! contact solver: with accelerations for velocities it is the same law for contacts that do not slip; one that slips
 //! gets so large a fictitious slip that its force is on the edge of the cone.
 
-use super::forces::{Choice, Forces, Held, Mode, NO_SLIP, Rows, Slip, direction, edge, meeting_m_s};
+use super::forces::{Forces, Held, Mode, NO_SLIP, Rows, Slip, direction, edge, meeting_m_s};
 use super::touch::{Here, Touch};
-use crate::measure::work::Work;
+use crate::math::full_pivot::Choice;
 use crate::model::Model;
 use crate::solve::problem::Block;
 use crate::solve::{Impulse, newton};
 use crate::state::State;
+use crate::work::Work;
 use nalgebra::Vector3;
 
 /// What is known of a change: these contacts are about to open, these to slip.

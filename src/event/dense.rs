@@ -4,16 +4,17 @@
 //! What holds is kept by accelerations; what drifts in a step, some part of its error, is taken off at its end by the
 //! smallest displacement and change of velocity (E. Eich 1993; `project`).
 
-use super::forces::{Choice, Forces, Held, Rows};
+use super::forces::{Forces, Held, Rows};
 use super::motion::{Bounds, Motion};
 use crate::integrate::dop853_tableau::{A, B, B3, D, E5, EXTRA};
 use crate::integrate::field::{advanced, sum};
 use crate::integrate::phase::{Phase, phase, state};
 use crate::integrate::rotation::exponential;
-use crate::measure::work::Work;
+use crate::math::full_pivot::Choice;
 use crate::model::{Body, Model};
 use crate::solve::problem::{Block, Twist};
 use crate::state::{BodyState, State};
+use crate::work::Work;
 use nalgebra::{Quaternion, Vector3};
 
 /// The right side ẏ = f(t, y), with what it needs.

@@ -10,6 +10,7 @@ use super::touch::{Here, Touch};
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
 use crate::integrate::rotation::gyroscopic_torque_B;
+use crate::math::full_pivot::{Choice, Eliminated};
 use crate::model::pins::Anchor;
 use crate::model::{Body, Model};
 use crate::solve::problem::{ContactProblem, Pin, PinEnd, Twist};
@@ -61,12 +62,6 @@ pub enum Rows {
     /// The normal row; the force is along this, in the contact's frame.
     Normal(Vector3<f64>),
     All,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Choice {
-    Any,
-    Least,
 }
 
 /// Contacts of one state, gathered, with the memory for it.
@@ -299,75 +294,10 @@ fn solve(problem: &ContactProblem, rows: &[Rows], choice: Choice, p: &mut [Impul
 /// Of the right side: what is left of a consistent system.
 const CONSISTENT: f64 = 1e-9;
 
-/// Of the largest pivot: what is smaller is rounding of a redundant contact.
-const RANK: f64 = 1e-11;
-
 /// Once more for what rounding has left.
 fn solution(K: &DMatrix<f64>, rhs: &DVector<f64>, choice: Choice) -> Option<DVector<f64>> {
     let eliminated = Eliminated::new(K.clone());
     let x = eliminated.solve(rhs, choice)?;
     let again = eliminated.solve(&(rhs - K * &x), choice)?;
     Some(x + again)
-}
-
-/// Gaussian elimination with full pivoting: P K Q = L U, of which the first `rank` rows mean something.
-struct Eliminated {
-    LU: DMatrix<f64>,
-    rows: Vec<usize>,
-    columns: Vec<usize>,
-    rank: usize,
-}
-
-impl Eliminated {
-    fn new(mut LU: DMatrix<f64>) -> Self {
-        let n = LU.nrows();
-        let (mut rows, mut columns): (Vec<usize>, Vec<usize>) = ((0..n).collect(), (0..n).collect());
-        let largest = LU.amax();
-        let mut rank = 0;
-        while rank < n {
-            let (r, c) = LU.view((rank, rank), (n - rank, n - rank)).icamax_full();
-            let pivot = LU[(rank + r, rank + c)].abs();
-            if pivot.is_nan() || pivot <= RANK * largest {
-                break;
-            }
-            LU.swap_rows(rank, rank + r);
-            rows.swap(rank, rank + r);
-            LU.swap_columns(rank, rank + c);
-            columns.swap(rank, rank + c);
-            for i in rank + 1..n {
-                LU[(i, rank)] /= LU[(rank, rank)];
-            }
-            for j in rank + 1..n {
-                let above = LU[(rank, j)];
-                for i in rank + 1..n {
-                    let factor = LU[(i, rank)];
-                    LU[(i, j)] -= factor * above;
-                }
-            }
-            rank += 1;
-        }
-        Eliminated { LU, rows, columns, rank }
-    }
-
-    /// Unknowns that the others determine are 0, or all are as small as they can be: x = Uᵀ (U Uᵀ)⁻¹ y.
-    fn solve(&self, rhs: &DVector<f64>, choice: Choice) -> Option<DVector<f64>> {
-        let (LU, rank, n) = (&self.LU, self.rank, self.rows.len());
-        let mut y = DVector::from_fn(rank, |i, _| rhs[self.rows[i]]);
-        for i in 0..rank {
-            y[i] -= (0..i).map(|j| LU[(i, j)] * y[j]).sum::<f64>();
-        }
-        let mut own = DVector::zeros(n);
-        if choice == Choice::Any || rank == n {
-            for i in (0..rank).rev() {
-                let known: f64 = (i + 1..rank).map(|j| LU[(i, j)] * own[j]).sum();
-                own[i] = (y[i] - known) / LU[(i, i)];
-            }
-        } else {
-            let U = DMatrix::from_fn(rank, n, |i, j| if j >= i { LU[(i, j)] } else { 0.0 });
-            own = U.tr_mul(&(&U * U.transpose()).cholesky()?.solve(&y));
-        }
-        let mut x = DVector::zeros(n);
-        own.iter().zip(&self.columns).for_each(|(own, column)| x[*column] = *own);
-        x.iter().all(|x: &f64| x.is_finite()).then_some(x)
-    }
 }

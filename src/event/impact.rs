@@ -6,13 +6,13 @@
 use super::forces::Forces;
 use crate::collide::{Contact, SolvedContact};
 use crate::experiment::types::Impact;
-use crate::measure::work::Work;
 use crate::model::Model;
 use crate::solve::gauss_seidel::Scratch;
 use crate::solve::impact::{Law, resolve};
 use crate::solve::problem::{Block, ContactProblem, Twist};
 use crate::solve::{Impulse, exact_contact, newton};
 use crate::state::State;
+use crate::work::Work;
 
 /// Proximal problems of an island before the law is given up.
 const MOST: u32 = 500;

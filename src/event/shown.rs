@@ -1,8 +1,8 @@
 //! What a solid shows at a point of its surface: the part that meets another body there, and the face, if its normal is one's.
 
-use crate::collide::hull::{Hull, Polygon};
-use crate::collide::solid::Solid;
 use crate::model::Body;
+use crate::shape::hull::{Hull, Polygon};
+use crate::shape::solid::Solid;
 use nalgebra::Vector3;
 
 /// Everything from the centre of mass, body axes.

@@ -7,9 +7,9 @@
 //! ṙ = ω × r (F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996, ch. 4).
 
 use super::shown::{Ball, Border, Face, Line, Part, Shown, Spot, shown, within_m};
-use crate::collide::solid::Solid;
 use crate::collide::{Contact, Key};
 use crate::model::{Body, Geometry, Model};
+use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 

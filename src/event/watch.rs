@@ -12,13 +12,13 @@
 use super::dense::Dense;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::motion::{Bounds, Motion};
-use crate::collide::pair::touches;
-use crate::collide::solid::{Pose, Solid, Touch as Found};
 use crate::collide::{Contact, faces};
-use crate::measure::work::Work;
 use crate::model::container::Face;
 use crate::model::{Body, Geometry, Model};
+use crate::shape::pair::touches;
+use crate::shape::solid::{Meeting as Found, Pose, Solid};
 use crate::state::BodyState;
+use crate::work::Work;
 use nalgebra::Vector3;
 
 /// All bodies between two events.

@@ -13,7 +13,7 @@
 //! The attitude is by `arc.rs`. Known limits: the error grows by some ulp with every impact before t.
 
 use super::arc::{self, Arc};
-use super::scene::SAME;
+use super::facts::SAME;
 use crate::state::BodyState;
 use nalgebra::Vector3;
 

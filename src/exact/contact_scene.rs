@@ -2,17 +2,18 @@
 
 use super::ball::{Ball, Setting};
 use super::dome_scene::{self, OnDome};
-use super::scene::{Lacks, SAME, constant_acceleration, point, unpinned};
+use super::facts::{Lacks, SAME};
+use super::scene::{constant_acceleration, point, unpinned};
 use super::sliding::Sliding;
 use super::stick_slip::StickSlip;
 use super::toppling_scene::{self, Block, LadderAt, Rod};
 use super::turntable::Turntable;
 use super::wheel_scene::{self, Wheel};
 use crate::collide::faces;
-use crate::collide::solid::Solid;
 use crate::experiment::types::Exact;
 use crate::model::container::Face;
 use crate::model::{Body, Geometry, Model};
+use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 

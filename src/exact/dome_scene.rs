@@ -2,7 +2,7 @@
 
 use super::contact_scene::{rounding_m, sphere, unhindered};
 use super::dome::Dome;
-use super::scene::{Lacks, SAME};
+use super::facts::{Lacks, SAME};
 use crate::model::Model;
 use crate::state::{BodyState, State};
 use nalgebra::{UnitQuaternion, Vector3};

@@ -5,6 +5,8 @@
 //! With sin(θ/2) = sin(θ₀/2) cosh u the time is √(l/g) ∫ √(κ + sin² θ)/cos(θ/2) du, whose integrand is smooth: Gauss and
 //! Legendre's rule on short panels, inverted by Newton's method.
 
+use crate::math::quadrature;
+
 const NODES: usize = 20;
 
 /// Of u. The error of a panel is below rounding.
@@ -31,7 +33,7 @@ impl FallingRod {
         let panels = libm::ceil(flat / PANEL).max(1.0);
         let unit_s = (half_length_m / gravity_m_s2).sqrt();
         let panel = flat / panels;
-        let mut rod = FallingRod { start, inertia, unit_s, rule: rule(), times_s: vec![0.0], panel };
+        let mut rod = FallingRod { start, inertia, unit_s, rule: quadrature::legendre(), times_s: vec![0.0], panel };
         let mut time_s = 0.0;
         for i in 0..panels as usize {
             time_s += rod.between_s(i as f64 * panel, (i + 1) as f64 * panel);
@@ -75,23 +77,4 @@ impl FallingRod {
         let (middle, half) = ((a + b) / 2.0, (b - a) / 2.0);
         self.rule.iter().map(|(x, weight)| weight * half * self.slope_s(middle + half * x)).sum()
     }
-}
-
-/// Nodes and weights on −1..1: roots of Legendre's polynomial, by Newton's method (Press et al., Numerical Recipes, 4.6).
-fn rule() -> [(f64, f64); NODES] {
-    let n = NODES as f64;
-    std::array::from_fn(|i| {
-        let mut x = libm::cos(std::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5));
-        let mut slope = 0.0;
-        for _ in 0..8 {
-            let (mut p, mut before) = (1.0, 0.0);
-            for j in 0..NODES {
-                let j = j as f64;
-                (p, before) = (((2.0 * j + 1.0) * x * p - j * before) / (j + 1.0), p);
-            }
-            slope = n * (x * p - before) / (x * x - 1.0);
-            x -= p / slope;
-        }
-        (x, 2.0 / ((1.0 - x * x) * slope * slope))
-    })
 }

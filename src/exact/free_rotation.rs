@@ -16,9 +16,9 @@
 //! No difference of near numbers is left but D, I₂ − I₃ and I₁ − I₂; these and the rates are double-double.
 //! Known limits: beyond 10¹⁵ half periods their count is not exact; spin within 10⁻¹⁴⁰ of the middle axis stays there.
 
-use super::dd::{Dd, dot};
-use super::jacobi::{Jacobi, ThirdKind, carlson_rf, cel};
 use super::principal::{Principal, body_axes, cross, principal};
+use crate::math::dd::{Dd, dot};
+use crate::math::elliptic::{Jacobi, ThirdKind, carlson_rf, cel};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 /// A moment that is less than this, of the largest, is none: a rod.

@@ -20,13 +20,13 @@
 //! exact; an axis within 10⁻¹⁵ of the vertical that also does not tilt stays there; a top without a transverse moment is
 //! refused; gravity that changes ω by less than 10⁻³⁰ in a turn is left out.
 
-use super::dd::Dd;
 use super::free_rotation::power_of_two;
-use super::jacobi::{Jacobi, carlson_rf, cel};
 use super::principal::body_axes;
 use super::symmetric_body::SymmetricBody;
 use super::top_phase::{Amplitude, Wave};
 use super::top_roots::{Roots, Start};
+use crate::math::dd::Dd;
+use crate::math::elliptic::{Jacobi, carlson_rf, cel};
 use nalgebra::{Complex, Quaternion, UnitQuaternion, Vector3};
 use std::f64::consts::FRAC_1_SQRT_2;
 

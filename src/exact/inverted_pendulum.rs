@@ -8,7 +8,7 @@
 //!
 //! SI units. Known limit: at h = 0, on its way to the top for ever, it has no time.
 
-use super::jacobi::{Jacobi, carlson_rf};
+use crate::math::elliptic::{Jacobi, carlson_rf};
 
 #[derive(Clone, Debug)]
 pub struct InvertedPendulum {

@@ -9,8 +9,8 @@
 //!
 //! Rates and k′ are double-double, whole periods are counted. At rest within rounding of the highest position it stays.
 
-use super::dd::{Dd, sin_cos};
-use super::jacobi::{Jacobi, carlson_rf, cel};
+use crate::math::dd::{Dd, sin_cos};
+use crate::math::elliptic::{Jacobi, carlson_rf, cel};
 
 /// cos(θ₀/2) of a rounded π.
 const TOP: f64 = 2e-16;

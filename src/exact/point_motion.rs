@@ -5,7 +5,7 @@
 //! A t² (½ cos φ S₁(θ/2)² − sin φ S₂(θ)) to the position, where S₁(x) = sin x/x and S₂(x) = (x − sin x)/x². Nothing
 //! cancels as ω → 0, where the harmonic is the constant A cos φ. θ is reduced in double-double, for long times.
 
-use super::dd::Dd;
+use crate::math::dd::Dd;
 use nalgebra::Vector3;
 
 /// An acceleration A cos(ω t + φ).

@@ -1,7 +1,7 @@
 //! Principal moments and axes in double-double, by cyclic Jacobi rotations (Golub & Van Loan, Matrix Computations,
 //! 4th ed., 8.5): a rounded moment would be seen after 10⁴ turns.
 
-use super::dd::{Dd, dot};
+use crate::math::dd::{Dd, dot};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 /// Moments in rising order; axes\[i\] in body axes.

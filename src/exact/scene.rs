@@ -2,6 +2,7 @@
 //! that touch something: `contact_scene.rs`.
 
 use super::contact_scene::{self, Touching};
+use super::facts::{Lacks, SAME};
 use super::free_rotation::FreeRotation;
 use super::heavy_top::{HeavyTop, Top};
 use super::linear_drag::LinearDrag;
@@ -92,9 +93,6 @@ impl Swing {
         BodyState { p_WB: self.pin_W + r_W, q_WB: turn * self.start.q_WB, v_WB: w_WB.cross(&r_W), w_WB }
     }
 }
-
-/// What the scene lacks to be the closed form's.
-pub type Lacks = String;
 
 /// The motion of one of the model's bodies from its start.
 pub fn motion(which: Exact, model: &Model, start: &State, index: usize) -> Result<Motion, Lacks> {
@@ -261,9 +259,6 @@ fn pendulum(model: &Model, index: usize, at: &BodyState) -> Result<Motion, Lacks
     let pendulum = Pendulum::new(moment, inertia, angle, at.w_WB.dot(&axis_W));
     Ok(Motion::Pendulum(Box::new(Swing { pendulum, start: *at, angle, axis_W, pin_W })))
 }
-
-/// Moments, directions and lengths that differ by less, relative, are the same: what is written with ten digits is.
-pub(super) const SAME: f64 = 1e-10;
 
 /// Inertia about a point at `r_B` from the centre of mass.
 fn about(body: &Body, r_B: &Vector3<f64>) -> Matrix3<f64> {

@@ -3,7 +3,7 @@
 //! starts back down the slope. SI units.
 
 use super::arc::{self, Arc};
-use super::scene::SAME;
+use super::facts::SAME;
 use crate::state::BodyState;
 use nalgebra::Vector3;
 

@@ -37,7 +37,7 @@ impl StickSlip {
     /// `drive`: what accelerates it along the plane but friction. None if the velocity is not along the drive, or a constant
     /// part of the drive outweighs friction.
     pub fn new(start: &BodyState, constant: Vector3<f64>, drive: &Harmonic, grip_m_s2: f64) -> Option<Self> {
-        use super::scene::SAME;
+        use super::facts::SAME;
         let line = drive.amplitude_m_s2.try_normalize(0.0)?;
         let across = |v: &Vector3<f64>| line.cross(v).norm() > SAME * v.norm();
         let constant_m_s2 = line.dot(&constant);

@@ -2,9 +2,9 @@
 //! body turns about its axis at (1 − I₃/I₁) ω₃ (Kane, Likins & Levinson, Spacecraft Dynamics, 1983, 3.1). A sphere only
 //! circles L. Rates are double-double, for long times.
 
-use super::dd::{Dd, dot};
 use super::free_rotation::{power_of_two, turn};
 use super::principal::body_axes;
+use crate::math::dd::{Dd, dot};
 use nalgebra::{UnitQuaternion, Vector3};
 
 #[derive(Clone, Debug)]

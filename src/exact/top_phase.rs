@@ -1,9 +1,9 @@
 //! Cayley's and Klein's parameters of a heavy top on one half period, without their constants: the formulae are those of
 //! heavy_top.rs.
 
-use super::dd::Dd;
-use super::jacobi::{Jacobi, ThirdKind, cel};
 use super::top_roots::Roots;
+use crate::math::dd::Dd;
+use crate::math::elliptic::{Jacobi, ThirdKind, cel};
 use nalgebra::Complex;
 
 /// √2 α from u₁ or √2 β from u₂, but for ρt: over √2, |α| or |β|.

@@ -6,7 +6,7 @@
 //! two is found by Newton's method from outside, which is monotonic; the others have a product of known sign, in v or in
 //! y, so that their quadratic does not cancel.
 
-use super::dd::Dd;
+use crate::math::dd::Dd;
 
 /// What the start says; β > 0.
 pub struct Start {

@@ -1,10 +1,10 @@
 //! From a scene to a regular prism that rolls over its edges.
 
 use super::contact_scene::{feet, on_its_own};
+use super::facts::{Lacks, SAME};
 use super::rimless_wheel::RimlessWheel;
-use super::scene::{Lacks, SAME};
-use crate::collide::solid::Solid;
 use crate::model::{Body, Geometry, Model};
+use crate::shape::solid::Solid;
 use crate::state::BodyState;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::f64::consts::PI;

@@ -1,7 +1,7 @@
 //! What makes a method more accurate: the one place that says which method takes a step, which a tolerance.
 
 use super::method::{Integrator, Method};
-use crate::integrate::DEFAULT_TOLERANCE;
+use super::tolerances::DEFAULT_TOLERANCE;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accuracy {

@@ -1,6 +1,6 @@
 //! `limits:` and `reference:`: how much a run may cost, and what it is measured against. A part of `types.rs`.
 
-use crate::integrate::SMALLEST_GLOBAL;
+use super::tolerances::SMALLEST_GLOBAL;
 use serde::{Deserialize, Serialize};
 
 /// A run that needs more ends as `stalled`, by the criterion `limit`; what it has computed stays. Absent: no limit.

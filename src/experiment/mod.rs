@@ -22,6 +22,7 @@ pub mod positions;
 pub mod predicate;
 pub mod search;
 mod source;
+pub mod tolerances;
 pub mod types;
 mod validate;
 mod validate_body;

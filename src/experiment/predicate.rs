@@ -3,7 +3,7 @@
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
 use super::validate::Result;
-use crate::row::Outcome;
+use crate::outcome::Outcome;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use serde_json::Value as Cell;

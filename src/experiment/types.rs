@@ -10,6 +10,7 @@ pub use super::limits::{Limits, ReferenceRun};
 pub use super::loads::*;
 pub use super::method::*;
 use super::search::SearchText;
+use crate::clock::Clock;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -51,6 +52,14 @@ pub struct Experiment {
     /// What is compared by run time and error, read by `bench.rs`; absent in a resolved case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bench: Option<serde_yaml::Value>,
+}
+
+impl Experiment {
+    /// Without a step: one to the end, of a method that needs none.
+    pub fn clock(&self) -> Clock {
+        let end_s = self.time.end_s;
+        Clock::new(self.time.step_s.unwrap_or(end_s), end_s)
+    }
 }
 
 /// Everything that exists, at rest or in motion, at t = 0.

@@ -2,13 +2,13 @@
 
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
+use super::tolerances::{SMALLEST_GLOBAL, SMALLEST_TOLERANCE};
 use super::types::{
     Accuracy, Container, Diverge, EventDriven, Experiment, Free, Impact, Limits, Measure, Method, Pair, Penalty, Plane,
     Random, Record, RecordCases, Scene, Shape, Solver, Time, TimeStepping,
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
-use crate::integrate::{SMALLEST_GLOBAL, SMALLEST_TOLERANCE};
 
 /// What contacts name the container.
 pub(super) const CONTAINER: &str = "container";

@@ -6,7 +6,7 @@ use super::key_path::Path;
 use super::types::{Body, BoxShape, Convex, Inertia, InertiaFrom, MeshSpec, NodesPerEdge, Orientation, Shape};
 use super::validate::{CONTAINER, Result, a_part, direction, not_negative, positive, sizes, unexpected};
 use super::validate_loads::validate_driven;
-use crate::collide::hull::{Hull, HullError, MOST_VERTICES};
+use crate::shape::hull::{Hull, HullError, MOST_VERTICES};
 use nalgebra::Matrix3;
 
 /// Six levels make 40,962 surface nodes, seven 163,842: finer spheres only fill the memory.

@@ -3,14 +3,14 @@
 //!
 //! It is conjugate to the midpoint rule: energy and momentum are kept by neither step, but come back.
 
+use super::drive::Drive;
 use super::implicit::Reached;
-use super::island::Drive;
-use super::newton;
 use super::phase::{fall, to_world};
 use super::rotation::gyroscopic_torque_B;
-use crate::measure::work::Work;
+use crate::math::newton;
 use crate::model::Body;
 use crate::state::BodyState;
+use crate::work::Work;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// A step between the drives at its start and its end.

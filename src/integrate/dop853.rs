@@ -6,8 +6,8 @@ use super::dop853_tableau::{A, B, B3, E5};
 use super::field::{Field, advanced, sum};
 use super::island::Island;
 use super::phase::{Phase, phase, state};
-use crate::measure::work::Work;
 use crate::model::Model;
+use crate::work::Work;
 
 /// Tries of a body in one step of the clock; then it is given up, as below.
 const MOST: u32 = 100_000;

@@ -1,12 +1,13 @@
 //! The lecture's two Euler methods (L5), order 1: the slide's formula moves with the old velocity (explicit), its C
 //! program with the new one (semi-implicit). Rotation in body axes, with the gyroscopic term.
 
-use super::island::{Drive, Island};
+use super::drive::Drive;
+use super::island::Island;
 use super::rotation::{exponential, gyroscopic_torque_B};
 use crate::experiment::types::Update;
-use crate::measure::work::Work;
 use crate::model::{Body, Model};
 use crate::state::BodyState;
+use crate::work::Work;
 
 /// A step of `h` from `t_s`, by the drives at its start.
 pub fn step(update: Update, island: &mut Island, model: &Model, [t_s, h]: [f64; 2], work: &mut Work) {

@@ -1,9 +1,10 @@
 //! The equations of motion of an island as ẏ = f(t, y), for the methods that know nothing of rotations.
 
-use super::island::{Drive, Island};
+use super::drive::Drive;
+use super::island::Island;
 use super::phase::{Phase, rate, state};
-use crate::measure::work::Work;
 use crate::model::Model;
+use crate::work::Work;
 
 /// f, with what it needs.
 pub struct Field<'a> {

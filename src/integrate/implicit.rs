@@ -1,11 +1,12 @@
 //! What the implicit methods share: their step depends on a drive that the step itself leads to. That drive is the
 //! unknown; where it never changes (nothing but gravity) there is nothing to solve.
 
-use super::broyden::Broyden;
-use super::island::{Drive, Island};
-use crate::measure::work::Work;
+use super::drive::Drive;
+use super::island::Island;
+use crate::math::broyden::Broyden;
 use crate::model::{Body, Model};
 use crate::state::BodyState;
+use crate::work::Work;
 
 /// One body's end of a step, and the state at which the unknown drive is evaluated.
 #[derive(Clone, Copy, Debug)]

@@ -4,12 +4,12 @@
 //! Both are the same Cayley transform of c = h ω_m/2, so that R Π does not change; |Π|² and the energy are quadratic,
 //! and the midpoint rule keeps them. (The rule on the quaternion instead of R would turn by another angle.)
 
+use super::drive::Drive;
 use super::implicit::Reached;
-use super::island::Drive;
 use super::momentum::{half_turned, kick_turn_kick};
-use crate::measure::work::Work;
 use crate::model::Body;
 use crate::state::BodyState;
+use crate::work::Work;
 use nalgebra::{Matrix3, Vector3};
 
 /// With a torque τ_m in the middle, Π₁ − Π₀ = h (Π_m × ω_m + τ_m) is half of h τ_m before the turn and half after it.

@@ -1,31 +1,11 @@
 //! The unit that an integrator advances: bodies that pins join (most often one body alone), with what drives them.
 
+use super::drive::Drive;
 use super::pin_solver::PinSolver;
-use crate::measure::work::Work;
 use crate::model::pins::Anchor;
 use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
-use nalgebra::Vector3;
-
-/// What changes a body's velocities, gyroscopic term apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drive {
-    /// Of the centre of mass, world axes.
-    pub acceleration: Vector3<f64>,
-    /// About the centre of mass, body axes.
-    pub torque_B: Vector3<f64>,
-}
-
-impl Drive {
-    pub fn of_gravity(model: &Model) -> Self {
-        Drive { acceleration: model.gravity_m_s2, torque_B: Vector3::zeros() }
-    }
-
-    /// Without a torque, moments of inertia that are all equal leave ω as it is.
-    pub fn turns(&self, body: &Body) -> bool {
-        !body.isotropic || self.torque_B != Vector3::zeros()
-    }
-}
+use crate::work::Work;
 
 pub struct Island {
     /// Indices of its bodies, rising.

@@ -4,13 +4,14 @@
 //! A turn's unknown is the rotation of one step, c = n tan(θ/2) (Cayley's or Rodrigues' vector); the momentum L is a
 //! constant of the world, so that only the attitude can err.
 
-use super::island::{Drive, Island};
-use super::newton;
+use super::drive::Drive;
+use super::island::Island;
 use super::phase::fall;
 use super::rotation::exponential;
-use crate::measure::work::Work;
+use crate::math::newton;
 use crate::model::{Body, Model};
 use crate::state::BodyState;
+use crate::work::Work;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 /// The method's equation for c, given h Π and the inertia in body axes, with its derivative.

@@ -5,12 +5,12 @@
 //! include the energy: the body runs through the exact curve of Π at a rate that is wrong by O(h²). Beyond about
 //! h |ω| = 1 there is no F.
 
+use super::drive::Drive;
 use super::implicit::Reached;
-use super::island::Drive;
 use super::momentum::{half_turned, kick_turn_kick};
-use crate::measure::work::Work;
 use crate::model::Body;
 use crate::state::BodyState;
+use crate::work::Work;
 use nalgebra::{Matrix3, Vector3};
 
 /// Half of the drive at the start, the turn, half of that at the end: Störmer and Verlet's method.

@@ -1,10 +1,10 @@
 //! A body's motion as one vector y with ẏ = f(y), for the methods that know nothing of rotations; and the parabola.
 
-use super::island::Drive;
+use super::drive::Drive;
 use super::rotation::gyroscopic_torque_B;
-use crate::measure::work::Work;
 use crate::model::Body;
 use crate::state::BodyState;
+use crate::work::Work;
 use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3};
 
 /// p, v in the world, ω in body axes, q (x, y, z, w).

@@ -5,13 +5,13 @@
 //! The projection is the smallest change in the metric of the masses. Pins that say the same twice (two on one body: an
 //! axis) are allowed: of all forces the smallest are taken.
 
-use super::island::Drive;
+use super::drive::Drive;
 use super::rotation::{exponential, gyroscopic_torque_B};
-use crate::linear::least_norm;
-use crate::measure::work::Work;
+use crate::math::least_norm::least_norm;
 use crate::model::Model;
 use crate::model::pins::Anchor;
 use crate::state::{BodyState, State};
+use crate::work::Work;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// One end of a pin, on a body that it can move.

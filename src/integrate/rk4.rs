@@ -4,8 +4,8 @@
 use super::field::{Field, advanced};
 use super::island::Island;
 use super::phase::{Phase, phase, state};
-use crate::measure::work::Work;
 use crate::model::Model;
+use crate::work::Work;
 
 /// The start of a step, a place on the way, and the four slopes, of every body of an island.
 #[derive(Debug)]

@@ -1,8 +1,8 @@
 //! Turning a body (L11): the slide's Rodrigues update, and one that conserves angular momentum.
 
-use crate::measure::work::Work;
 use crate::model::Body;
 use crate::state::BodyState;
+use crate::work::Work;
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 /// sin x / x.

@@ -3,53 +3,8 @@
 use super::energy::Energy;
 use crate::experiment::types::Diverge;
 use crate::model::{Body, Model};
+use crate::outcome::Criterion;
 use crate::state::{BodyState, State};
-
-/// Why a run stopped; the column `criterion`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Criterion {
-    NotFinite,
-    Energy,
-    Escape,
-    Speed,
-    Penetration,
-    /// A step could not be made to its tolerance: the run has stalled.
-    NotConverged,
-    /// Sliding has no finite force that goes on, and no impulse ends it.
-    Painleve,
-    /// Events accumulate, and even steps of equal length do not lead past them.
-    Zeno,
-    /// One of `limits:` is used up.
-    Limit,
-}
-
-impl Criterion {
-    pub const ALL: [Criterion; 9] = [
-        Criterion::NotFinite,
-        Criterion::Energy,
-        Criterion::Escape,
-        Criterion::Speed,
-        Criterion::Penetration,
-        Criterion::NotConverged,
-        Criterion::Painleve,
-        Criterion::Zeno,
-        Criterion::Limit,
-    ];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Criterion::NotFinite => "not-finite",
-            Criterion::Energy => "energy",
-            Criterion::Escape => "escape",
-            Criterion::Speed => "speed",
-            Criterion::Penetration => "penetration",
-            Criterion::NotConverged => "not-converged",
-            Criterion::Painleve => "painleve",
-            Criterion::Zeno => "zeno",
-            Criterion::Limit => "limit",
-        }
-    }
-}
 
 /// Of a fall of all bodies by their size: an energy that is rounding.
 const NOTHING: f64 = 1e-9;

@@ -1,6 +1,6 @@
 //! Energy of a state, and its ledger over a run.
 
-use super::{Push, beyond_rounding};
+use super::push::{Push, beyond_rounding};
 use crate::model::Model;
 use crate::state::State;
 

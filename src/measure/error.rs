@@ -1,5 +1,6 @@
 //! How far a state is from the exact one.
 
+use crate::rows::{Measured, finite};
 use crate::state::{BodyState, State};
 
 /// The largest over all bodies.
@@ -26,6 +27,15 @@ impl Errors {
             velocity_m_s: largest(|at, exact| (at.v_WB - exact.v_WB).norm()),
             angular_velocity_rad_s: largest(|at, exact| (at.w_WB - exact.w_WB).norm()),
         }
+    }
+
+    /// Fills the columns of a row; `time_s` is when.
+    pub fn write(&self, time_s: f64, measured: &mut Measured) {
+        measured.error_time_s = finite(time_s);
+        measured.error_position_m = finite(self.position_m);
+        measured.error_orientation_rad = finite(self.orientation_rad);
+        measured.error_velocity_m_s = finite(self.velocity_m_s);
+        measured.error_angular_velocity_rad_s = finite(self.angular_velocity_rad_s);
     }
 }
 

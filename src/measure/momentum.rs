@@ -5,7 +5,7 @@
 //! about the pin along gravity (a heavy top's L_z; without gravity all of it). Two such points leave nothing.
 
 use super::loads::Done;
-use super::{Push, beyond_rounding};
+use super::push::{Push, beyond_rounding};
 use crate::model::pins::Anchor;
 use crate::model::{Body, Model};
 use crate::state::{BodyState, State};

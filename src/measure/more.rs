@@ -6,6 +6,7 @@ use super::difference::{self, Differences};
 use crate::collide::SolvedContact;
 use crate::experiment::types::{self as file, Experiment, Measure, Method};
 use crate::model::{Body, Model};
+use crate::rows::columns::STATE;
 use crate::state::{BodyState, State};
 use serde_json::{Map, Value, json};
 
@@ -79,14 +80,6 @@ pub fn names(experiment: &Experiment) -> Vec<String> {
     };
     experiment.measure.iter().flat_map(of).collect()
 }
-
-/// The vectors of a state and their components.
-pub const STATE: [(&str, &[&str]); 4] = [
-    ("position_m", &["x", "y", "z"]),
-    ("orientation_xyzw", &["x", "y", "z", "w"]),
-    ("velocity_m_s", &["x", "y", "z"]),
-    ("angular_velocity_rad_s", &["x", "y", "z"]),
-];
 
 /// Mass properties; the tensor is about the centre of mass, body axes.
 const INERTIA: [(&str, &[&str]); 3] = [

@@ -10,7 +10,7 @@
 //! With 1/ρ = the trace of the contact's own block of A all terms are impulses; divided by the largest impulse of the
 //! island, neither masses nor lengths nor times matter. Rounding gives 1e-16 … 1e-13, a wrong impulse O(1).
 
-use super::{Push, relative};
+use super::push::{Push, relative};
 use crate::collide::approach::Approach;
 use crate::collide::{Contact, SolvedContact};
 use crate::model::Model;

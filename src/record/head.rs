@@ -4,9 +4,9 @@ use super::sample::{BodyHeader, Header};
 use super::sampler::{steps_between, streams};
 use crate::build_info::{BUILD, PROGRAM};
 use crate::case::Case;
+use crate::clock::Clock;
 use crate::experiment::types::{Container, ContainerBox, Experiment, Plane};
 use crate::model::{Body, Model};
-use crate::step::Clock;
 use nalgebra::Vector3;
 
 pub fn header(case: &Case, model: &Model, clock: &Clock) -> Header {

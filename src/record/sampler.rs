@@ -5,14 +5,15 @@
 use super::RecordError;
 use super::sample::{BodySample, ContactSample, EnergySample, Event, Severity, Streams};
 use super::writer::Writer;
+use crate::clock::Clock;
 use crate::collide::SolvedContact;
 use crate::experiment::types::{Record, Stream};
 use crate::measure::deepest_m;
 use crate::measure::energy::Energy;
 use crate::model::Model;
-use crate::row::{Measured, Outcome};
+use crate::outcome::Outcome;
+use crate::rows::Measured;
 use crate::state::{BodyState, State};
-use crate::step::Clock;
 
 /// Samples of one run.
 pub struct Sampler {

@@ -1,10 +1,10 @@
 //! The diagram of `bench.json`: run time over error, a line a method, the Pareto front behind them.
 
 use super::diagram::{Diagram, Series};
-use crate::bench::table::{Row, methods, order, pareto};
+use crate::rows::trials::{Trial, methods, order, pareto};
 
 /// Of all rows of a scene.
-pub fn diagram(title: &str, rows: &[Row]) -> Diagram {
+pub fn diagram(title: &str, rows: &[Trial]) -> Diagram {
     let column = rows.first().map_or("error", |row| row.error_kind.as_str());
     let mut front: Vec<(f64, f64)> =
         rows.iter().zip(pareto(rows)).filter(|(_, on_it)| *on_it).filter_map(|(row, _)| row.point()).collect();
@@ -18,8 +18,8 @@ pub fn diagram(title: &str, rows: &[Row]) -> Diagram {
     }
 }
 
-fn series(rows: &[Row], method: &str) -> Series {
-    let of_method: Vec<&Row> = rows.iter().filter(|row| row.method == method).collect();
+fn series(rows: &[Trial], method: &str) -> Series {
+    let of_method: Vec<&Trial> = rows.iter().filter(|row| row.method == method).collect();
     let points: Vec<(f64, f64)> = of_method.iter().filter_map(|row| row.point()).collect();
     let mut label = method.to_string();
     if let Some(order) = order(rows, method) {

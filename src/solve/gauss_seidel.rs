@@ -7,7 +7,7 @@
 use super::problem::{Block, ContactProblem, Coupling, Memory};
 use super::{Impulse, corrected, exact_contact};
 use crate::experiment::types::{Cone, Correction, Iteration, Local, Order};
-use crate::measure::work::Work;
+use crate::work::Work;
 use nalgebra::Vector3;
 
 /// How to iterate, and when to stop.

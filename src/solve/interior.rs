@@ -9,9 +9,9 @@
 //! followed may turn back before its end: then the best impulses on it are a start for others.
 
 use super::Impulse;
-use super::block_lu::Factors;
 use super::island::{Island, Touch};
 use super::law::{self, Law};
+use crate::math::block_lu::Factors;
 use nalgebra::{DVector, Matrix3, Vector3};
 
 const MOST: usize = 60;

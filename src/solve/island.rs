@@ -5,9 +5,9 @@
 //! σ, its own block of A having the trace 1/σ²: velocities are σ u, impulses p/σ, and Coulomb's cone stays what it is.
 
 use super::Impulse;
-use super::block_lu::{BlockMatrix, Factors, Pattern};
 use super::law::{self, Law};
 use super::problem::{Block, ContactProblem, End, Inertia};
+use crate::math::block_lu::{BlockMatrix, Factors, Pattern};
 use nalgebra::{DVector, Matrix3, Matrix3x6, Vector3};
 
 /// The rows of G of one of a contact's bodies.

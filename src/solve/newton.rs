@@ -15,7 +15,7 @@ use super::island::{Island, islands};
 use super::problem::ContactProblem;
 use super::{Impulse, active_set, interior, proximal, smallest};
 use crate::experiment::types::{Cone, Correction, Iteration, Local, Order};
-use crate::measure::work::Work;
+use crate::work::Work;
 
 /// Sweeps to begin with: few contacts are mostly settled by them. And sweeps between two tries where nothing else helps.
 const SWEEPS: u32 = 20;

@@ -5,7 +5,7 @@
 use super::Impulse;
 use super::gauss_seidel::{Scratch, Sweeps, has_settled, sweep};
 use super::problem::{ContactProblem, Coupling};
-use crate::measure::work::Work;
+use crate::work::Work;
 
 /// Improves `p` by at most `sweeps.most` sweeps, the last of which leaves it in the cones. Whether it has settled.
 pub fn iterate(

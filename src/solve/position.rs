@@ -8,8 +8,8 @@
 use super::problem::{Block, ContactProblem, Twist};
 use crate::collide::Contact;
 use crate::collide::approach::{rounding_m, size_m};
-use crate::measure::work::Work;
 use crate::model::{Body, Model};
+use crate::work::Work;
 
 /// Part of the depth that is removed in a step whatever it costs, and of a greater depth at most: 10 steps for 90 %. All of
 /// it at once would turn bodies so far that they leave the contacts that hold them, and a pile would shake.

@@ -6,7 +6,7 @@
 use super::Impulse;
 use super::problem::ContactProblem;
 use crate::experiment::types::Start;
-use crate::linear::least_norm;
+use crate::math::least_norm::least_norm;
 use nalgebra::Vector3;
 
 /// Eigenvalues below this part of the largest are rounding.

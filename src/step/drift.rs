@@ -5,9 +5,9 @@ use crate::exact::free_rotation::FreeRotation;
 use crate::integrate::implicit_midpoint;
 use crate::integrate::momentum::{cayley, momentum_W, turn, velocity_W};
 use crate::integrate::rotation::exponential;
-use crate::measure::work::Work;
 use crate::model::Model;
 use crate::state::State;
+use crate::work::Work;
 
 /// Radians in a step.
 const SLOW: f64 = 0.5;

@@ -3,13 +3,12 @@
 //! A step is one of both. The clock means nothing here but its end: where a recorder looks is read off the motion, so that
 //! the run is the same with or without it.
 
-use super::Span;
 use super::stretch::{self, Stretch};
 use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, decide, margin};
 use crate::event::dense::{Dense, Field, project};
-use crate::event::forces::{Choice, Forces, Held, NO_SLIP, meeting_m_s};
+use crate::event::forces::{Forces, Held, NO_SLIP, meeting_m_s};
 use crate::event::impact;
 use crate::event::motion::Motion;
 use crate::event::settle::settle;
@@ -17,12 +16,15 @@ use crate::event::slip::{self, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
 use crate::experiment::types::{EventDriven as Settings, Impact};
-use crate::measure::Moment;
-use crate::measure::divergence::Criterion;
-use crate::measure::work::Work;
+use crate::math::full_pivot::Choice;
+use crate::math::quadrature;
 use crate::model::Model;
+use crate::outcome::Criterion;
 use crate::plan::Plan;
+use crate::shown::Moment;
+use crate::shown::Span;
 use crate::state::State;
+use crate::work::Work;
 use std::collections::BTreeMap;
 
 /// What ends a stretch.
@@ -451,13 +453,6 @@ impl EventDriven {
 
     /// At the nodes of Gauss's quadrature with five points.
     pub fn moments(&mut self, model: &Model, [before, after]: [&State; 2]) -> Vec<Moment> {
-        const NODES: [(f64, f64); 5] = [
-            (0.046910077030668, 0.11846344252809454),
-            (0.230765344947158, 0.23931433524968324),
-            (0.5, 0.28444444444444444),
-            (0.769234655052842, 0.23931433524968324),
-            (0.953089922969332, 0.11846344252809454),
-        ];
         let span_s = after.time_s - before.time_s;
         if span_s <= 0.0 || (self.held.is_empty() && !model.has_loads()) {
             return Vec::new();
@@ -470,6 +465,6 @@ impl EventDriven {
             contacts.iter_mut().for_each(|solved| solved.impulse_W *= weight * span_s);
             Moment { state, contacts, weight_s: weight * span_s }
         };
-        NODES.into_iter().map(moment).collect()
+        quadrature::FIVE.into_iter().map(moment).collect()
     }
 }

@@ -1,14 +1,15 @@
 //! Motion without contact (L4, L5): every island of bodies that pins join on its own.
 
-use super::Clock;
-use crate::exact::Reference;
+use crate::clock::Clock;
+use crate::exact::Closed;
+use crate::experiment::tolerances::DEFAULT_TOLERANCE;
 use crate::experiment::types::{Exact, Free as Settings, Integrator, Update};
 use crate::integrate::island::Island;
-use crate::integrate::{DEFAULT_TOLERANCE, crank_nicolson, dop853, euler, implicit, implicit_midpoint, momentum};
+use crate::integrate::{crank_nicolson, dop853, euler, implicit, implicit_midpoint, momentum};
 use crate::integrate::{moser_veselov, rk4, taylor};
-use crate::measure::work::Work;
 use crate::model::Model;
 use crate::state::State;
+use crate::work::Work;
 use nalgebra::Vector3;
 
 /// An integrator with its scratch, of one island.
@@ -31,7 +32,7 @@ enum Method {
 pub struct Free {
     islands: Vec<(Island, Method)>,
     /// From the start, for `exact`.
-    motion: Option<Reference>,
+    motion: Option<Closed>,
     /// A step has no solution, or the tolerance is out of reach.
     pub(super) stalled: bool,
     pub(super) work: Work,
@@ -39,7 +40,7 @@ pub struct Free {
 
 impl Free {
     pub fn new(settings: &Settings, model: &Model, start: &State) -> Self {
-        let exact = || Reference::new(Exact::FreeMotion, model, start).ok();
+        let exact = || Closed::new(Exact::FreeMotion, model, start).ok();
         let motion = (settings.integrator == Integrator::Exact).then(exact).flatten();
         let islands = Island::all(model, start).into_iter();
         let islands = islands.filter_map(|island| Method::new(settings, &island, model).map(|method| (island, method)));

@@ -1,6 +1,7 @@
 //! The lecture's simulation (L16–L21), its five steps visible as five, in all literal variants.
 
-use super::{Clock, Scratch, move_body};
+use super::scratch::{Scratch, move_body};
+use crate::clock::Clock;
 use crate::collide::Reach;
 use crate::collide::approach::Approach;
 use crate::experiment::types::Lecture as Settings;

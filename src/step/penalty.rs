@@ -1,6 +1,7 @@
 //! The penalty method (L15): a spring and a damper in every penetrating node, regularised Coulomb friction.
 
-use super::{Clock, Scratch, move_body};
+use super::scratch::{Scratch, move_body};
+use crate::clock::Clock;
 use crate::collide::{Contact, Reach, SolvedContact};
 use crate::experiment::types::Penalty as Settings;
 use crate::model::Model;

@@ -1,7 +1,9 @@
 //! Some steps of equal length by time-stepping, where events lead no further: they accumulate, or parts of bodies touch whose
 //! forces of contact are not known in closed form.
 
-use super::{Clock, Scratch, time_stepping};
+use super::scratch::Scratch;
+use super::time_stepping;
+use crate::clock::Clock;
 use crate::collide::SolvedContact;
 use crate::event::slip::falls;
 use crate::experiment::types::{Impact, Method, Scheme, Solver, TimeStepping};

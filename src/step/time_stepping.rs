@@ -10,13 +10,13 @@
 use super::blow::Blow;
 use super::drift::drift;
 use super::hold::pins;
-use super::{Clock, Scratch};
+use super::scratch::Scratch;
+use crate::clock::Clock;
 use crate::collide::approach::{Approach, foresee};
 use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, Reach, SolvedContact};
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, Solver, TimeStepping as Settings};
 use crate::integrate::rotation::{exponential, w_from_momentum};
-use crate::measure::work::Work;
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::solve::gauss_seidel::{self, Sweeps, Variant};
@@ -24,6 +24,7 @@ use crate::solve::position::Push;
 use crate::solve::problem::{ContactProblem, Pin, Twist};
 use crate::solve::{Impulse, newton, nncg};
 use crate::state::State;
+use crate::work::Work;
 use nalgebra::Vector3;
 
 /// Of the greatest friction: what is below it sticks.

@@ -4,7 +4,8 @@
 //! recorders on, which gives the same bits.
 
 use crate::experiment::types::RecordCases;
-use crate::row::{Measured, Outcome};
+use crate::outcome::Outcome;
+use crate::rows::Measured;
 
 /// `few`: what a person can look at, and 24 files of some MB each.
 pub const FEW: usize = 24;

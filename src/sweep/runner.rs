@@ -1,21 +1,23 @@
 //! Runs the missing cases of a plan on all cores, each row kept as soon as its case ends.
 
+use super::planned::Planned;
 use super::recordings::{known_after, known_before};
-use super::store::{Store, StoreError};
-use crate::auto;
+use super::store::Store;
 use crate::case::Case;
-use crate::due::ticks;
 use crate::experiment::types::{Record, RecordCases, RecordTo};
-use crate::model::{self, Model};
+use crate::files::FileError;
+use crate::model::Model;
 use crate::panics;
 use crate::record::RecordError;
 use crate::record::head::header;
 use crate::record::sampler::Sampler;
 use crate::record::writer::{Target, open};
-use crate::reference;
-use crate::row::Measured;
-use crate::run::{self, Ended};
+use crate::rows::Measured;
+use crate::run::Ended;
+use crate::run::ticks::ticks;
+use crate::scene;
 use crate::state::State;
+use crate::study::{self, choose, reference};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -26,7 +28,7 @@ use std::sync::{Mutex, MutexGuard};
 #[derive(Debug, thiserror::Error)]
 pub enum SweepError {
     #[error(transparent)]
-    Store(#[from] StoreError),
+    Store(#[from] FileError),
     #[error(transparent)]
     Record(#[from] RecordError),
     /// The program failed: a case that was run again for its recording measured something else.
@@ -51,18 +53,18 @@ pub struct Job<'a> {
     pub progress: &'a dyn Progress,
 }
 
-pub type Work<'a> = dyn Fn(&Case, &[Target]) -> (Measured, Written) + Sync + 'a;
+pub type Work<'a> = dyn Fn(&Planned, &[Target]) -> (Measured, Written) + Sync + 'a;
 
 /// Whether the recordings of a run were written. A run that cannot be recorded still has its result.
 pub type Written = Result<(), RecordError>;
 
 impl Job<'_> {
     /// Runs what is missing, then records the chosen cases and writes the tables. How many cases were run.
-    pub fn sweep(&self, cases: &[Case], store: &Mutex<Store>) -> Result<usize, SweepError> {
+    pub fn sweep(&self, cases: &[Planned], store: &Mutex<Store>) -> Result<usize, SweepError> {
         let rule = match cases.first() {
             // The row of a search is of many runs: none of them is the one to look at.
-            Some(Case { search: Some(_), .. }) => RecordCases::None,
-            first => first.map_or(Record::default().cases, |case| case.experiment.record.cases),
+            Some(Planned { search: Some(_), .. }) => RecordCases::None,
+            first => first.map_or(Record::default().cases, |first| first.case.experiment.record.cases),
         };
         let missing = missing(cases, &lock(store));
         let at_once: HashSet<usize> = match known_before(rule, cases.len()) {
@@ -74,7 +76,7 @@ impl Job<'_> {
         let ran = missing.par_iter().try_for_each(|&i| {
             let targets = if at_once.contains(&i) { self.targets } else { &[] };
             let (measured, written) = self.caught(&cases[i], targets);
-            lock(store).add(&cases[i].id, measured)?;
+            lock(store).add(&cases[i].case.id, measured)?;
             self.progress.one_done();
             Ok::<_, SweepError>(written?)
         });
@@ -89,8 +91,9 @@ impl Job<'_> {
     }
 
     /// Those that no earlier sweep has left here, each once. A search makes its own.
-    fn make_references(&self, missing: &[usize], cases: &[Case]) -> Result<(), SweepError> {
-        let single = missing.iter().map(|&i| &cases[i]).filter(|case| case.search.is_none());
+    fn make_references(&self, missing: &[usize], cases: &[Planned]) -> Result<(), SweepError> {
+        let single =
+            missing.iter().map(|&i| &cases[i]).filter(|planned| planned.search.is_none()).map(|planned| &planned.case);
         let needed: BTreeMap<_, _> =
             single.filter_map(|case| Some((reference::path(self.dir, &case.experiment)?, case))).collect();
         let missing: Vec<&Case> = needed.into_iter().filter(|(path, _)| !path.exists()).map(|(_, case)| case).collect();
@@ -99,7 +102,7 @@ impl Job<'_> {
         }
         self.progress.begin("references", missing.len());
         let made = missing.par_iter().try_for_each(|case| {
-            let make = || match model::build(&case.experiment) {
+            let make = || match scene::build(&case.experiment) {
                 Ok((model, start)) => reference::of(self.dir, &case.experiment, &model, &start).map(drop),
                 Err(_) => Ok(()),
             };
@@ -116,17 +119,17 @@ impl Job<'_> {
     fn record_chosen(
         &self,
         rule: RecordCases,
-        cases: &[Case],
+        cases: &[Planned],
         store: &Mutex<Store>,
         stale: &HashSet<usize>,
     ) -> Result<(), SweepError> {
         let chosen = {
             let store = lock(store);
-            let measured: Vec<_> = cases.iter().map(|case| store.measured(&case.id)).collect();
+            let measured: Vec<_> = cases.iter().map(|planned| store.measured(&planned.case.id)).collect();
             known_after(rule, &measured)
         };
         let chosen: Vec<_> =
-            chosen.into_iter().filter(|i| stale.contains(i) || !self.is_recorded(&cases[*i])).collect();
+            chosen.into_iter().filter(|i| stale.contains(i) || !self.is_recorded(&cases[*i].case)).collect();
         if chosen.is_empty() {
             return Ok(());
         }
@@ -134,12 +137,12 @@ impl Job<'_> {
         let result = chosen.par_iter().try_for_each(|&i| {
             let (again, written) = self.caught(&cases[i], self.targets);
             written?;
-            let first = lock(store).measured_by_this_build(&cases[i].id).map(Measured::without_wall_time);
+            let first = lock(store).measured_by_this_build(&cases[i].case.id).map(Measured::without_wall_time);
             self.progress.one_done();
             let same = first.is_none_or(|first| first == again.without_wall_time());
             // How far a run comes in a given time is another thing every time.
-            let same = same || cases[i].experiment.limits.wall_s.is_some();
-            if same { Ok(()) } else { Err(SweepError::NotDeterministic(cases[i].id.clone())) }
+            let same = same || cases[i].case.experiment.limits.wall_s.is_some();
+            if same { Ok(()) } else { Err(SweepError::NotDeterministic(cases[i].case.id.clone())) }
         });
         self.progress.end();
         result
@@ -151,25 +154,25 @@ impl Job<'_> {
     }
 
     /// A case that panics is a row too, and the sweep goes on.
-    fn caught(&self, case: &Case, targets: &[Target]) -> (Measured, Written) {
-        let ran = catch_unwind(AssertUnwindSafe(|| (self.work)(case, targets)));
+    fn caught(&self, planned: &Planned, targets: &[Target]) -> (Measured, Written) {
+        let ran = catch_unwind(AssertUnwindSafe(|| (self.work)(planned, targets)));
         ran.unwrap_or_else(|panic| (Measured::failed(panics::message(panic.as_ref()).to_string()), Ok(())))
     }
 }
 
 /// The first of equal cases stands for all of them.
-fn missing(cases: &[Case], store: &Store) -> Vec<usize> {
+fn missing(cases: &[Planned], store: &Store) -> Vec<usize> {
     let mut seen = HashSet::new();
-    let is_missing = |case: &Case| store.measured(&case.id).is_none();
-    (0..cases.len()).filter(|&i| seen.insert(&cases[i].id) && is_missing(&cases[i])).collect()
+    let is_missing = |planned: &Planned| store.measured(&planned.case.id).is_none();
+    (0..cases.len()).filter(|&i| seen.insert(&cases[i].case.id) && is_missing(&cases[i])).collect()
 }
 
 /// Builds a case's model and runs it, recording it into `dir`: the usual `Work`.
-pub fn build_and_run(case: &Case, dir: &Path, targets: &[Target]) -> (Measured, Written) {
-    if let Some(cell) = &case.search {
+pub fn build_and_run(Planned { case, search }: &Planned, dir: &Path, targets: &[Target]) -> (Measured, Written) {
+    if let Some(cell) = search {
         return (cell.bisect(dir), Ok(()));
     }
-    match model::build(&case.experiment) {
+    match scene::build(&case.experiment) {
         Ok((model, start)) => {
             let (ended, written) = run_case(case, &model, start, dir, targets);
             (ended.measured, written)
@@ -182,10 +185,10 @@ pub fn build_and_run(case: &Case, dir: &Path, targets: &[Target]) -> (Measured, 
 /// Runs one case and writes its recordings.
 pub fn run_case(case: &Case, model: &Model, start: State, dir: &Path, targets: &[Target]) -> (Ended, Written) {
     let reference = reference::of_or_made(dir, &case.experiment, model, &start);
-    let choice = auto::choose(&case.experiment, model, &start);
+    let choice = choose::choose(&case.experiment, model, &start);
     let experiment = choice.as_ref().map_or(&case.experiment, |choice| &choice.experiment);
     let run = |sampler: Option<&mut Sampler>| {
-        run::run_as(choice.as_ref(), &case.experiment, model, start, sampler, reference.as_ref())
+        study::run_as(choice.as_ref(), &case.experiment, model, start, sampler, reference.as_ref())
     };
     if targets.is_empty() {
         return (run(None), Ok(()));

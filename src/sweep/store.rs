@@ -4,29 +4,16 @@
 //! in plan order. The journal holds what was measured by case id, the plan holds the axes: a sweep whose axes have
 //! grown finds its old rows again.
 
-use super::plan::{PlanCase, PlanFile};
-use super::table;
 use crate::build_info::BUILD;
-use crate::row::{Measured, Row};
+use crate::files::{FileError, write_whole};
+use crate::rows::plan_file::{PlanCase, PlanFile};
+use crate::rows::table;
+use crate::rows::{Measured, Row};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
-
-/// The machine failed: disk full, no permission.
-#[derive(Debug, thiserror::Error)]
-#[error("{path}: {reason}")]
-pub struct StoreError {
-    pub path: PathBuf,
-    pub reason: String,
-}
-
-impl StoreError {
-    pub fn new(path: &Path, reason: impl std::fmt::Display) -> Self {
-        StoreError { path: path.to_path_buf(), reason: reason.to_string() }
-    }
-}
 
 /// One line of the journal.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -50,8 +37,8 @@ pub struct Store {
 
 impl Store {
     /// Opens or makes the folder and writes the plan. Rows of another build count as missing, unless `keep`.
-    pub fn open(dir: &Path, plan: PlanFile, keep: bool) -> Result<Self, StoreError> {
-        std::fs::create_dir_all(dir).map_err(|error| StoreError::new(dir, error))?;
+    pub fn open(dir: &Path, plan: PlanFile, keep: bool) -> Result<Self, FileError> {
+        std::fs::create_dir_all(dir).map_err(|error| FileError::new(dir, error))?;
         let mut done = read_journal(dir)?;
         if !keep {
             done.retain(|_, entry| entry.build == BUILD);
@@ -62,7 +49,7 @@ impl Store {
         let mut store = Store {
             dir: dir.to_path_buf(),
             plan,
-            journal: journal.map_err(|error| StoreError::new(&path, error))?,
+            journal: journal.map_err(|error| FileError::new(&path, error))?,
             done,
         };
         store.end_torn_line()?;
@@ -70,10 +57,10 @@ impl Store {
     }
 
     /// Opens a folder for reading its rows, of whatever build.
-    pub fn read(dir: &Path) -> Result<(PlanFile, Done), StoreError> {
+    pub fn read(dir: &Path) -> Result<(PlanFile, Done), FileError> {
         let path = dir.join("plan.json");
-        let text = std::fs::read(&path).map_err(|error| StoreError::new(&path, error))?;
-        let plan = serde_json::from_slice(&text).map_err(|error| StoreError::new(&path, error))?;
+        let text = std::fs::read(&path).map_err(|error| FileError::new(&path, error))?;
+        let plan = serde_json::from_slice(&text).map_err(|error| FileError::new(&path, error))?;
         Ok((plan, read_journal(dir)?))
     }
 
@@ -87,11 +74,11 @@ impl Store {
     }
 
     /// Appends to the journal at once.
-    pub fn add(&mut self, case: &str, measured: Measured) -> Result<(), StoreError> {
+    pub fn add(&mut self, case: &str, measured: Measured) -> Result<(), FileError> {
         let entry = Entry { case: case.to_string(), build: BUILD.to_string(), measured };
         let mut line = serde_json::to_string(&entry).unwrap_or_default();
         line.push('\n');
-        self.journal.write_all(line.as_bytes()).map_err(|error| StoreError::new(&journal_path(&self.dir), error))?;
+        self.journal.write_all(line.as_bytes()).map_err(|error| FileError::new(&journal_path(&self.dir), error))?;
         self.done.insert(entry.case.clone(), entry);
         Ok(())
     }
@@ -101,20 +88,20 @@ impl Store {
         rows(&self.plan, &self.done)
     }
 
-    pub fn write_tables(&self) -> Result<(), StoreError> {
+    pub fn write_tables(&self) -> Result<(), FileError> {
         let table = table::Table::new(&self.plan.axes, &self.rows());
         let csv = self.dir.join("rows.csv");
-        write_whole(&csv, &table.to_csv().map_err(|error| StoreError::new(&csv, error))?)?;
+        write_whole(&csv, &table.to_csv().map_err(|error| FileError::new(&csv, error))?)?;
         let parquet = self.dir.join("rows.parquet");
-        write_whole(&parquet, &table.to_parquet().map_err(|error| StoreError::new(&parquet, error))?)
+        write_whole(&parquet, &table.to_parquet().map_err(|error| FileError::new(&parquet, error))?)
     }
 
     /// A killed run may have left half a line: end it, so that the next one starts at its beginning.
-    fn end_torn_line(&mut self) -> Result<(), StoreError> {
+    fn end_torn_line(&mut self) -> Result<(), FileError> {
         let path = journal_path(&self.dir);
-        let text = std::fs::read(&path).map_err(|error| StoreError::new(&path, error))?;
+        let text = std::fs::read(&path).map_err(|error| FileError::new(&path, error))?;
         if text.last().is_some_and(|last| *last != b'\n') {
-            self.journal.write_all(b"\n").map_err(|error| StoreError::new(&path, error))?;
+            self.journal.write_all(b"\n").map_err(|error| FileError::new(&path, error))?;
         }
         Ok(())
     }
@@ -134,26 +121,19 @@ fn journal_path(dir: &Path) -> PathBuf {
 }
 
 /// Later lines win; half a line, left by a kill, counts for nothing.
-fn read_journal(dir: &Path) -> Result<Done, StoreError> {
+fn read_journal(dir: &Path) -> Result<Done, FileError> {
     let path = journal_path(dir);
     let file = match File::open(&path) {
         Ok(file) => file,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Done::new()),
-        Err(error) => return Err(StoreError::new(&path, error)),
+        Err(error) => return Err(FileError::new(&path, error)),
     };
     let mut done = Done::new();
     for line in BufReader::new(file).split(b'\n') {
-        let line = line.map_err(|error| StoreError::new(&path, error))?;
+        let line = line.map_err(|error| FileError::new(&path, error))?;
         if let Ok(entry) = serde_json::from_slice::<Entry>(&line) {
             done.insert(entry.case.clone(), entry);
         }
     }
     Ok(done)
-}
-
-/// Under a temporary name first: a file with the final name is whole.
-pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), StoreError> {
-    let partial = path.with_extension("partial");
-    std::fs::write(&partial, content).map_err(|error| StoreError::new(&partial, error))?;
-    std::fs::rename(&partial, path).map_err(|error| StoreError::new(path, error))
 }

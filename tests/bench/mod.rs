@@ -7,8 +7,8 @@ mod peer;
 use crate::cli::run;
 use crate::scratch;
 use crate::yaml;
-use gotai::bench::table::{Row, order, pareto};
 use gotai::bench::{self, timing};
+use gotai::rows::trials::{Row, order, pareto};
 use serde_json::Value;
 
 /// A body that turns about all its axes, and falls.
@@ -74,7 +74,7 @@ fn the_timed_loop_ends_in_the_bits_of_the_judged_run() {
     let file = yaml::file(SPIN, &[]);
     for trial in bench::plan(&file, file.bench().unwrap()).unwrap() {
         let timed = timing::time(&trial.experiment, &trial.model, &trial.start, 1).end;
-        let judged = gotai::run::run(&trial.experiment, &trial.model, trial.start.clone(), None).state;
+        let judged = gotai::study::run(&trial.experiment, &trial.model, trial.start.clone(), None).state;
         let bits = |state: &gotai::state::State| -> Vec<u64> {
             let at = &state.bodies[0];
             let numbers = [at.p_WB.as_slice(), at.q_WB.coords.as_slice(), at.v_WB.as_slice(), at.w_WB.as_slice()];

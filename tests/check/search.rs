@@ -1,7 +1,7 @@
 //! Bisection where the critical value is known.
 
 use crate::yaml;
-use gotai::row::Measured;
+use gotai::rows::Measured;
 use gotai::sweep::plan::cases;
 use gotai::sweep::runner::build_and_run;
 use serde_json::{Value, json};

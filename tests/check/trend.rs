@@ -1,7 +1,7 @@
 //! The two tests for a trend against published and exact values, and against chance.
 
-use gotai::check::trend::{cochran_armitage, mann_kendall};
-use gotai::measure::order;
+use gotai::math::order;
+use gotai::math::trend::{cochran_armitage, mann_kendall};
 
 /// Alcohol of the mother and malformation of the child, five levels with equally spaced scores: M² = 1.83
 /// (A. Agresti, An Introduction to Categorical Data Analysis, 2nd ed., sec. 2.5).

@@ -1,5 +1,5 @@
 use super::oracle::Draws;
-use gotai::collide::hull::{Hull, HullError};
+use gotai::shape::hull::{Hull, HullError};
 use nalgebra::Vector3;
 
 fn cube() -> Vec<Vector3<f64>> {

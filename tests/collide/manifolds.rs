@@ -1,8 +1,8 @@
 //! Which points touch, and under which names.
 
 use super::oracle::{Draws, about, at, level_at, solids};
-use gotai::collide::pair::touches;
-use gotai::collide::solid::{Pose, Solid, Touch};
+use gotai::shape::pair::touches;
+use gotai::shape::solid::{Meeting, Pose, Solid};
 use nalgebra::{UnitQuaternion, Vector3};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 

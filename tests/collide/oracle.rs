@@ -1,7 +1,7 @@
 //! Solids by their definitions, written without the code under test: membership and support, and random poses.
 
-use gotai::collide::hull::Hull;
-use gotai::collide::solid::{Pose, Solid};
+use gotai::shape::hull::Hull;
+use gotai::shape::solid::{Pose, Solid};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// SplitMix64 (G. L. Steele, D. Lea & C. H. Flood, OOPSLA 2014).
@@ -77,7 +77,7 @@ pub fn level(solid: &Solid, p: &Vector3<f64>) -> f64 {
         Solid::Ellipsoid { semi_axes_m } => (p.component_div(semi_axes_m).norm() - 1.0) * semi_axes_m.min(),
         Solid::Convex(hull) => {
             let height =
-                |face: &gotai::collide::hull::Polygon| face.normal.dot(&(p - hull.vertices[face.corners[0] as usize]));
+                |face: &gotai::shape::hull::Polygon| face.normal.dot(&(p - hull.vertices[face.corners[0] as usize]));
             hull.faces.iter().map(height).fold(f64::NEG_INFINITY, f64::max)
         }
     }

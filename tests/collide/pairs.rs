@@ -2,8 +2,8 @@
 //! them by, with a point of either solid at its ends, is the distance; if negative, no plane of thousands may do better.
 
 use super::oracle::{Draws, beside, level_at, separation, solids};
-use gotai::collide::pair::touches;
-use gotai::collide::solid::{Pose, Solid, Touch};
+use gotai::shape::pair::touches;
+use gotai::shape::solid::{Meeting, Pose, Solid};
 use nalgebra::{Isometry3, Vector3};
 
 const GAPS_M: [f64; 8] = [0.3, 0.01, 1e-6, 0.0, -1e-9, -1e-3, -0.02, -0.08];

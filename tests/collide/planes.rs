@@ -1,5 +1,5 @@
 use super::oracle::{Draws, about, at, level_at, reach, solids};
-use gotai::collide::solid::{Pose, Solid, Touch, plane_touches};
+use gotai::shape::solid::{Meeting, Pose, Solid, plane_touches};
 use nalgebra::{UnitQuaternion, Vector3};
 
 fn on_floor(solid: &Solid, pose: &Pose, margin_m: f64) -> Vec<Touch> {

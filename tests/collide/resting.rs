@@ -1,8 +1,8 @@
 //! The new shapes in a run: what lies on the floor of a container stays there.
 
 use crate::yaml::experiment;
-use gotai::model::build;
 use gotai::plan::Plan;
+use gotai::scene::build;
 use gotai::step::Stepper;
 use nalgebra::Vector3;
 
@@ -36,7 +36,7 @@ time: {{ step_s: 0.01, end_s: 1 }}
         );
         let experiment = experiment(&text, &[]);
         let (model, start) = build(&experiment).unwrap();
-        let clock = gotai::run::clock(&experiment);
+        let clock = experiment.clock();
         let plan = Plan::new(&model, &experiment.method);
         let mut stepper = Stepper::new(&experiment.method, &plan, &model, &start);
         let mut state = start.clone();

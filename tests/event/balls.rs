@@ -3,8 +3,8 @@
 use super::apart_m;
 use crate::yaml::{experiment, run};
 use gotai::experiment::types::Limits;
-use gotai::model::build;
-use gotai::run::{clock, only_step};
+use gotai::run::advance::only_step;
+use gotai::scene::build;
 use gotai::state::State;
 
 /// Two balls that touch, struck by a third.
@@ -87,7 +87,7 @@ fn elastic_impacts_run_backward() {
         for seed in seeds {
             let experiment = experiment(text, &[&format!("seed={seed}")]);
             let (model, start) = build(&experiment).unwrap();
-            let go = |from: State| only_step(&experiment.method, &model, from, &clock(&experiment), &Limits::default());
+            let go = |from: State| only_step(&experiment.method, &model, from, &experiment.clock(), &Limits::default());
             let there = go(start.clone());
             let grown = run(&experiment).measured.sensitivity.unwrap();
             let error = apart_m(&go(reversed(&there.state)).state, &start) / grown;

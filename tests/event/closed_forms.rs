@@ -2,7 +2,7 @@
 
 use super::worst_error;
 use crate::yaml::measured;
-use gotai::row::Outcome;
+use gotai::outcome::Outcome;
 
 /// Seven scenes, from free flight to slipping and rolling; z is up where something is touched.
 const SCENES: [(&str, &str); 7] = [

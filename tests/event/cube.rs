@@ -3,7 +3,7 @@
 use super::{apart_m, impacts};
 use crate::methods::order;
 use crate::yaml::{experiment, run};
-use gotai::row::Outcome;
+use gotai::outcome::Outcome;
 use rayon::prelude::*;
 
 const CUBE: &str = "

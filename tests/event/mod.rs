@@ -10,11 +10,14 @@ mod same;
 mod symmetries;
 mod tolerance;
 
+use gotai::clock::Clock;
 use gotai::experiment::types::Experiment;
 use gotai::measure::error::Errors;
-use gotai::row::{Measured, Outcome};
+use gotai::outcome::Outcome;
+use gotai::rows::Measured;
+use gotai::shown::Span;
 use gotai::state::State;
-use gotai::step::{Clock, Span, Stepper};
+use gotai::step::Stepper;
 use gotai::{model, plan::Plan};
 
 /// The largest of the errors of position, orientation and velocities against the closed form.

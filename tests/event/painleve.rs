@@ -2,7 +2,7 @@
 //! and an impulse stops the tip.
 
 use crate::yaml::{experiment, run};
-use gotai::row::Outcome;
+use gotai::outcome::Outcome;
 use gotai::run::Ended;
 use gotai::state::BodyState;
 use nalgebra::{Matrix2, Vector2};

@@ -2,8 +2,8 @@
 
 use crate::yaml::experiment;
 use gotai::experiment::types::Limits;
-use gotai::model::build;
-use gotai::run::{clock, only_step};
+use gotai::run::advance::only_step;
+use gotai::scene::build;
 use gotai::state::BodyState;
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
@@ -90,7 +90,7 @@ time: {{ end_s: {:?} }}
         );
         let experiment = experiment(&text, &[]);
         let (model, start) = build(&experiment).unwrap();
-        let ended = only_step(&experiment.method, &model, start, &clock(&experiment), &Limits::default());
+        let ended = only_step(&experiment.method, &model, start, &experiment.clock(), &Limits::default());
         self.back(&ended.state.bodies[0])
     }
 }

@@ -3,9 +3,9 @@
 use super::apart_m;
 use crate::yaml::experiment;
 use gotai::experiment::types::Limits;
-use gotai::model::build;
-use gotai::run::{clock, only_step};
-use gotai::sensitivity::sensitivity;
+use gotai::run::advance::only_step;
+use gotai::scene::build;
+use gotai::study::sensitivity::sensitivity;
 use rayon::prelude::*;
 
 const SHAPES: [&str; 6] = [
@@ -39,7 +39,7 @@ fn is_good(text: &str, tolerance: f64) -> Option<bool> {
     let least = experiment(text, &["method.event-driven.tolerance=1e-12"]);
     let (model, start) = build(&rough).unwrap();
     let limits = Limits { steps: Some(20_000), ..Limits::default() };
-    let [a, b] = [&rough, &least].map(|e| only_step(&e.method, &model, start.clone(), &clock(e), &limits));
+    let [a, b] = [&rough, &least].map(|e| only_step(&e.method, &model, start.clone(), &e.clock(), &limits));
     if a.stopped.is_some() || b.stopped.is_some() {
         return None;
     }

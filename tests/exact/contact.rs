@@ -1,7 +1,7 @@
 //! `exact:` of scenes with contact, as an experiment meets it: methods come near, other scenes are refused.
 
 use crate::yaml::{experiment, file, run};
-use gotai::exact::Reference;
+use gotai::exact::Closed;
 use gotai::experiment::types::Exact;
 use gotai::state::BodyState;
 use gotai::sweep::plan;
@@ -86,8 +86,8 @@ pub fn scene(which: Exact) -> String {
 /// The exact motion of the first body.
 pub fn reference(text: &str, sets: &[&str]) -> impl Fn(f64) -> BodyState + use<> {
     let experiment = experiment(text, sets);
-    let (model, start) = gotai::model::build(&experiment).unwrap();
-    let exact = Reference::new(experiment.exact.unwrap(), &model, &start).unwrap();
+    let (model, start) = gotai::scene::build(&experiment).unwrap();
+    let exact = Closed::new(experiment.exact.unwrap(), &model, &start).unwrap();
     move |t_s| exact.state_at(t_s).bodies[0]
 }
 

@@ -127,8 +127,8 @@ fn a_sleeping_top_is_stable_above_its_critical_spin() {
             "time={step_s: 0.05, end_s: 20}".into(),
         ];
         let experiment = experiment(&text, &sets.each_ref().map(String::as_str));
-        let (model, start) = gotai::model::build(&experiment).unwrap();
-        let clock = gotai::run::clock(&experiment);
+        let (model, start) = gotai::scene::build(&experiment).unwrap();
+        let clock = experiment.clock();
         let plan = gotai::plan::Plan::new(&model, &experiment.method);
         let mut stepper = gotai::step::Stepper::new(&experiment.method, &plan, &model, &start);
         let (mut state, mut largest) = (start, 0.0_f64);

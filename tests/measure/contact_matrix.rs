@@ -5,8 +5,9 @@ use crate::yaml::{CUBE_IN_BOX, experiment, run};
 use gotai::collide::Contact;
 use gotai::collide::approach::Approach;
 use gotai::experiment::types::Experiment;
-use gotai::model::{Model, build};
+use gotai::model::Model;
 use gotai::plan::Plan;
+use gotai::scene::build;
 use gotai::solve::problem::{ContactProblem, Twist};
 use gotai::state::State;
 use gotai::step::Stepper;
@@ -15,7 +16,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 /// A of the first of these steps with the most contacts.
 fn whole_matrix(experiment: &Experiment, steps: u64) -> DMatrix<f64> {
     let (model, mut state) = build(experiment).unwrap();
-    let (clock, plan) = (gotai::run::clock(experiment), Plan::new(&model, &experiment.method));
+    let (clock, plan) = (experiment.clock(), Plan::new(&model, &experiment.method));
     let mut stepper = Stepper::new(&experiment.method, &plan, &model, &state);
     let mut most: (Vec<Contact>, State) = (Vec::new(), state.clone());
     while state.step < steps {

@@ -5,8 +5,8 @@ use crate::yaml::{CUBE_IN_BOX, experiment};
 use gotai::collide::approach::Approach;
 use gotai::experiment::types::{Penalty, Rotation, Update};
 use gotai::measure::critical_step::critical_step_s;
-use gotai::model::build;
 use gotai::plan::Plan;
+use gotai::scene::build;
 use gotai::solve::problem::{ContactProblem, Twist};
 use gotai::step::Stepper;
 use nalgebra::SymmetricEigen;
@@ -83,7 +83,7 @@ fn the_largest_eigenvalue_is_that_of_the_normal_rows() {
         let sets = ["measure=[critical-step]", PENALTY, "time.step_s=0.001", &seed];
         let experiment = experiment(CUBE_IN_BOX, &sets);
         let (model, mut state) = build(&experiment).unwrap();
-        let (clock, plan) = (gotai::run::clock(&experiment), Plan::new(&model, &experiment.method));
+        let (clock, plan) = (experiment.clock(), Plan::new(&model, &experiment.method));
         let mut stepper = Stepper::new(&experiment.method, &plan, &model, &state);
         let mut before = state.clone();
         while stepper.contacts().is_empty() {

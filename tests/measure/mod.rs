@@ -8,7 +8,7 @@ mod sensitivity;
 use crate::yaml::experiment;
 use gotai::experiment::types::Experiment;
 use gotai::measure::more;
-use gotai::row::Measured;
+use gotai::rows::Measured;
 use serde_json::Value;
 
 /// The columns of a finished run, whose names were known before it.

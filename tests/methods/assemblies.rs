@@ -6,12 +6,12 @@ use gotai::collide::{Contact, SolvedContact};
 use gotai::experiment::types::{Cone, Correction, Iteration};
 use gotai::measure::Push;
 use gotai::measure::residual::ResidualLedger;
-use gotai::measure::work::Work;
 use gotai::model::Model;
 use gotai::solve::Impulse;
 use gotai::solve::gauss_seidel::{Scratch, Sweeps, Variant};
 use gotai::solve::problem::{Block, ContactProblem, Pin, PinEnd, Twist};
 use gotai::state::State;
+use gotai::work::Work;
 use nalgebra::Vector3;
 use std::fmt::Write;
 
@@ -93,7 +93,7 @@ impl Assembly {
             .unwrap();
         }
         writeln!(text, "time: {{ step_s: {STEP_S}, end_s: {STEP_S} }}").unwrap();
-        gotai::model::build(&experiment(&text, &[])).unwrap()
+        gotai::scene::build(&experiment(&text, &[])).unwrap()
     }
 
     pub fn gathered(self) -> Gathered {

@@ -3,11 +3,12 @@
 use crate::scratch;
 use crate::sweep::{planned, sweep};
 use crate::yaml::{experiment, file, measured, run};
-use gotai::auto::{HALVINGS, Scene};
 use gotai::bench;
+use gotai::outcome::Outcome;
 use gotai::plan::Plan;
 use gotai::record::writer::Target;
-use gotai::row::{Measured, Outcome};
+use gotai::rows::Measured;
+use gotai::study::choose::{HALVINGS, Scene};
 
 /// Nothing to hit: one closed form from start to end.
 const THROWN: &str = "
@@ -69,7 +70,7 @@ exact: sliding
 #[test]
 fn a_step_is_halved_until_two_runs_agree() {
     let mut experiment = experiment(SLIDING, &[]);
-    let (model, start) = gotai::model::build(&experiment).unwrap();
+    let (model, start) = gotai::scene::build(&experiment).unwrap();
     let scene = Scene { experiment: &experiment.clone(), model: &model, start: &start, tolerance: 1e-4 };
     let found = scene.by_steps();
     (experiment.method, experiment.time.step_s) = (found.method.clone(), found.step_s);
@@ -84,7 +85,7 @@ fn a_step_is_halved_until_two_runs_agree() {
 #[test]
 fn a_limit_ends_the_search_as_it_ends_a_run() {
     let experiment = experiment(SLIDING, &["limits.steps=150"]);
-    let (model, start) = gotai::model::build(&experiment).unwrap();
+    let (model, start) = gotai::scene::build(&experiment).unwrap();
     let scene = Scene { experiment: &experiment, model: &model, start: &start, tolerance: 1e-4 };
     // 100 steps arrive, 200 do not: nothing to compare.
     assert_eq!(scene.by_steps().estimate_m, f64::INFINITY);
@@ -113,7 +114,7 @@ fn a_recorded_run_is_the_same_run() {
 
 #[test]
 fn explain_says_what_auto_considers() {
-    let (model, _) = gotai::model::build(&experiment(THROWN, &[])).unwrap();
+    let (model, _) = gotai::scene::build(&experiment(THROWN, &[])).unwrap();
     let of = |set: &str| Plan::new(&model, &experiment(THROWN, &[set]).method).stages;
     let choice = of("seed=0").pop().unwrap();
     assert!(

@@ -2,7 +2,8 @@
 
 use super::order;
 use crate::yaml::{CUBE_IN_BOX, experiment, measured, run};
-use gotai::row::{Measured, Outcome};
+use gotai::outcome::Outcome;
+use gotai::rows::Measured;
 
 const SLAB: &str = "
 scene:

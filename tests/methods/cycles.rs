@@ -3,7 +3,7 @@
 use crate::yaml::{experiment, measured, run};
 use gotai::collide::Contact;
 use gotai::collide::reduce::Reduction;
-use gotai::row::Measured;
+use gotai::rows::Measured;
 use gotai::solve::exact_contact;
 use nalgebra::{Matrix3, Vector3};
 

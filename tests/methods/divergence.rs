@@ -1,7 +1,8 @@
 //! When a run counts as diverged: each criterion by its name, at its time.
 
 use crate::yaml::{CUBE_IN_BOX, measured};
-use gotai::row::{Measured, Outcome};
+use gotai::outcome::Outcome;
+use gotai::rows::Measured;
 
 const FALLING: &str = "
 scene:

@@ -1,11 +1,11 @@
 //! Laws of impact against closed forms.
 
 use super::assemblies::{Assembly, Gathered, Spread, Stone, sweeps};
-use gotai::measure::work::Work;
 use gotai::solve::gauss_seidel::Scratch;
 use gotai::solve::impact::{Law, darboux_keller, resolve};
 use gotai::solve::problem::ContactProblem;
 use gotai::solve::{Impulse, newton};
+use gotai::work::Work;
 use nalgebra::{Matrix3, Vector3};
 
 /// The exact solver for plastic contacts.

@@ -5,13 +5,13 @@ use super::impact::plastic;
 use crate::yaml::experiment;
 use gotai::collide::Contact;
 use gotai::collide::approach::Approach;
-use gotai::measure::work::Work;
 use gotai::model::Model;
 use gotai::solve::Impulse;
 use gotai::solve::gauss_seidel::{self, Scratch};
 use gotai::solve::impact::{Law, Plastic, darboux_keller, resolve};
 use gotai::solve::problem::{ContactProblem, Twist};
 use gotai::state::State;
+use gotai::work::Work;
 use nalgebra::{Matrix3, Vector3};
 use std::fmt::Write;
 
@@ -33,7 +33,7 @@ fn bodies(spread: &mut Spread) -> (Model, State) {
         writeln!(text, "    - {{ name: b{i}, shape: none, mass_kg: {mass:e}, inertia_kg_m2: {inertia:?} }}").unwrap();
     }
     writeln!(text, "time: {{ step_s: 0.01, end_s: 0.01 }}").unwrap();
-    gotai::model::build(&experiment(&text, &[])).unwrap()
+    gotai::scene::build(&experiment(&text, &[])).unwrap()
 }
 
 fn contact(spread: &mut Spread, number: u32, friction: f64) -> Contact {

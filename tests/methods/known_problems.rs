@@ -2,8 +2,8 @@
 
 use super::order;
 use crate::yaml::{experiment, run};
-use gotai::model::build;
 use gotai::plan::Plan;
+use gotai::scene::build;
 use gotai::step::Stepper;
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -138,7 +138,7 @@ time: {{ step_s: 1e-4, end_s: 2 }}
     );
     let experiment = experiment(&text, &[]);
     let (model, mut state) = build(&experiment).unwrap();
-    let clock = gotai::run::clock(&experiment);
+    let clock = experiment.clock();
     let mut stepper = Stepper::new(&experiment.method, &Plan::new(&model, &experiment.method), &model, &state);
     stepper.step(&model, &mut state, &clock);
     while stepper.contacts().iter().any(|contact| contact.impulse_W.norm() > 0.0) {

@@ -3,15 +3,15 @@
 use crate::yaml::{CUBE_IN_BOX, FREE_BAR, experiment, measured, run};
 use gotai::collide::approach::Approach;
 use gotai::collide::{Detector, Reach};
-use gotai::measure::work::Work;
-use gotai::row::Outcome;
+use gotai::outcome::Outcome;
 use gotai::solve::problem::{ContactProblem, Twist};
+use gotai::work::Work;
 use nalgebra::{SymmetricEigen, Vector3};
 
 /// A turned bar on a floor with `n` of its nodes just inside, as a contact problem.
 fn problem_with(contacts: usize) -> ContactProblem {
     let sets = ["scene.random=null", "method=free", "scene.bodies.cube.position_m=[0, 0.499, 0]"];
-    let (model, state) = gotai::model::build(&experiment(CUBE_IN_BOX, &sets)).unwrap();
+    let (model, state) = gotai::scene::build(&experiment(CUBE_IN_BOX, &sets)).unwrap();
     let (mut found, mut work) = (Vec::new(), Work::default());
     Detector::default().detect(&model, &state, &Reach::INSIDE, &mut found, &mut work);
     assert_eq!(found.len(), 9);

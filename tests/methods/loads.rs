@@ -3,8 +3,8 @@
 use crate::yaml::{CUBE_IN_BOX, experiment, measured, run};
 use gotai::experiment::types::Integrator;
 use gotai::integrate::claims::claim;
-use gotai::measure::order::fit;
-use gotai::row::Measured;
+use gotai::math::order::fit;
+use gotai::rows::Measured;
 use gotai::run::Ended;
 use gotai::state::State;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -179,7 +179,7 @@ fn two_pins_are_an_axis() {
     // It swings in a plane either way; measured: 5.1e-15
     assert!(error(&one.state, &two.state) < 1e-12, "{:?}, {:?}", one.state, two.state);
     assert!(two.measured.pin_gap_max_m.unwrap() < 1e-12);
-    assert_eq!(two.measured.outcome, gotai::row::Outcome::Finished);
+    assert_eq!(two.measured.outcome, gotai::outcome::Outcome::Finished);
 }
 
 #[test]
@@ -198,7 +198,7 @@ fn velocities_follow_from_the_pins_along_a_chain() {
     };
     let (links, pins): (String, String) = ((0..6).map(link).collect(), (0..6).rev().map(pin).collect());
     let text = format!("scene:\n  bodies:\n{links}  pins:\n{pins}time: {{ step_s: 0.01, end_s: 1 }}\n");
-    let (_, start) = gotai::model::build(&experiment(&text, &["method=free"])).unwrap();
+    let (_, start) = gotai::scene::build(&experiment(&text, &["method=free"])).unwrap();
     // 0.1 m of each link before the middle of the fourth, 0.2 m of the first at 2 rad/s, of the others at −1 rad/s.
     let expected = Vector3::new(2.0 * 0.2 - 0.2 - 0.2 - 0.1, 0.0, 0.0);
     assert!((start.bodies[3].v_WB - expected).norm() < 1e-15, "{:?}", start.bodies[3]);
@@ -245,7 +245,7 @@ fn a_fixed_body_stays_with_every_method() {
             "scene.bodies.cube.orientation={axis: [1, 2, 3], angle_deg: 40}".into(),
         ];
         let experiment = experiment(CUBE_IN_BOX, &[&sets[0], &sets[1], &sets[2]]);
-        let (_, start) = gotai::model::build(&experiment).unwrap();
+        let (_, start) = gotai::scene::build(&experiment).unwrap();
         let ended = run(&experiment);
         assert_eq!(ended.state.bodies, start.bodies, "{method}");
         assert_eq!(ended.measured.energy_drift_rel, Some(0.0));

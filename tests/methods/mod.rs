@@ -27,5 +27,5 @@ mod taylor;
 /// The fitted order.
 pub fn order(steps: &[f64], errors: &[f64]) -> f64 {
     let points: Vec<(f64, f64)> = steps.iter().copied().zip(errors.iter().copied()).collect();
-    gotai::measure::order::fit(&points).unwrap().slope
+    gotai::math::order::fit(&points).unwrap().slope
 }

@@ -2,7 +2,8 @@
 
 use super::assemblies::{Assembly, GRAVITY, Gathered, Solved, Spread, arch, heap, overhanging, stack};
 use crate::yaml::{CUBE_IN_BOX, experiment, measured, run};
-use gotai::row::{Measured, Outcome};
+use gotai::outcome::Outcome;
+use gotai::rows::Measured;
 use gotai::solve::problem::Twist;
 use gotai::solve::{Impulse, gauss_seidel, newton, nncg};
 

@@ -1,16 +1,18 @@
 //! What `integrate::claims` promises, measured: every integrator, every line of the table.
 
 use crate::yaml::{experiment, run};
+use gotai::clock::Clock;
 use gotai::experiment::ExperimentFile;
 use gotai::experiment::types::Integrator;
 use gotai::integrate::claims::{Kept, claim};
 use gotai::integrate::dop853_tableau::{A, B, B3, E5};
-use gotai::measure::order::fit;
-use gotai::model::{Model, build};
+use gotai::math::order::fit;
+use gotai::model::Model;
+use gotai::outcome::Outcome;
 use gotai::plan::Plan;
-use gotai::row::Outcome;
+use gotai::scene::build;
 use gotai::state::{BodyState, State};
-use gotai::step::{Clock, Stepper};
+use gotai::step::Stepper;
 use nalgebra::Vector3;
 use std::path::Path;
 

@@ -1,14 +1,16 @@
 //! Spring and damper (L15): the critical step is known in closed form.
 
 use crate::yaml::{experiment, run};
+use gotai::clock::Clock;
 use gotai::collide::approach::Approach;
 use gotai::collide::{Contact, Detector, Reach};
-use gotai::measure::work::Work;
-use gotai::model::{Model, build};
+use gotai::model::Model;
 use gotai::plan::Plan;
+use gotai::scene::build;
 use gotai::solve::problem::{ContactProblem, Twist};
 use gotai::state::State;
-use gotai::step::{Clock, Stepper};
+use gotai::step::Stepper;
+use gotai::work::Work;
 use nalgebra::SymmetricEigen;
 
 const STIFFNESS: f64 = 1e4;

@@ -4,9 +4,10 @@ use crate::scratch;
 use crate::sweep::{planned, sweep};
 use crate::yaml::{experiment, measured, run};
 use gotai::measure::reference::Reference;
-use gotai::reference::{id, made, of};
-use gotai::row::Measured;
-use gotai::{model, run::run_against};
+use gotai::rows::Measured;
+use gotai::scene;
+use gotai::study::reference::{id, made, of};
+use gotai::study::run_against;
 
 /// A body that turns about all its axes and falls: what a reference says of it can be held against the closed form.
 const SPIN: &str = "

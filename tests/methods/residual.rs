@@ -64,7 +64,7 @@ time: {{ step_s: {}, end_s: {} }}
             -gravity, self.step, self.step
         );
         let experiment = experiment(&text, &[]);
-        let (model, start) = gotai::model::build(&experiment).unwrap();
+        let (model, start) = gotai::scene::build(&experiment).unwrap();
         let mut judge = Judge::new(&model, &start, &Diverge::default(), &Plan::new(&model, &experiment.method));
         let contact = Contact {
             body: 0,

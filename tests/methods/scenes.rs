@@ -2,8 +2,8 @@
 
 use super::order;
 use crate::yaml::{experiment, file, measured, run};
-use gotai::model::build;
-use gotai::row::Outcome;
+use gotai::outcome::Outcome;
+use gotai::scene::build;
 
 const NEWTON: &str = "method.time-stepping.solver=newton";
 const SCHEMES: [&str; 2] = ["semi-implicit", "moreau"];

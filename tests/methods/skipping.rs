@@ -1,8 +1,8 @@
 //! What a scene does not need is skipped, and skipping changes nothing.
 
 use crate::yaml::{CUBE_IN_BOX, FREE_BAR, experiment, measured};
-use gotai::model::build;
 use gotai::plan::Plan;
+use gotai::scene::build;
 use gotai::state::State;
 use gotai::step::Stepper;
 
@@ -13,7 +13,7 @@ fn end(text: &str, sets: &[&str], change: impl Fn(&mut gotai::model::Model, &mut
     let mut plan = Plan::new(&model, &experiment.method);
     change(&mut model, &mut plan);
     let mut stepper = Stepper::new(&experiment.method, &plan, &model, &state);
-    let clock = gotai::run::clock(&experiment);
+    let clock = experiment.clock();
     while state.step < clock.steps {
         stepper.step(&model, &mut state, &clock);
     }

@@ -1,7 +1,7 @@
 //! Taylor's series against closed forms, and against another method where there is none.
 
 use crate::yaml::{experiment, run};
-use gotai::row::Measured;
+use gotai::rows::Measured;
 use gotai::state::BodyState;
 use nalgebra::Vector3;
 

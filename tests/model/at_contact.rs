@@ -3,8 +3,7 @@
 use crate::yaml::{CUBE_IN_BOX, experiment, file};
 use gotai::collide::faces::nearest;
 use gotai::experiment::types::Experiment;
-use gotai::model::build;
-use gotai::run::clock;
+use gotai::scene::build;
 use gotai::state::BodyState;
 use gotai::sweep::plan::single_case;
 use nalgebra::Vector3;
@@ -30,7 +29,7 @@ fn parts(sets: &[&str], seeds: u64) -> Vec<f64> {
     let part = |seed| {
         let (_, approach, depth) = landed(&with_seed(&base, seed));
         assert!(approach > 0.0, "seed {seed} recedes by {approach} m/s");
-        depth / (approach * clock(&base).step_s)
+        depth / (approach * base.clock().step_s)
     };
     let mut parts: Vec<f64> = (0..seeds).map(part).collect();
     parts.sort_by(f64::total_cmp);

@@ -1,6 +1,7 @@
-use gotai::model::mass::{box_moments, exact, lumped, sphere_moments};
-use gotai::model::mesh::{TetMesh, box_counts, box_mesh, sphere_mesh};
-use gotai::model::{Geometry, build};
+use gotai::model::Geometry;
+use gotai::scene::build;
+use gotai::shape::mesh::{TetMesh, box_counts, box_mesh, sphere_mesh};
+use gotai::shape::moments::{box_moments, exact, lumped, sphere_moments};
 use nalgebra::{Matrix3, Vector3};
 
 fn cube(n: u32) -> TetMesh {

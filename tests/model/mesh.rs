@@ -1,4 +1,4 @@
-use gotai::model::mesh::{TetMesh, box_counts, box_mesh, signed_volume, sphere_mesh};
+use gotai::shape::mesh::{TetMesh, box_counts, box_mesh, signed_volume, sphere_mesh};
 use nalgebra::Vector3;
 use std::collections::HashMap;
 

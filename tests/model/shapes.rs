@@ -1,7 +1,8 @@
 //! Closed forms of round shapes and integrals over polyhedra, against sums over slices and each other.
 
-use gotai::model::mass::{MassProperties, box_moments, capsule_moments, cylinder_moments, ellipsoid_moments};
-use gotai::model::{Body, Geometry, build};
+use gotai::model::{Body, Geometry};
+use gotai::scene::build;
+use gotai::shape::moments::{MassProperties, box_moments, capsule_moments, cylinder_moments, ellipsoid_moments};
 use nalgebra::{Matrix3, Vector3};
 
 /// Body of this shape alone.

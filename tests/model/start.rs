@@ -1,5 +1,5 @@
 use crate::yaml::{CUBE_IN_BOX, experiment, file};
-use gotai::model::build;
+use gotai::scene::build;
 use gotai::state::BodyState;
 use gotai::sweep::plan::single_case;
 use nalgebra::Vector3;

@@ -5,7 +5,8 @@ mod threads;
 
 use gotai::case::Case;
 use gotai::record::writer::Target;
-use gotai::sweep::plan::{PlanFile, cases};
+use gotai::rows::plan_file::PlanFile;
+use gotai::sweep::plan::cases;
 use gotai::sweep::runner::{Job, Progress, Work, build_and_run, lock};
 use gotai::sweep::store::Store;
 use std::path::Path;
@@ -47,11 +48,11 @@ pub fn planned(text: &str, sets: &[&str]) -> Vec<Case> {
 }
 
 /// Sweeps as the program does; how many cases were run, and the folder's rows.
-pub fn sweep(cases: &[Case], dir: &Path, targets: &[Target]) -> (usize, Vec<gotai::row::Row>) {
+pub fn sweep(cases: &[Case], dir: &Path, targets: &[Target]) -> (usize, Vec<gotai::rows::Row>) {
     sweep_with(cases, dir, targets, &|case, targets| build_and_run(case, dir, targets))
 }
 
-pub fn sweep_with(cases: &[Case], dir: &Path, targets: &[Target], work: &Work) -> (usize, Vec<gotai::row::Row>) {
+pub fn sweep_with(cases: &[Case], dir: &Path, targets: &[Target], work: &Work) -> (usize, Vec<gotai::rows::Row>) {
     let store = Mutex::new(Store::open(dir, PlanFile::new(cases), false).unwrap());
     let job = Job { dir, targets, work, progress: &Silent };
     let ran = job.sweep(cases, &store).unwrap();

@@ -1,9 +1,10 @@
 use super::{SWEEP, planned, sweep, sweep_with};
 use crate::scratch;
 use gotai::experiment::types::RecordCases;
+use gotai::outcome::Outcome;
 use gotai::record::writer::Target;
-use gotai::row::{Measured, Outcome};
-use gotai::sweep::plan::PlanFile;
+use gotai::rows::Measured;
+use gotai::rows::plan_file::PlanFile;
 use gotai::sweep::recordings::known_after;
 use gotai::sweep::runner::build_and_run;
 use gotai::sweep::store::Store;

@@ -4,7 +4,7 @@ use super::{SWEEP, planned, sweep};
 use crate::scratch;
 use gotai::case::hex;
 use gotai::record::writer::Target;
-use gotai::row::Row;
+use gotai::rows::Row;
 use sha2::{Digest, Sha256};
 
 fn hash(rows: &[Row]) -> String {

@@ -11,10 +11,10 @@ use crate::integrate::island::Island;
 use crate::integrate::phase::to_world;
 use crate::integrate::pin_solver::PinSolver;
 use crate::integrate::rotation::exponential;
-use crate::measure::work::Work;
 use crate::model::loads::AppliedForce;
 use crate::model::{Body, Model};
 use crate::state::BodyState;
+use crate::work::Work;
 use nalgebra::{Matrix3, Quaternion, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
 
 /// One body's series.

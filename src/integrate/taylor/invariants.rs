@@ -5,7 +5,7 @@
 //! then E for ωₘ. The sum is the distance from the separatrix, on which the time of a flip depends by its logarithm: it is
 //! kept in double-double, where the ω of a turning body has not the digits for it.
 
-use crate::exact::dd::Dd;
+use crate::math::dd::Dd;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 #[derive(Clone, Debug)]

@@ -12,7 +12,8 @@
 use super::super::Impulse;
 use super::disc;
 use super::hodograph::Turn;
-use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+use super::path::{Path, Phase};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// Of the speed before the impact: a slip below it has ended.
 const SLIP_ENDS: f64 = 1e-15;
@@ -40,39 +41,7 @@ pub fn impulse(A: &Matrix3<f64>, v: &Vector3<f64>, friction: f64, restitution: f
     path.p
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Phase {
-    Compression,
-    Restitution,
-    Over,
-}
-
-/// Where the impact has come to.
-pub(super) struct Path<'a> {
-    pub A: &'a Matrix3<f64>,
-    pub friction: f64,
-    pub e2: f64,
-    pub u: Vector3<f64>,
-    pub p: Impulse,
-    /// Work that the normal impulse has yet to give back.
-    pub store: f64,
-    pub phase: Phase,
-}
-
 impl Path<'_> {
-    pub fn tangents(&self) -> Matrix2<f64> {
-        self.A.fixed_view::<2, 2>(1, 1).into_owned()
-    }
-
-    /// A_tn.
-    pub fn coupling(&self) -> Vector2<f64> {
-        Vector2::new(self.A[(1, 0)], self.A[(2, 0)])
-    }
-
-    pub fn slip(&self) -> Vector2<f64> {
-        Vector2::new(self.u.y, self.u.z)
-    }
-
     fn follow(&mut self) {
         if self.friction == 0.0 {
             return self.straight(&Vector2::zeros(), f64::INFINITY);
@@ -141,10 +110,6 @@ impl Path<'_> {
     /// The normal impulse has done so much work.
     fn take_work(&mut self, work: f64) {
         self.store -= self.store_rate() * work;
-    }
-
-    pub fn store_rate(&self) -> f64 {
-        if self.phase == Phase::Compression { self.e2 } else { 1.0 }
     }
 
     /// The normal velocity is 0: compression ends, or begins again.

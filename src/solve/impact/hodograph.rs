@@ -4,7 +4,7 @@
 //! analytic down to slip 0, which is τ = ∞ (the slip falls exponentially). A series is its own dense output: where the
 //! normal velocity turns and the impact ends is a root of a polynomial.
 
-use super::darboux_keller::{Path, Phase};
+use super::path::{Path, Phase};
 use nalgebra::Vector2;
 
 const ORDER: usize = 24;

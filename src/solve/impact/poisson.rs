@@ -17,7 +17,8 @@
 use super::super::island::islands;
 use super::super::problem::{Block, ContactProblem, Twist};
 use super::super::{Impulse, exact_contact};
-use super::{Plastic, disc, plastic, rounding};
+use super::disc;
+use super::plastic::{Plastic, plastic, rounding};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 const MOST: usize = 2000;

@@ -10,7 +10,8 @@
 
 use super::super::Impulse;
 use super::super::problem::{ContactProblem, Coupling, Memory};
-use super::{Plastic, darboux_keller, plastic, rounding};
+use super::darboux_keller;
+use super::plastic::{Plastic, plastic, rounding};
 
 const MOST_PER_CONTACT: usize = 100;
 

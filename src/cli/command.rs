@@ -1,0 +1,50 @@
+//! The commands, one file each.
+
+use super::error::CliError;
+use super::{bench, check, explain, list, run, status, sweep};
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Experiment harness for rigid-body simulation: sweep time step, friction and mesh resolution; record, judge and
+/// compare every run.
+#[derive(Parser)]
+#[command(name = "gotai", version, long_about = None, after_help = EXIT_CODES)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 fine · 1 an expectation not met, a case failed or results are incomplete · 2 the input is wrong · \
+                          3 the machine failed · 130/143 interrupted (what was finished is kept)";
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run one experiment (no axes left: fix them with --set), write its recordings, print a summary
+    Run(run::Command),
+    /// Expand the axes into cases and run them on all cores; run again, it does only what is missing
+    Sweep(sweep::Command),
+    /// Run experiments and judge what they expect (`expect:`); exit code 1 if one expectation is not met
+    Check(check::Command),
+    /// Run time against error: the methods, steps and tolerances of `bench:`, on one core
+    Bench(bench::Command),
+    /// How much of a sweep is done, missing, failed
+    Status(status::Command),
+    /// What this scene needs, what is skipped and why; number of cases, steps, estimated time and bytes
+    Explain(explain::Command),
+    /// What can be written in an experiment file
+    List(list::Command),
+}
+
+impl Cli {
+    pub fn run(self) -> Result<ExitCode, CliError> {
+        match self.command {
+            Command::Run(command) => command.run(),
+            Command::Sweep(command) => command.run(),
+            Command::Check(command) => command.run(),
+            Command::Bench(command) => command.run(),
+            Command::Status(command) => command.run(),
+            Command::Explain(command) => command.run(),
+            Command::List(command) => command.run(),
+        }
+    }
+}

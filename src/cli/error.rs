@@ -1,0 +1,35 @@
+//! Why a command failed, and its exit code.
+
+use crate::experiment::ExperimentError;
+use crate::files::FileError;
+use crate::record::RecordError;
+use crate::sweep::runner::SweepError;
+use std::process::ExitCode;
+
+/// Why a command failed; says its exit code.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    #[error(transparent)]
+    Experiment(#[from] ExperimentError),
+    #[error("{0}")]
+    Input(String),
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    #[error(transparent)]
+    Store(#[from] FileError),
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
+    #[error("{0}")]
+    Machine(String),
+}
+
+impl CliError {
+    pub fn exit_code(&self) -> ExitCode {
+        let input_is_wrong = match self {
+            CliError::Experiment(error) => !error.is_machine(),
+            CliError::Input(_) => true,
+            _ => false,
+        };
+        ExitCode::from(if input_is_wrong { 2 } else { 3 })
+    }
+}

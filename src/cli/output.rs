@@ -1,0 +1,12 @@
+//! What is printed.
+
+use std::io::Write;
+
+/// Prints to stdout; a reader that has gone away is no error.
+pub(super) fn print(text: impl std::fmt::Display) {
+    let _ = writeln!(std::io::stdout(), "{text}");
+}
+
+pub(super) fn print_json(value: &impl serde::Serialize) {
+    print(serde_json::to_string(value).unwrap_or_default());
+}

@@ -1,0 +1,26 @@
+//! The clock of a run: equal steps up to an end.
+
+use crate::state::State;
+
+/// Equal steps up to an end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clock {
+    pub steps: u64,
+    pub end_s: f64,
+    pub step_s: f64,
+}
+
+impl Clock {
+    /// n = max(1, round(end/step)) equal steps of end/n.
+    pub fn new(step_s: f64, end_s: f64) -> Self {
+        let steps = ((end_s / step_s).round() as u64).max(1);
+        Clock { steps, end_s, step_s: end_s / steps as f64 }
+    }
+
+    /// From the count, so that no rounding adds up.
+    pub fn advance(&self, state: &mut State) {
+        state.step += 1;
+        let passed_s = self.end_s * state.step as f64 / self.steps as f64;
+        state.time_s = if state.step == self.steps { self.end_s } else { passed_s };
+    }
+}

@@ -1,0 +1,24 @@
+//! Whole files or none, and what is said when the machine fails.
+
+use std::path::{Path, PathBuf};
+
+/// The machine failed: disk full, no permission.
+#[derive(Debug, thiserror::Error)]
+#[error("{path}: {reason}")]
+pub struct FileError {
+    pub path: PathBuf,
+    pub reason: String,
+}
+
+impl FileError {
+    pub fn new(path: &Path, reason: impl std::fmt::Display) -> Self {
+        FileError { path: path.to_path_buf(), reason: reason.to_string() }
+    }
+}
+
+/// Under a temporary name first: a file with the final name is whole.
+pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FileError> {
+    let partial = path.with_extension("partial");
+    std::fs::write(&partial, content).map_err(|error| FileError::new(&partial, error))?;
+    std::fs::rename(&partial, path).map_err(|error| FileError::new(path, error))
+}

@@ -1,0 +1,77 @@
+//! Linear systems whose equations may say the same thing twice: elimination with full pivoting.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Which solution of a system that leaves some of it open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Choice {
+    /// What the others determine is 0.
+    Any,
+    /// The smallest.
+    Least,
+}
+
+/// Of the largest pivot: what is smaller is rounding of a redundant contact.
+const RANK: f64 = 1e-11;
+
+/// Gaussian elimination with full pivoting: P K Q = L U, of which the first `rank` rows mean something.
+pub struct Eliminated {
+    LU: DMatrix<f64>,
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+    rank: usize,
+}
+
+impl Eliminated {
+    pub fn new(mut LU: DMatrix<f64>) -> Self {
+        let n = LU.nrows();
+        let (mut rows, mut columns): (Vec<usize>, Vec<usize>) = ((0..n).collect(), (0..n).collect());
+        let largest = LU.amax();
+        let mut rank = 0;
+        while rank < n {
+            let (r, c) = LU.view((rank, rank), (n - rank, n - rank)).icamax_full();
+            let pivot = LU[(rank + r, rank + c)].abs();
+            if pivot.is_nan() || pivot <= RANK * largest {
+                break;
+            }
+            LU.swap_rows(rank, rank + r);
+            rows.swap(rank, rank + r);
+            LU.swap_columns(rank, rank + c);
+            columns.swap(rank, rank + c);
+            for i in rank + 1..n {
+                LU[(i, rank)] /= LU[(rank, rank)];
+            }
+            for j in rank + 1..n {
+                let above = LU[(rank, j)];
+                for i in rank + 1..n {
+                    let factor = LU[(i, rank)];
+                    LU[(i, j)] -= factor * above;
+                }
+            }
+            rank += 1;
+        }
+        Eliminated { LU, rows, columns, rank }
+    }
+
+    /// Unknowns that the others determine are 0, or all are as small as they can be: x = Uᵀ (U Uᵀ)⁻¹ y.
+    pub fn solve(&self, rhs: &DVector<f64>, choice: Choice) -> Option<DVector<f64>> {
+        let (LU, rank, n) = (&self.LU, self.rank, self.rows.len());
+        let mut y = DVector::from_fn(rank, |i, _| rhs[self.rows[i]]);
+        for i in 0..rank {
+            y[i] -= (0..i).map(|j| LU[(i, j)] * y[j]).sum::<f64>();
+        }
+        let mut own = DVector::zeros(n);
+        if choice == Choice::Any || rank == n {
+            for i in (0..rank).rev() {
+                let known: f64 = (i + 1..rank).map(|j| LU[(i, j)] * own[j]).sum();
+                own[i] = (y[i] - known) / LU[(i, i)];
+            }
+        } else {
+            let U = DMatrix::from_fn(rank, n, |i, j| if j >= i { LU[(i, j)] } else { 0.0 });
+            own = U.tr_mul(&(&U * U.transpose()).cholesky()?.solve(&y));
+        }
+        let mut x = DVector::zeros(n);
+        own.iter().zip(&self.columns).for_each(|(own, column)| x[*column] = *own);
+        x.iter().all(|x: &f64| x.is_finite()).then_some(x)
+    }
+}

@@ -1,0 +1,12 @@
+//! Numerics that know numbers alone: linear systems, roots, elliptic functions, quadrature, statistics.
+
+pub mod block_lu;
+pub mod broyden;
+pub mod dd;
+pub mod elliptic;
+pub mod full_pivot;
+pub mod least_norm;
+pub mod newton;
+pub mod order;
+pub mod quadrature;
+pub mod trend;

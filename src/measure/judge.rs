@@ -1,0 +1,181 @@
+//! The judge of a run, who watches it step by step.
+
+use super::divergence::Divergence;
+use super::energy::{Energy, EnergyLedger};
+use super::loads;
+use super::momentum::MomentumLedger;
+use super::more::Watched;
+use super::push::Push;
+use super::residual::ResidualLedger;
+use crate::collide::{self, SolvedContact};
+use crate::experiment::types::Diverge;
+use crate::model::Model;
+use crate::outcome::Criterion;
+use crate::plan::Plan;
+use crate::shown::Moment;
+use crate::state::State;
+use nalgebra::Vector3;
+
+/// Watches a run, step by step.
+pub struct Judge {
+    pub energy: EnergyLedger,
+    pub momentum: MomentumLedger,
+    pub residual: ResidualLedger,
+    /// None: the method never looks for contacts.
+    pub penetration_max_m: Option<f64>,
+    pub contacts_max: u64,
+    /// None: there is no pin.
+    pub pin_gap_max_m: Option<f64>,
+    pub watched: Watched,
+    divergence: Divergence,
+    /// A hundredth of a fall by the size of the largest body: what slips less than a force changes velocities in it, rests.
+    moment_s: f64,
+    /// Between two steps.
+    middle: State,
+    pushes: Vec<Push>,
+}
+
+impl Judge {
+    pub fn new(model: &Model, start: &State, rules: &Diverge, plan: &Plan) -> Self {
+        let energy = Energy::of(model, start);
+        Judge {
+            energy: EnergyLedger::new(energy),
+            momentum: MomentumLedger::new(model, start),
+            residual: ResidualLedger::new(plan.constraint, plan.approach, plan.newton, model),
+            penetration_max_m: plan.contact.then_some(0.0),
+            contacts_max: 0,
+            pin_gap_max_m: model.pin_gap_m(&start.bodies),
+            watched: Watched::default(),
+            divergence: Divergence::new(rules, model, &energy),
+            moment_s: moment_s(model),
+            middle: start.clone(),
+            pushes: vec![Push::NONE; model.bodies.len()],
+        }
+    }
+
+    /// Judges the step from `before` to `after`, in which `contacts` acted at the state `kicked`; says if the run has
+    /// diverged, and by which criterion.
+    pub fn observe(
+        &mut self,
+        model: &Model,
+        [before, kicked, after]: [&State; 3],
+        contacts: &[SolvedContact],
+        step_s: f64,
+    ) -> Option<Criterion> {
+        self.gather_pushes(contacts);
+        let energy = Energy::of(model, after);
+        if !contacts.is_empty() {
+            self.energy.observe_contacts(model, kicked, &self.pushes, step_s);
+            self.watched.observe(kicked, contacts);
+        }
+        if step_s > 0.0 {
+            self.watched.observe_step(before, after, step_s);
+        }
+        self.residual.observe(model, [kicked, after], contacts, &self.pushes, step_s);
+        let pivot = |state: &State| self.momentum.pivot_m(model, state);
+        let done = loads::done(model, [before, after], &mut self.middle, pivot, step_s);
+        self.energy.observe(energy, done.work_j);
+        let pushes = (!contacts.is_empty()).then_some(&self.pushes[..]);
+        self.momentum.observe(model, [before, kicked, after], pushes, &done, step_s);
+        let gap_m = model.pin_gap_m(&after.bodies);
+        self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
+        let depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max);
+        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
+        self.contacts_max = self.contacts_max.max(contacts.len() as u64);
+        self.divergence.judge(model, after, &energy, depth_m)
+    }
+
+    /// Judges an impact, which takes no time: `contacts` changed only the velocities.
+    pub fn observe_blow(
+        &mut self,
+        model: &Model,
+        [before, after]: [&State; 2],
+        contacts: &[SolvedContact],
+    ) -> Option<Criterion> {
+        self.gather_pushes(contacts);
+        let energy = Energy::of(model, after);
+        self.energy.observe_blow(model, [before, after], &self.pushes);
+        self.watched.observe(before, contacts);
+        self.residual.observe(model, [before, after], contacts, &self.pushes, 0.0);
+        self.energy.observe(energy, 0.0);
+        let done = loads::done(model, [before, after], &mut self.middle, |_| Vector3::zeros(), 0.0);
+        self.momentum.observe(model, [before, before, after], Some(&self.pushes), &done, 0.0);
+        let depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max);
+        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
+        self.contacts_max = self.contacts_max.max(contacts.len() as u64);
+        self.divergence.judge(model, after, &energy, depth_m)
+    }
+
+    /// Judges a smooth motion, of which `moments` show the forces of contact: their weights are those of a quadrature.
+    pub fn observe_motion(
+        &mut self,
+        model: &Model,
+        [before, after]: [&State; 2],
+        moments: &[Moment],
+    ) -> Option<Criterion> {
+        let span_s = after.time_s - before.time_s;
+        let energy = Energy::of(model, after);
+        let mut depth_m = 0.0_f64;
+        for Moment { state, contacts, weight_s } in moments.iter().filter(|moment| !moment.contacts.is_empty()) {
+            self.gather_pushes(contacts);
+            self.energy.observe_forces(model, state, &self.pushes);
+            self.momentum.observe_pushes(model, state, &self.pushes);
+            self.pushes.fill(Push::NONE);
+            // Forces, as impulses that velocities can be held against.
+            let longer = self.moment_s.max(*weight_s) / weight_s;
+            let forces = contacts.iter().map(|s| SolvedContact { impulse_W: s.impulse_W * longer, ..*s });
+            self.residual.observe(model, [state, state], &forces.collect::<Vec<_>>(), &self.pushes, 0.0);
+            self.watched.observe(state, contacts);
+            depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(depth_m, f64::max);
+            self.contacts_max = self.contacts_max.max(contacts.len() as u64);
+        }
+        if span_s > 0.0 {
+            self.watched.observe_step(before, after, span_s);
+        }
+        let pivot = |state: &State| self.momentum.pivot_m(model, state);
+        // A long stretch in parts: what acts on bodies may swing in it.
+        let mut done = loads::Done::NOTHING;
+        let mut from = before;
+        for to in moments.iter().map(|moment| &moment.state).chain([after]) {
+            done += loads::done(model, [from, to], &mut self.middle, pivot, to.time_s - from.time_s);
+            from = to;
+        }
+        self.energy.observe(energy, done.work_j);
+        self.momentum.observe(model, [before, before, after], None, &done, span_s);
+        let gap_m = model.pin_gap_m(&after.bodies);
+        self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
+        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
+        self.divergence.judge(model, after, &energy, depth_m)
+    }
+
+    /// Depth of the deepest point in the last state, which no step has looked at.
+    pub fn penetration_end_m(&mut self, model: &Model, end: &State) -> Option<f64> {
+        let max = self.penetration_max_m.as_mut()?;
+        let depth_m = deepest_m(model, end);
+        *max = max.max(depth_m);
+        Some(depth_m)
+    }
+
+    fn gather_pushes(&mut self, contacts: &[SolvedContact]) {
+        if !contacts.is_empty() {
+            self.pushes.fill(Push::NONE);
+        }
+        for SolvedContact { contact, impulse_W } in contacts {
+            for (i, r_W, sign) in contact.ends() {
+                self.pushes[i].linear += impulse_W * sign;
+                self.pushes[i].angular += r_W.cross(impulse_W) * sign;
+            }
+        }
+    }
+}
+
+fn moment_s(model: &Model) -> f64 {
+    let size_m = model.largest_radius_m();
+    let g = model.gravity_m_s2.norm();
+    if g > 0.0 { 0.01 * (size_m / g).sqrt() } else { 0.0 }
+}
+
+/// Largest depth of any point of any body in the container or in another body.
+pub fn deepest_m(model: &Model, state: &State) -> f64 {
+    collide::deepest(model, state).map_or(0.0, |contact| -contact.gap_m)
+}

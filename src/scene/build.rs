@@ -1,0 +1,96 @@
+//! From one resolved experiment to its constant `Model` and first `State`.
+
+use super::body::build_body;
+use super::error::BuildError;
+use super::first::{first_state, potential_zero};
+use super::overlap::refuse_overlap;
+use super::pins::build_pins;
+use super::place::Landing;
+use crate::experiment::types as file;
+use crate::model::container::{Container, Face};
+use crate::model::loads::AppliedForce;
+use crate::model::surface::{Pair, Surface};
+use crate::model::{Body, Model};
+use crate::state::State;
+use nalgebra::Vector3;
+
+/// Expects an experiment that has passed validation.
+pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError> {
+    let scene = &experiment.scene;
+    let container = scene.container.as_ref().map(build_container);
+    let landing = Landing::new(experiment, container.as_ref());
+    let mut bodies = Vec::with_capacity(scene.bodies.len());
+    let mut states = Vec::with_capacity(scene.bodies.len());
+    let mut depths_m = Vec::with_capacity(scene.bodies.len());
+    for described in &scene.bodies {
+        let body = build_body(described, scene)?;
+        let (state, depth_m) = first_state(described, &body, experiment, landing.as_ref())?;
+        states.push(state);
+        depths_m.push(depth_m);
+        bodies.push(body);
+    }
+    let forces = scene.forces.iter().map(|force| build_force(force, &bodies)).collect();
+    let pins = build_pins(scene, &bodies, &mut states)?;
+    let gravity_m_s2 = Vector3::from(scene.gravity_m_s2);
+    let potential_zero_m = potential_zero(&gravity_m_s2, container.as_ref(), &bodies, &states);
+    let solids = || bodies.iter().filter(|body| body.solid().is_some());
+    let model = Model {
+        touching_pairs: solids().count() > 1 && solids().any(|body| !body.driven),
+        gravity_m_s2,
+        container,
+        container_surface: Surface {
+            friction: scene.friction,
+            restitution: scene.restitution,
+            tangential_restitution: 0.0,
+        },
+        pairs: scene.pairs.iter().map(|pair| build_pair(pair, &bodies)).collect(),
+        bodies,
+        forces,
+        pins,
+        potential_zero_m,
+    };
+    let state = State { step: 0, time_s: 0.0, bodies: states };
+    if !matches!(experiment.method, file::Method::Free(_)) && !scene.allow_overlap {
+        refuse_overlap(&model, &state, &depths_m)?;
+    }
+    Ok((model, state))
+}
+
+fn build_container(container: &file::Container) -> Container {
+    let face = |plane: &file::Plane| {
+        let normal = Vector3::from(plane.normal);
+        Face { normal: normal / normal.norm(), offset_m: plane.offset_m }
+    };
+    match container {
+        file::Container::Box(b) => Container::new_box(b.size_m, b.center_m.unwrap_or([0.0, b.size_m[1] / 2.0, 0.0])),
+        file::Container::Plane(plane) => Container { faces: vec![face(plane)] },
+        file::Container::Planes(planes) => Container { faces: planes.iter().map(face).collect() },
+    }
+}
+
+fn build_pair(pair: &file::Pair, bodies: &[Body]) -> Pair {
+    // Validation has seen to it that a name is a body's or the container.
+    let index = |name: &String| bodies.iter().position(|body| body.name == *name);
+    Pair {
+        between: pair.between.each_ref().map(index),
+        friction: pair.friction,
+        restitution: pair.restitution,
+        tangential_restitution: pair.tangential_restitution,
+    }
+}
+
+fn build_force(force: &file::Force, bodies: &[Body]) -> AppliedForce {
+    let body = bodies.iter().position(|body| body.name == force.body).unwrap_or_default();
+    let vector = |given: Option<[f64; 3]>| given.map_or_else(Vector3::zeros, Vector3::from);
+    AppliedForce {
+        body,
+        force_n: vector(force.force_n),
+        torque_n_m: vector(force.torque_n_m),
+        r_B: force.at_m.map_or_else(Vector3::zeros, |at| Vector3::from(at) - bodies[body].p_BoBcm),
+        frame: force.frame,
+        cosine: match force.course {
+            file::Course::Constant => None,
+            file::Course::Cosine(cosine) => Some((cosine.frequency_rad_s, cosine.phase_rad)),
+        },
+    }
+}

@@ -1,0 +1,146 @@
+//! Reference runs: `event-driven` at a tight tolerance, twice, kept as a file for all cases of the same motion.
+//!
+//! A reference depends on the physics alone (scene, seed, end, law of impact), its tolerance and the program: cases that
+//! differ by method, step or what is recorded share one.
+
+use crate::build_info::BUILD;
+use crate::case;
+use crate::clock::Clock;
+use crate::experiment::tolerances::SMALLEST_GLOBAL;
+use crate::experiment::types::{EventDriven, Experiment, Limits, Method, Record, ReferenceRun, Time};
+use crate::files::{FileError, write_whole};
+use crate::measure::error::Errors;
+use crate::measure::reference::{PARTS, Reference, Sample};
+use crate::model::Model;
+use crate::plan::Plan;
+use crate::run::ticks::Due;
+use crate::state::{BodyState, State};
+use crate::step::Stepper;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+/// From the tolerance of one run to that of the other.
+const SECOND: f64 = 10.0;
+/// Runs have parted beyond this part of the largest bounding radius, or so many times the tolerance.
+const PARTED: f64 = 1e-6;
+const PARTED_TOLERANCES: f64 = 1000.0;
+
+/// The name that cases of the same motion share; none: the experiment asks for no reference.
+pub fn id(experiment: &Experiment) -> Option<String> {
+    let ReferenceRun { tolerance } = experiment.reference.clone()?;
+    let random = experiment.scene.random.as_ref();
+    let decisive = Experiment {
+        question: None,
+        scene: experiment.scene.clone(),
+        seed: if random.is_some() { experiment.seed } else { 0 },
+        method: by_events(experiment, tolerance),
+        time: Time {
+            // Where it decides the start.
+            step_s: experiment.time.step_s.filter(|_| random.is_some_and(|random| random.place.is_some())),
+            end_s: experiment.time.end_s,
+        },
+        diverge: Default::default(),
+        limits: Limits::default(),
+        record: Record::default(),
+        measure: Vec::new(),
+        exact: None,
+        reference: None,
+        sweep: None,
+        expect: Vec::new(),
+        bench: None,
+    };
+    Some(case::id(&[case::canonical(&decisive), BUILD.as_bytes().to_vec()]))
+}
+
+/// Its file in a folder of results; none: the experiment asks for no reference.
+pub fn path(dir: &Path, experiment: &Experiment) -> Option<PathBuf> {
+    Some(dir.join(format!("reference-{}.json", id(experiment)?)))
+}
+
+/// Reads an experiment's reference from its file, which is made if it is not there; none: it asks for no reference.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn of(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> Result<Option<Reference>, FileError> {
+    static WRITING: Mutex<()> = Mutex::new(());
+    let Some(path) = path(dir, experiment) else { return Ok(None) };
+    if let Some(reference) = read(&path) {
+        return Ok(Some(reference));
+    }
+    let made = made(experiment, model, start);
+    if let Some(reference) = &made {
+        // The name says of what it is: whoever writes last writes the same.
+        let _one = WRITING.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        std::fs::create_dir_all(dir).map_err(|error| FileError::new(dir, error))?;
+        write_whole(&path, &serde_json::to_vec(reference).unwrap_or_default())?;
+    }
+    Ok(made)
+}
+
+/// The same; where no file can be written, for this case alone.
+pub fn of_or_made(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> Option<Reference> {
+    of(dir, experiment, model, start).unwrap_or_else(|_| made(experiment, model, start))
+}
+
+/// A file that is torn counts as missing.
+fn read(path: &Path) -> Option<Reference> {
+    serde_json::from_slice(&std::fs::read(path).ok()?).ok()
+}
+
+/// Runs a reference; none: the experiment asks for none.
+pub fn made(experiment: &Experiment, model: &Model, start: &State) -> Option<Reference> {
+    let ReferenceRun { tolerance } = experiment.reference.clone()?;
+    let second_tolerance = second(tolerance);
+    let [first, second] = [tolerance, second_tolerance]
+        .map(|tolerance| follow(&by_events(experiment, tolerance), experiment, model, start));
+    let apart_m = |(a, b): (&State, &State)| Errors::between(a, b).position_m;
+    let samples: Vec<Sample> =
+        first.states.iter().zip(&second.states).map(|pair| Sample::new(pair.0, apart_m(pair))).collect();
+    let parting_m = (PARTED * model.largest_radius_m()).max(PARTED_TOLERANCES * tolerance);
+    Some(Reference {
+        id: id(experiment)?,
+        build: BUILD.to_string(),
+        tolerance,
+        second_tolerance,
+        parting_m,
+        parted_s: samples.iter().find(|sample| sample.uncertainty_m > parting_m).map(|sample| sample.time_s),
+        criterion: first.criterion.or(second.criterion),
+        samples,
+    })
+}
+
+/// Finer, or rougher where no finer one is left.
+fn second(tolerance: f64) -> f64 {
+    if tolerance <= 2.0 * SMALLEST_GLOBAL { tolerance * SECOND } else { (tolerance / SECOND).max(SMALLEST_GLOBAL) }
+}
+
+/// The law of impact belongs to the physics.
+fn by_events(experiment: &Experiment, tolerance: f64) -> Method {
+    Method::EventDriven(EventDriven { tolerance, impact: experiment.method.impact() })
+}
+
+/// States after equal parts of the time, as far as the run comes.
+struct Followed {
+    states: Vec<State>,
+    criterion: Option<String>,
+}
+
+fn follow(method: &Method, experiment: &Experiment, model: &Model, start: &State) -> Followed {
+    let end_s = experiment.time.end_s;
+    let clock = Clock::new(end_s, end_s);
+    let mut stepper = Stepper::new(method, &Plan::new(model, method), model, start);
+    let mut due = Due::new(Clock::new(end_s / PARTS as f64, end_s), start);
+    let (mut states, mut state) = (vec![start.clone()], start.clone());
+    while !stepper.is_done(&state, &clock) && state.bodies.iter().all(BodyState::is_finite) {
+        stepper.step(model, &mut state, &clock);
+        if let Some(criterion) = stepper.stalled() {
+            return Followed { states, criterion: Some(criterion.name().to_string()) };
+        }
+        while let Some(at) = due.next(&mut stepper, model, &state) {
+            states.push(at.state.clone());
+        }
+    }
+    let finite = states.iter().take_while(|state| state.bodies.iter().all(BodyState::is_finite)).count();
+    states.truncate(finite);
+    Followed { states, criterion: None }
+}

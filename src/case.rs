@@ -35,7 +35,7 @@ impl Case {
 
 /// Everything that decides the motion: not the question, nor what is recorded of it.
 pub fn canonical(experiment: &Experiment) -> Vec<u8> {
-    let decisive = Experiment { question: None, record: Record::default(), sweep: None, ..experiment.clone() };
+    let decisive = Experiment { question: None, record: Record::default(), ..experiment.clone() };
     serde_json::to_vec(&decisive).unwrap_or_default()
 }
 

@@ -3,7 +3,6 @@
 use super::error::{self, ExperimentError, Kind, describe};
 use super::key_path::{KeyPath, Path, Segment};
 use super::overrides::split;
-use super::types::Sweep;
 use super::value_de::from_value;
 use serde::Deserialize;
 use serde_yaml::{Mapping, Number, Value};
@@ -73,10 +72,10 @@ fn compact_json(value: &Value) -> String {
 }
 
 impl Axes {
-    /// From what stands in `sweep:`.
-    pub fn from_sweep(sweep: &Sweep) -> Result<Axes> {
-        let axes = read_axes(&sweep.axes)?;
-        let groups = read_groups(&sweep.together, &axes)?;
+    /// From what stands in `sweep:`: the axes, and groups of them that advance side by side.
+    pub fn read(axes: &Mapping, together: &[Vec<String>]) -> Result<Axes> {
+        let axes = read_axes(axes)?;
+        let groups = read_groups(together, &axes)?;
         let axes = Axes { axes, groups };
         axes.check_size()?;
         Ok(axes)

@@ -1,10 +1,10 @@
 //! `bench:`: which methods are compared, at which steps and tolerances, by which error. How it is done is in `bench/`.
 
 use super::axes::read_list;
-use super::error::{ExperimentError, number};
+use super::checks::{Result, positive, unexpected};
+use super::error::number;
 use super::key_path::{KeyPath, Path};
 use super::types::{Free, Method};
-use super::validate::{Result, positive};
 use super::value_de::from_value;
 use serde_yaml::Value;
 
@@ -118,8 +118,4 @@ fn all_positive_and_once(values: &[f64], at: Path) -> Result<()> {
         }
     }
     Ok(())
-}
-
-fn unexpected(at: Path, expected: &str, found: &str) -> ExperimentError {
-    ExperimentError::unexpected(at.to_key_path(), expected, found)
 }

@@ -1,23 +1,11 @@
 //! `copies:` — one described body as a row or a grid of bodies: `stack[0]`, `stack[1]`, …; `pile[0,0,0]`, `pile[0,0,1]`, ….
 
+use super::checks::{Result, unexpected};
 use super::key_path::Path;
-use super::types::{Body, Experiment};
-use super::validate::{Result, unexpected};
-use serde::{Deserialize, Serialize};
+use super::types::{Body, Copies, Experiment};
 
 /// More is a slip, and would end in a lack of memory.
 const MOST: u64 = 100_000;
-
-/// `count` along `step_m`, or a `grid` along the axes, `step_m` apart.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Copies {
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub count: Option<u32>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub grid: Option<[u32; 3]>,
-    pub step_m: [f64; 3],
-}
 
 impl Copies {
     /// What stands behind the name, and where it is from the first one.

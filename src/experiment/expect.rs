@@ -1,10 +1,10 @@
 //! `expect:`: what the rows of a sweep are expected to say. How it is judged is in `check/`.
 
+use super::checks::Result;
 use super::error::{ExperimentError, number};
 use super::filter::Filter;
 use super::key_path::{KeyPath, Path};
 use super::predicate::{Bounds, Column, Predicate, PredicateText, Quantity, QuantityText};
-use super::validate::Result;
 use super::value_de::from_value;
 use serde_yaml::{Mapping, Value};
 

@@ -8,11 +8,12 @@ use super::expect::{self, Expectation};
 use super::key_path::KeyPath;
 use super::overrides::{Override, assign, resolve, split};
 use super::positions;
-use super::search::{Search, search_path};
+use super::search::{Search, SearchText, search_path};
 use super::source::{parse, read};
-use super::types::{Experiment, Sweep};
+use super::types::Experiment;
 use super::validate::{normalise_quaternions, validate};
 use super::value_de::from_value;
+use serde::Deserialize;
 use serde_yaml::{Mapping, Number, Value};
 use std::path::{Path, PathBuf};
 
@@ -34,6 +35,19 @@ pub struct ExperimentFile {
     expect: Vec<Expectation>,
     bench: Option<Bench>,
     sets: Vec<Applied>,
+}
+
+/// The axes of a sweep, still as written; `axes.rs` and `search.rs` read them.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Sweep {
+    #[serde(default)]
+    axes: Mapping,
+    /// Groups of axes that advance side by side.
+    #[serde(default)]
+    together: Vec<Vec<String>>,
+    /// One row a cell of the axes: the critical value of one more key.
+    search: Option<SearchText>,
 }
 
 /// A value for another place than the file's own.
@@ -272,7 +286,7 @@ impl ExperimentFile {
             return Ok(());
         };
         let sweep: Sweep = from_value(&sweep, &KeyPath::of_keys(&["sweep"]))?;
-        self.axes = Axes::from_sweep(&sweep)?;
+        self.axes = Axes::read(&sweep.axes, &sweep.together)?;
         self.search = sweep.search.map(|search| search.read(&self.axes)).transpose()?;
         self.order = (0..self.axes.axes.len()).map(Varied::Axis).collect();
         self.order.extend(self.search.iter().map(|_| Varied::Searched));

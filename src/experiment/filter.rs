@@ -1,10 +1,10 @@
 //! `where`: which rows, by their axes and columns.
 
 use super::axes::AxisValue;
+use super::checks::Result;
 use super::error::{ExperimentError, describe};
 use super::key_path::Path;
 use super::predicate::Bounds;
-use super::validate::Result;
 use super::value_de::from_value;
 use serde_json::Value as Cell;
 use serde_yaml::{Mapping, Value};

@@ -1,4 +1,5 @@
-//! Keys and words of the vocabulary that a later version brings: refused with their own message until then.
+//! Keys and words of the vocabulary that a type does not know: those of a later version, refused with their own message
+//! until then, and those that are taken out before the type is read.
 
 /// What the key or word stands in (the Rust type of `types.rs`), and the words. A word leaves this list in the change
 /// that adds its field or variant.
@@ -7,4 +8,13 @@ const LATER: &[(&str, &[&str])] = &[("Sweep", &["where", "sample"]), ("Container
 /// Whether a later version knows this word in this type.
 pub fn is_later(type_name: &str, word: &str) -> bool {
     LATER.iter().any(|(name, words)| *name == type_name && words.contains(&word))
+}
+
+/// Keys that a file has beside those of a type; they are taken out before the type is read.
+const BESIDES: &[(&str, &[&str])] = &[("Experiment", &["sweep", "expect", "bench"])];
+
+/// All keys that may be written where this type stands.
+pub fn all_keys<'a>(type_name: &str, fields: &[&'a str]) -> Vec<&'a str> {
+    let besides = BESIDES.iter().filter(|(name, _)| *name == type_name).flat_map(|(_, keys)| *keys);
+    fields.iter().chain(besides).copied().collect()
 }

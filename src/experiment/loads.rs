@@ -1,7 +1,7 @@
 //! The vocabulary of what acts on bodies beside gravity and contact: `forces:`, `air:`, `pins:`, and bodies that move
 //! as they are told. A part of `types.rs`.
 
-use super::types::is_default;
+use super::defaults::is_default;
 use serde::{Deserialize, Serialize};
 
 /// A force, a torque or both on one body.

@@ -1,7 +1,7 @@
 //! The vocabulary of `method:`: every method with its settings, defaults with their reasons. A part of `types.rs`.
 
+use super::defaults::is_default;
 use super::tolerances::DEFAULT_TOLERANCE;
-use super::types::is_default;
 use serde::{Deserialize, Serialize};
 
 /// The exchangeable unit is the whole step. One word, or one key with settings.

@@ -5,7 +5,9 @@
 mod accuracy;
 pub mod axes;
 pub mod bench;
+mod checks;
 pub mod copies;
+mod defaults;
 mod either;
 pub mod error;
 pub mod expect;

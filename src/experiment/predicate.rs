@@ -1,8 +1,8 @@
 //! Bounds, and what can be true of a row: the words that `expect:` and `search:` share.
 
+use super::checks::Result;
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
-use super::validate::Result;
 use crate::outcome::Outcome;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};

@@ -2,11 +2,11 @@
 //! `sweep/search.rs`.
 
 use super::axes::{Axes, find_axis, float};
+use super::checks::Result;
 use super::error::{ExperimentError, Kind, number};
 use super::key_path::{KeyPath, Path};
 use super::overrides::split;
 use super::predicate::{Predicate, PredicateText};
-use super::validate::Result;
 use serde_yaml::Number;
 
 #[derive(Clone, Debug, PartialEq)]

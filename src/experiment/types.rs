@@ -1,20 +1,20 @@
 //! The vocabulary of the experiment file: one type a word, defaults with their reasons.
 //!
 //! These types say only what can be written. Whether it makes sense together (a mesh for the shape, a positive mass)
-//! is `validate.rs`; how a file, `--set` and a sweep axis become a value of them is `mod.rs`.
+//! is `validate.rs`; how a file, `--set` and a sweep axis become a value of them is `file.rs`.
 //! SI units stand last in the key. Unknown keys are errors.
 
 pub use super::accuracy::Accuracy;
-pub use super::copies::Copies;
+use super::defaults::is_default;
 pub use super::limits::{Limits, ReferenceRun};
 pub use super::loads::*;
 pub use super::method::*;
-use super::search::SearchText;
 use crate::clock::Clock;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// One resolved experiment: no axes left in it, every default filled in.
+/// One resolved experiment: no axes left in it, every default filled in. What a file holds besides (`sweep`, `expect`,
+/// `bench`) is taken out by `file.rs` before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Experiment {
@@ -43,15 +43,6 @@ pub struct Experiment {
     /// The run that errors are measured against instead.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<ReferenceRun>,
-    /// Axes and their values, expanded by `sweep/`; absent in a resolved case.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sweep: Option<Sweep>,
-    /// What the rows should say, read by `expect.rs`; absent in a resolved case.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub expect: Vec<serde_yaml::Value>,
-    /// What is compared by run time and error, read by `bench.rs`; absent in a resolved case.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub bench: Option<serde_yaml::Value>,
 }
 
 impl Experiment {
@@ -92,11 +83,6 @@ pub struct Scene {
     /// A body may start inside a face.
     #[serde(default, skip_serializing_if = "is_default")]
     pub allow_overlap: bool,
-}
-
-/// Left out of the resolved experiment, so that a case that does not use a newer key keeps its id.
-pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
 }
 
 /// y is up, and g is the lecture's (L5).
@@ -195,6 +181,17 @@ pub struct Body {
     /// It moves as it is told.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinematic: Option<Kinematic>,
+}
+
+/// `count` along `step_m`, or a `grid` along the axes, `step_m` apart.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Copies {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub count: Option<u32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grid: Option<[u32; 3]>,
+    pub step_m: [f64; 3],
 }
 
 impl Body {
@@ -548,18 +545,4 @@ pub enum Measure {
     DifferenceQuotients,
     /// How an error of the start has grown at the end; of methods that follow events it is always measured.
     Sensitivity,
-}
-
-/// The axes of a sweep, still as written; `axes.rs` and `search.rs` read them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Sweep {
-    #[serde(default)]
-    pub axes: serde_yaml::Mapping,
-    /// Groups of axes that advance side by side.
-    #[serde(default)]
-    pub together: Vec<Vec<String>>,
-    /// One row a cell of the axes: the critical value of one more key.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub search: Option<SearchText>,
 }

@@ -1,5 +1,9 @@
 //! What the types cannot say: bounds, and words that must fit together. The body's part is `validate_body.rs`.
 
+use super::checks::{
+    CONTAINER, Result, a_part, at_least_one, direction, holds_a_face, not_negative, positive, relaxation, sizes,
+    unexpected,
+};
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::tolerances::{SMALLEST_GLOBAL, SMALLEST_TOLERANCE};
@@ -9,11 +13,6 @@ use super::types::{
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
-
-/// What contacts name the container.
-pub(super) const CONTAINER: &str = "container";
-
-pub(super) type Result<T> = std::result::Result<T, ExperimentError>;
 
 /// More steps than a machine makes in weeks: a slip in a unit.
 const MOST_STEPS: f64 = 1e12;
@@ -363,44 +362,4 @@ fn validate_measure(experiment: &Experiment, at: Path) -> Result<()> {
             Err(unexpected(at.item(i, None), expected, "`critical-step`"))
         }
     }
-}
-
-pub(super) fn unexpected(at: Path, expected: &str, found: &str) -> ExperimentError {
-    ExperimentError::unexpected(at.to_key_path(), expected, found)
-}
-
-pub(super) fn positive(x: f64, at: Path) -> Result<()> {
-    if x > 0.0 { Ok(()) } else { Err(unexpected(at, "a number greater than 0", &number(x))) }
-}
-
-pub(super) fn not_negative(x: f64, at: Path) -> Result<()> {
-    if x >= 0.0 { Ok(()) } else { Err(unexpected(at, "a number of at least 0", &number(x))) }
-}
-
-/// A coefficient of restitution.
-pub(super) fn a_part(x: f64, at: Path) -> Result<()> {
-    if (0.0..=1.0).contains(&x) { Ok(()) } else { Err(unexpected(at, "a number from 0 to 1", &number(x))) }
-}
-
-fn at_least_one(n: u32, at: Path) -> Result<()> {
-    if n >= 1 { Ok(()) } else { Err(unexpected(at, "a whole number of at least 1", &n.to_string())) }
-}
-
-/// Outside of these no sweep converges.
-fn relaxation(x: f64, at: Path) -> Result<()> {
-    if x > 0.0 && x < 2.0 { Ok(()) } else { Err(unexpected(at, "a number between 0 and 2", &number(x))) }
-}
-
-fn holds_a_face(contacts: u32, at: Path) -> Result<()> {
-    let expected = "a whole number of at least 3, as fewer contacts hold no face";
-    if contacts >= 3 { Ok(()) } else { Err(unexpected(at, expected, &contacts.to_string())) }
-}
-
-pub(super) fn sizes(sizes: &[f64; 3], at: Path) -> Result<()> {
-    sizes.iter().enumerate().try_for_each(|(i, size)| positive(*size, at.item(i, None)))
-}
-
-pub(super) fn direction(v: &[f64], at: Path) -> Result<()> {
-    let is_zero = v.iter().all(|x| *x == 0.0);
-    if is_zero { Err(unexpected(at, "a direction", "the zero vector")) } else { Ok(()) }
 }

@@ -1,10 +1,10 @@
 //! What must be true of `forces:`, `air:`, `pins:` and of bodies that move as they are told.
 
+use super::checks::{Result, not_negative, unexpected};
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
 use super::method::{Impact, Integrator, Method};
 use super::types::{Air, Body, Course, Experiment, Force, Pin, Scene, Shape};
-use super::validate::{Result, not_negative, unexpected};
 
 pub fn validate_loads(experiment: &Experiment, at: Path) -> Result<()> {
     let scene = &experiment.scene;

@@ -6,7 +6,7 @@
 
 use super::error::{ExperimentError, describe, key_text};
 use super::key_path::{KeyPath, Path};
-use super::later::is_later;
+use super::later::{all_keys, is_later};
 use serde::de::value::BorrowedStrDeserializer;
 use serde::de::{
     DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
@@ -132,7 +132,7 @@ impl<'de, 'p> Node<'de, 'p> {
         if is_later(name, &text) {
             return ExperimentError::not_available(path, None);
         }
-        ExperimentError::unknown_key(path, &text, fields)
+        ExperimentError::unknown_key(path, &text, &all_keys(name, fields))
     }
 }
 
@@ -237,7 +237,7 @@ impl<'de> Deserializer<'de> for Node<'de, '_> {
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value> {
-        let mapping = self.entries(|| format!("a mapping (known keys: {})", fields.join(", ")))?;
+        let mapping = self.entries(|| format!("a mapping (known keys: {})", all_keys(name, fields).join(", ")))?;
         if let Some(mapping) = mapping {
             self.check_keys(name, fields, mapping)?;
         }

@@ -45,9 +45,6 @@ pub fn id(experiment: &Experiment) -> Option<String> {
         measure: Vec::new(),
         exact: None,
         reference: None,
-        sweep: None,
-        expect: Vec::new(),
-        bench: None,
     };
     Some(case::id(&[case::canonical(&decisive), BUILD.as_bytes().to_vec()]))
 }

@@ -1,0 +1,49 @@
+//! Checks of one value: its bounds, and what is said when it is outside.
+
+use super::error::{ExperimentError, number};
+use super::key_path::Path;
+
+/// What contacts name the container.
+pub(super) const CONTAINER: &str = "container";
+
+pub(super) type Result<T> = std::result::Result<T, ExperimentError>;
+
+pub(super) fn unexpected(at: Path, expected: &str, found: &str) -> ExperimentError {
+    ExperimentError::unexpected(at.to_key_path(), expected, found)
+}
+
+pub(super) fn positive(x: f64, at: Path) -> Result<()> {
+    if x > 0.0 { Ok(()) } else { Err(unexpected(at, "a number greater than 0", &number(x))) }
+}
+
+pub(super) fn not_negative(x: f64, at: Path) -> Result<()> {
+    if x >= 0.0 { Ok(()) } else { Err(unexpected(at, "a number of at least 0", &number(x))) }
+}
+
+/// A coefficient of restitution.
+pub(super) fn a_part(x: f64, at: Path) -> Result<()> {
+    if (0.0..=1.0).contains(&x) { Ok(()) } else { Err(unexpected(at, "a number from 0 to 1", &number(x))) }
+}
+
+pub(super) fn at_least_one(n: u32, at: Path) -> Result<()> {
+    if n >= 1 { Ok(()) } else { Err(unexpected(at, "a whole number of at least 1", &n.to_string())) }
+}
+
+/// Outside of these no sweep converges.
+pub(super) fn relaxation(x: f64, at: Path) -> Result<()> {
+    if x > 0.0 && x < 2.0 { Ok(()) } else { Err(unexpected(at, "a number between 0 and 2", &number(x))) }
+}
+
+pub(super) fn holds_a_face(contacts: u32, at: Path) -> Result<()> {
+    let expected = "a whole number of at least 3, as fewer contacts hold no face";
+    if contacts >= 3 { Ok(()) } else { Err(unexpected(at, expected, &contacts.to_string())) }
+}
+
+pub(super) fn sizes(sizes: &[f64; 3], at: Path) -> Result<()> {
+    sizes.iter().enumerate().try_for_each(|(i, size)| positive(*size, at.item(i, None)))
+}
+
+pub(super) fn direction(v: &[f64], at: Path) -> Result<()> {
+    let is_zero = v.iter().all(|x| *x == 0.0);
+    if is_zero { Err(unexpected(at, "a direction", "the zero vector")) } else { Ok(()) }
+}

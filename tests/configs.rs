@@ -17,7 +17,7 @@ fn every_config_runs() {
         // The largest maps are small ones with more seeds.
         if whole.axes().len() <= 50_000 {
             let all = cases(&whole).unwrap_or_else(|error| panic!("{error}"));
-            assert!(all.iter().all(|case| case.experiment.question.is_some()), "{name} asks a question");
+            assert!(all.iter().all(|planned| planned.case.experiment.question.is_some()), "{name} asks a question");
         }
         // Cut short: one seed, a tenth of a second. A case is recorded, the others are not.
         let mut sets = vec!["time.end_s=0.1".to_string()];
@@ -29,11 +29,11 @@ fn every_config_runs() {
         }
         let cut = ExperimentFile::load(&config, &sets).unwrap_or_else(|error| panic!("{error}"));
         let cut = cases(&cut).unwrap();
-        cut.par_iter().enumerate().for_each(|(i, case)| {
+        cut.par_iter().enumerate().for_each(|(i, planned)| {
             let targets = if i == 0 { gotai::record::writer::Target::AVAILABLE } else { &[] };
-            let (measured, written) = build_and_run(case, folder.path(), targets);
+            let (measured, written) = build_and_run(planned, folder.path(), targets);
             written.unwrap();
-            assert_ne!(measured.outcome, Outcome::Failed, "{name}: {:?}", case.axes);
+            assert_ne!(measured.outcome, Outcome::Failed, "{name}: {:?}", planned.case.axes);
             assert!(measured.energy_end_j.is_some(), "{name}");
         });
     }

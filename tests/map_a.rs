@@ -5,6 +5,7 @@ use crate::yaml;
 use gotai::outcome::Outcome;
 use gotai::study::run;
 use gotai::sweep::plan::cases;
+use gotai::sweep::planned::Planned;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -31,14 +32,14 @@ fn map(sets: &[&str]) -> (BTreeMap<(String, String), u64>, f64) {
     assert_eq!(cases.len() as u64, 7 * 6 * SEEDS);
     let measured: Vec<_> = cases
         .par_iter()
-        .map(|case| {
+        .map(|Planned { case, .. }| {
             let (model, start) = gotai::scene::build(&case.experiment).unwrap();
             run(&case.experiment, &model, start, None).measured
         })
         .collect();
     let mut exploded = BTreeMap::new();
     let mut gain = 0.0_f64;
-    for (case, m) in cases.iter().zip(&measured) {
+    for (Planned { case, .. }, m) in cases.iter().zip(&measured) {
         let column = |path: &str| match &case.axes[path] {
             serde_json::Value::String(text) => text.clone(),
             other => other.to_string(),

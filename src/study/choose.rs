@@ -30,7 +30,7 @@ const SAFETY_OF_TOLERANCES: f64 = 5.0;
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Steps to begin with, where the file has none.
 const FIRST_STEPS: f64 = 100.0;
-const HALVINGS: u32 = 12;
+pub const HALVINGS: u32 = 12;
 /// Steps of one run times bodies.
 const MOST_WORK: f64 = 1e6;
 

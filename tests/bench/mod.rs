@@ -8,7 +8,7 @@ use crate::cli::run;
 use crate::scratch;
 use crate::yaml;
 use gotai::bench::{self, timing};
-use gotai::rows::trials::{Row, order, pareto};
+use gotai::rows::trials::{Trial, order, pareto};
 use serde_json::Value;
 
 /// A body that turns about all its axes, and falls.
@@ -28,7 +28,7 @@ bench:
   repeats: 2
 ";
 
-fn rows(text: &str, sets: &[&str]) -> Vec<Row> {
+fn rows(text: &str, sets: &[&str]) -> Vec<Trial> {
     let file = yaml::file(text, sets);
     let bench = file.bench().unwrap();
     let trials = bench::plan(&file, bench).unwrap();
@@ -120,7 +120,7 @@ fn a_bench_does_not_change_the_id_of_a_case() {
     assert_eq!(id(SPIN), id(SPIN.split("bench:").next().unwrap()));
 }
 
-fn row(error: f64, wall_s: f64, step_s: Option<f64>) -> Row {
+fn row(error: f64, wall_s: f64, step_s: Option<f64>) -> Trial {
     let mut row = rows(&format!("{}bench:\n", SPIN.split("bench:").next().unwrap()), &[]).remove(0);
     (row.error, row.wall_s, row.step_s) = (Some(error), Some(wall_s), step_s);
     row

@@ -32,7 +32,7 @@ fn error(tail: &str) -> ExperimentError {
         Ok(cases) => cases,
         Err(error) => return error,
     };
-    let schema = Schema::new(file.axes(), None, &more::names(&cases[0].experiment));
+    let schema = Schema::new(file.axes(), None, &more::names(&cases[0].case.experiment));
     refuse_unknown(&schema, file.expect(), file.search()).expect_err(tail)
 }
 

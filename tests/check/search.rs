@@ -72,7 +72,7 @@ fn a_fraction_over_an_axis_is_searched_in_every_cell_of_the_others() {
     let file = yaml::file(&text, &[]);
     let planned = cases(&file).unwrap();
     assert_eq!(planned.len(), 2);
-    assert_eq!(planned[0].axes.keys().collect::<Vec<_>>(), ["scene.gravity_m_s2.1"]);
+    assert_eq!(planned[0].case.axes.keys().collect::<Vec<_>>(), ["scene.gravity_m_s2.1"]);
     let rows = searched(&text, &[]);
     for (row, critical) in rows.iter().zip([10.0 / 3.0, 20.0 / 3.0]) {
         let (low, high, runs, _) = bracket(row);
@@ -117,7 +117,7 @@ fn a_search_has_an_id_of_its_own_and_the_same_bits_every_time() {
             "{BALL}  search: {{ critical: time.end_s, between: [0.1, 1], until: {{ column: steps, above: 50 }}, relative_width: {width} }}\n"
         )
     };
-    let id = |text: &str, sets: &[&str]| cases(&yaml::file(text, sets)).unwrap()[0].id.clone();
+    let id = |text: &str, sets: &[&str]| cases(&yaml::file(text, sets)).unwrap()[0].case.id.clone();
     assert_eq!(id(&text("0.1"), &[]), id(&text("0.1"), &["question=why?"]));
     assert_ne!(id(&text("0.1"), &[]), id(&text("0.01"), &[]));
     assert_ne!(id(&text("0.1"), &[]), id(&text("0.1"), &["scene.bodies.ball.mass_kg=2"]));

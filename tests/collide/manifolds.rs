@@ -6,7 +6,7 @@ use gotai::shape::solid::{Meeting, Pose, Solid};
 use nalgebra::{UnitQuaternion, Vector3};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-fn near(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose) -> Vec<Touch> {
+fn near(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose) -> Vec<Meeting> {
     let mut all = Vec::new();
     touches(a, pose_a, b, pose_b, 1e-6, &mut all);
     all
@@ -25,7 +25,7 @@ fn shaken(draws: &mut Draws, pose: &Pose) -> Pose {
 /// Number of points of contact of `a` at rest on `b`, the same names in all of a hundred shakes.
 fn steady_points(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose) -> usize {
     let mut draws = Draws(1);
-    let names = |touches: &[Touch]| touches.iter().map(|touch| touch.feature).collect::<Vec<_>>();
+    let names = |touches: &[Meeting]| touches.iter().map(|touch| touch.feature).collect::<Vec<_>>();
     let first = near(a, pose_a, b, pose_b);
     for _ in 0..100 {
         let again = near(a, &shaken(&mut draws, pose_a), b, &shaken(&mut draws, pose_b));

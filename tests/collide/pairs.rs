@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Vector3};
 
 const GAPS_M: [f64; 8] = [0.3, 0.01, 1e-6, 0.0, -1e-9, -1e-3, -0.02, -0.08];
 
-fn nearest(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose) -> Touch {
+fn nearest(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose) -> Meeting {
     let mut all = Vec::new();
     touches(a, pose_a, b, pose_b, 10.0, &mut all);
     *all.iter().min_by(|a, b| a.gap_m.total_cmp(&b.gap_m)).unwrap()

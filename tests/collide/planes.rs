@@ -2,7 +2,7 @@ use super::oracle::{Draws, about, at, level_at, reach, solids};
 use gotai::shape::solid::{Meeting, Pose, Solid, plane_touches};
 use nalgebra::{UnitQuaternion, Vector3};
 
-fn on_floor(solid: &Solid, pose: &Pose, margin_m: f64) -> Vec<Touch> {
+fn on_floor(solid: &Solid, pose: &Pose, margin_m: f64) -> Vec<Meeting> {
     let mut touches = Vec::new();
     plane_touches(solid, pose, &Vector3::y(), 0.0, margin_m, &mut touches);
     touches

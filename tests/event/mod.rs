@@ -35,7 +35,7 @@ fn apart_m(a: &State, b: &State) -> f64 {
 
 /// The states right after each of the first impacts, up to the end.
 fn impacts(experiment: &Experiment, most: usize) -> Vec<State> {
-    let (model, mut state) = model::build(experiment).unwrap();
+    let (model, mut state) = gotai::scene::build(experiment).unwrap();
     let clock = Clock::new(experiment.time.end_s, experiment.time.end_s);
     let mut stepper = Stepper::new(&experiment.method, &Plan::new(&model, &experiment.method), &model, &state);
     let mut found = Vec::new();

@@ -75,7 +75,7 @@ fn what_is_not_written_has_its_default() {
     assert_eq!(experiment.method, Method::TimeStepping(TimeStepping::default()));
     assert_eq!(experiment.diverge, Diverge::default());
     assert_eq!(experiment.record, Record::default());
-    assert!(experiment.sweep.is_none() && experiment.scene.container.is_none());
+    assert!(experiment.scene.container.is_none());
 }
 
 #[test]

@@ -8,6 +8,7 @@ use gotai::rows::Measured;
 use gotai::scene;
 use gotai::study::reference::{id, made, of};
 use gotai::study::run_against;
+use gotai::sweep::planned::Planned;
 
 /// A body that turns about all its axes and falls: what a reference says of it can be held against the closed form.
 const SPIN: &str = "
@@ -81,8 +82,8 @@ fn a_sweep_makes_a_reference_once_and_reads_it_back_to_the_bit() {
     };
     let (ran, rows) = sweep(&cases, folder.path(), &[]);
     assert_eq!((ran, files().len()), (4, 2));
-    for (case, row) in cases.iter().zip(&rows) {
-        let (model, start) = model::build(&case.experiment).unwrap();
+    for (Planned { case, .. }, row) in cases.iter().zip(&rows) {
+        let (model, start) = scene::build(&case.experiment).unwrap();
         let kept = of(folder.path(), &case.experiment, &model, &start).unwrap().unwrap();
         assert_eq!(kept, made(&case.experiment, &model, &start).unwrap());
         assert_eq!(row.measured.without_wall_time(), run(&case.experiment).measured.without_wall_time());
@@ -101,7 +102,7 @@ fn a_sweep_makes_a_reference_once_and_reads_it_back_to_the_bit() {
 /// A run whose reference is good to the 16th of 64 parts alone.
 fn until_part(part: u64, sets: &[&str]) -> Measured {
     let experiment = experiment(SPIN, sets);
-    let (model, start) = model::build(&experiment).unwrap();
+    let (model, start) = scene::build(&experiment).unwrap();
     let mut reference = made(&experiment, &model, &start).unwrap();
     reference.parted_s = Some(2.0 * (part + 1) as f64 / 64.0);
     run_against(&experiment, &model, start, None, Some(&reference)).measured

@@ -3,10 +3,9 @@
 mod store;
 mod threads;
 
-use gotai::case::Case;
 use gotai::record::writer::Target;
-use gotai::rows::plan_file::PlanFile;
-use gotai::sweep::plan::cases;
+use gotai::sweep::plan::{cases, plan_file};
+use gotai::sweep::planned::Planned;
 use gotai::sweep::runner::{Job, Progress, Work, build_and_run, lock};
 use gotai::sweep::store::Store;
 use std::path::Path;
@@ -43,17 +42,17 @@ impl Progress for Silent {
     fn end(&self) {}
 }
 
-pub fn planned(text: &str, sets: &[&str]) -> Vec<Case> {
+pub fn planned(text: &str, sets: &[&str]) -> Vec<Planned> {
     cases(&crate::yaml::file(text, sets)).unwrap()
 }
 
 /// Sweeps as the program does; how many cases were run, and the folder's rows.
-pub fn sweep(cases: &[Case], dir: &Path, targets: &[Target]) -> (usize, Vec<gotai::rows::Row>) {
+pub fn sweep(cases: &[Planned], dir: &Path, targets: &[Target]) -> (usize, Vec<gotai::rows::Row>) {
     sweep_with(cases, dir, targets, &|case, targets| build_and_run(case, dir, targets))
 }
 
-pub fn sweep_with(cases: &[Case], dir: &Path, targets: &[Target], work: &Work) -> (usize, Vec<gotai::rows::Row>) {
-    let store = Mutex::new(Store::open(dir, PlanFile::new(cases), false).unwrap());
+pub fn sweep_with(cases: &[Planned], dir: &Path, targets: &[Target], work: &Work) -> (usize, Vec<gotai::rows::Row>) {
+    let store = Mutex::new(Store::open(dir, plan_file(cases), false).unwrap());
     let job = Job { dir, targets, work, progress: &Silent };
     let ran = job.sweep(cases, &store).unwrap();
     let rows = lock(&store).rows();

@@ -4,7 +4,8 @@ use gotai::experiment::types::RecordCases;
 use gotai::outcome::Outcome;
 use gotai::record::writer::Target;
 use gotai::rows::Measured;
-use gotai::rows::plan_file::PlanFile;
+use gotai::sweep::plan::plan_file;
+use gotai::sweep::planned::Planned;
 use gotai::sweep::recordings::known_after;
 use gotai::sweep::runner::build_and_run;
 use gotai::sweep::store::Store;
@@ -23,7 +24,7 @@ fn run_again_a_sweep_does_only_what_is_missing() {
     let more = planned(SWEEP, &[]);
     let (ran, rows) = sweep(&more, folder.path(), &[]);
     assert_eq!((ran, rows.len()), (16, 24));
-    assert!(rows.iter().zip(&more).all(|(row, case)| row.case == case.id && row.axes == case.axes));
+    assert!(rows.iter().zip(&more).all(|(row, Planned { case, .. })| row.case == case.id && row.axes == case.axes));
 }
 
 #[test]
@@ -50,9 +51,9 @@ fn rows_of_another_build_count_as_missing() {
     let journal = folder.path().join("journal.jsonl");
     let text = std::fs::read_to_string(&journal).unwrap();
     std::fs::write(&journal, text.replace(gotai::build_info::BUILD, "another")).unwrap();
-    let kept = Store::open(folder.path(), PlanFile::new(&cases), true).unwrap();
-    assert!(cases.iter().all(|case| kept.measured(&case.id).is_some()));
-    assert!(cases.iter().all(|case| kept.measured_by_this_build(&case.id).is_none()));
+    let kept = Store::open(folder.path(), plan_file(&cases), true).unwrap();
+    assert!(cases.iter().all(|planned| kept.measured(&planned.case.id).is_some()));
+    assert!(cases.iter().all(|planned| kept.measured_by_this_build(&planned.case.id).is_none()));
     assert_eq!(sweep(&cases, folder.path(), &[]).0, 4);
 }
 
@@ -60,9 +61,9 @@ fn rows_of_another_build_count_as_missing() {
 fn a_case_that_panics_is_a_failed_row_and_the_sweep_goes_on() {
     let folder = scratch::folder();
     let cases = planned(SWEEP, &["sweep.axes.seed=[0, 1, 2]"]);
-    let (ran, rows) = sweep_with(&cases, folder.path(), &[], &|case, targets| {
-        assert!(case.experiment.seed != 1, "seed 1 is not liked here");
-        build_and_run(case, folder.path(), targets)
+    let (ran, rows) = sweep_with(&cases, folder.path(), &[], &|planned, targets| {
+        assert!(planned.case.experiment.seed != 1, "seed 1 is not liked here");
+        build_and_run(planned, folder.path(), targets)
     });
     assert_eq!((ran, rows.len()), (12, 12));
     for row in &rows {
@@ -116,7 +117,7 @@ fn a_missing_recording_is_made_again_and_a_complete_one_left_alone() {
     let folder = scratch::folder();
     let cases = planned(SWEEP, &["sweep.axes.seed=[0]"]);
     sweep(&cases, folder.path(), &[Target::Mcap]);
-    let file = |i: usize| folder.path().join(format!("{}.mcap", cases[i].id));
+    let file = |i: usize| folder.path().join(format!("{}.mcap", cases[i].case.id));
     let before: Vec<_> = (0..4).map(|i| std::fs::read(file(i)).unwrap()).collect();
     std::fs::remove_file(file(2)).unwrap();
     File::create(file(1)).unwrap().write_all(b"mine").unwrap();

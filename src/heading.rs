@@ -138,8 +138,8 @@ impl Headings for Map<String, Value> {
 }
 
 /// Declares a struct whose fields are the columns of a table, and lists them: a field's doc comment is the column's
-/// meaning, its type the kind, `#[serde(rename)]` another name for it; a field with `#[serde(flatten)]` has columns of its
-/// own.
+/// meaning, its type the kind, `#[serde(rename)]` another name for it; a field with `#[serde(flatten)]` has columns of
+/// its own.
 macro_rules! columns {
     (
         $(#[$on_struct:meta])*

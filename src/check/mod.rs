@@ -1,4 +1,5 @@
-//! Rows against `expect:`. Knows columns and expectations, never the simulator: whatever wrote the rows is judged alike.
+//! Rows against `expect:`. Knows columns and expectations, never the simulator: whatever wrote the rows is judged
+//! alike.
 //!
 //! `known` refuses what cannot be judged before anything runs, `judge` gives the verdicts, `trend` holds the two tests.
 

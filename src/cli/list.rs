@@ -169,8 +169,8 @@ fn sourced(About { what, source }: &About) -> String {
 
 fn methods() -> Vec<Section> {
     let lead = format!(
-        "`method:` is one of these words, or one key with settings: `method: {{ lecture: {{ sweeps: 50 }} }}`. The default \
-         is `{}`.",
+        "`method:` is one of these words, or one key with settings: `method: {{ lecture: {{ sweeps: 50 }} }}`. The \
+         default is `{}`.",
         Method::default().word()
     );
     let mut sections = vec![Section { title: String::new(), lead, head: &[], rows: Vec::new() }];
@@ -217,9 +217,9 @@ fn integrators() -> Section {
     };
     Section {
         title: "Integrators of `free`".to_string(),
-        lead: "The order is of attitude and angular velocity, of the position too where the parabola is not kept; a dash: \
-               none of its own. What is kept is so to rounding, of a body without torque, at any step. Tests hold every \
-               line."
+        lead: "The order is of attitude and angular velocity, of the position too where the parabola is not kept; a \
+               dash: none of its own. What is kept is so to rounding, of a body without torque, at any step. Tests \
+               hold every line."
             .to_string(),
         head: &["integrator", "order", "more accurate by", "keeps", "source"],
         rows: words::<Integrator>().into_iter().map(row).collect(),
@@ -247,8 +247,8 @@ fn closed_forms() -> Vec<Section> {
             rows,
         }
     };
-    let lead = "The closed form that `exact:` names is what errors are measured against. A scene that it is not the motion of \
-                is refused.";
+    let lead = "The closed form that `exact:` names is what errors are measured against. A scene that it is not the \
+                motion of is refused.";
     let before = Section { title: String::new(), lead: lead.to_string(), head: &[], rows: Vec::new() };
     vec![before, section(false, "Without contact"), section(true, "With contact")]
 }
@@ -260,8 +260,8 @@ fn shapes() -> Section {
     };
     Section {
         title: String::new(),
-        lead: "`shape:` of a body; all keys are needed. The body frame's origin is the centre of the shape, of a `convex` that \
-               of its vertices."
+        lead: "`shape:` of a body; all keys are needed. The body frame's origin is the centre of the shape, of a \
+               `convex` that of its vertices."
             .to_string(),
         head: &["shape", "keys", "what touches"],
         rows: words::<Shape>().into_iter().map(row).collect(),
@@ -278,8 +278,8 @@ fn all_columns() -> Vec<Section> {
     let mut sections = vec![
         section(
             "Every row".to_string(),
-            "In this order; after `case` comes every axis by its path, before `build` what only some experiments have. A \
-             number that means nothing in a run is null: an empty cell.",
+            "In this order; after `case` comes every axis by its path, before `build` what only some experiments \
+             have. A number that means nothing in a run is null: an empty cell.",
             &columns::of_every_row(),
         ),
         section("Rows of a search".to_string(), "The other columns are of the run at `search_low`.", &columns::SEARCH),

@@ -20,8 +20,8 @@ impl Method {
     pub fn about(&self) -> About {
         match self {
             Method::Free(_) => about(
-                "Motion without contact, with pins; `tolerance` is of one inner step of dop853 and taylor, relative and \
-                 absolute.",
+                "Motion without contact, with pins; `tolerance` is of one inner step of dop853 and taylor, relative \
+                 and absolute.",
                 "lecture L4, L5, L24",
             ),
             Method::Lecture(_) => about(
@@ -33,23 +33,25 @@ impl Method {
                 "lecture L15",
             ),
             Method::TimeStepping(_) => about(
-                "Velocity and impulse, by projected Gauss–Seidel, its conjugate gradients or the exact law of contact; gaps \
-                 close to zero and no further; free rotation in closed form; of order 1, with `moreau` of order 2 between \
-                 impacts.",
-                "Moreau 1988, 1999; Stewart & Trinkle 1996; Anitescu & Potra 1997; Glocker & Pfeiffer 1995; Stronge 1990",
+                "Velocity and impulse, by projected Gauss–Seidel, its conjugate gradients or the exact law of \
+                 contact; gaps close to zero and no further; free rotation in closed form; of order 1, with `moreau` \
+                 of order 2 between impacts.",
+                "Moreau 1988, 1999; Stewart & Trinkle 1996; Anitescu & Potra 1997; Glocker & Pfeiffer 1995; Stronge \
+                 1990",
             ),
             Method::EventDriven(_) => about(
                 format!(
-                    "Closed forms between events, else order 8 with a continuous extension of order 7; impacts, ends and \
-                     beginnings of slips, and openings are roots in time; where events lead no further, short steps of \
-                     `time-stepping` (column `work_fallbacks`). `tolerance` is of positions at the end, in metres, times the \
-                     column `sensitivity` where that is above 1; at least {SMALLEST_GLOBAL:e}."
+                    "Closed forms between events, else order 8 with a continuous extension of order 7; impacts, ends \
+                     and beginnings of slips, and openings are roots in time; where events lead no further, short \
+                     steps of `time-stepping` (column `work_fallbacks`). `tolerance` is of positions at the end, in \
+                     metres, times the column `sensitivity` where that is above 1; at least {SMALLEST_GLOBAL:e}."
                 ),
                 "Dormand & Prince 8(5,3); Glocker 2001; Mirtich 1996",
             ),
             Method::Auto(_) => about(
-                "`event-driven`, or `time-stepping` where that stalls or falls back: whatever two runs say is accurate \
-                 enough (columns `method_used`, `error_estimate_m`). `tolerance` is of positions at the end, in metres.",
+                "`event-driven`, or `time-stepping` where that stalls or falls back: whatever two runs say is \
+                 accurate enough (columns `method_used`, `error_estimate_m`). `tolerance` is of positions at the \
+                 end, in metres.",
                 "",
             ),
         }
@@ -140,16 +142,18 @@ impl Exact {
                 "Routh, Elementary Rigid Dynamics, 136",
             ),
             Exact::Ladder => about(
-                "It leaves the wall at 2/3 of its height, by elliptic functions; then a falling rod that goes on sideways.",
+                "It leaves the wall at 2/3 of its height, by elliptic functions; then a falling rod that goes on \
+                 sideways.",
                 "Routh, Elementary Rigid Dynamics, 144",
             ),
             Exact::RimlessWheel => about(
-                "It rolls over its edges, on and on or back and forth until it stands; elliptic functions from impact to \
-                 impact.",
+                "It rolls over its edges, on and on or back and forth until it stands; elliptic functions from \
+                 impact to impact.",
                 "McGeer, Int. J. Robotics Research 9 (1990) 62",
             ),
             Exact::Dome => about(
-                "It slides until it leaves at 2/3 of the height, then flies; or rolls until it slips; elliptic functions.",
+                "It slides until it leaves at 2/3 of the height, then flies; or rolls until it slips; elliptic \
+                 functions.",
                 "Routh, Elementary Rigid Dynamics, 137",
             ),
             Exact::StickSlip => about(
@@ -163,7 +167,8 @@ impl Exact {
     pub fn scenes(self) -> &'static str {
         match self {
             Exact::FreeMotion => {
-                "Gravity, and constant or cosine forces of the world at the centre of mass; no air, no pins, no contact."
+                "Gravity, and constant or cosine forces of the world at the centre of mass; no air, no pins, no \
+                 contact."
             }
             Exact::SymmetricBody => {
                 "The same forces; every body with two equal moments of inertia; no air, no pins, no contact."
@@ -172,8 +177,8 @@ impl Exact {
                 "Gravity, constant forces of the world at the centre of mass, air with `linear_drag_n_s_m`."
             }
             Exact::QuadraticDrag => {
-                "Gravity, constant forces of the world at the centre of mass, air with a `drag_coefficient`; velocity along \
-                 the line of the forces, or no forces."
+                "Gravity, constant forces of the world at the centre of mass, air with a `drag_coefficient`; \
+                 velocity along the line of the forces, or no forces."
             }
             Exact::HeavyTop => "Gravity; every body one of revolution, on one pin to the world on its axis.",
             Exact::Pendulum => {
@@ -181,38 +186,39 @@ impl Exact {
             }
             Exact::Rest => "Every body at rest at the start; for piles and slopes that hold.",
             Exact::Sliding => {
-                "Gravity, constant forces of the world at the centre of mass; one body flat on a container of one plane, \
-                 without spin, moving along the line of slope or on a level plane; too low to tip."
+                "Gravity, constant forces of the world at the centre of mass; one body flat on a container of one \
+                 plane, without spin, moving along the line of slope or on a level plane; too low to tip."
             }
             Exact::Ball => {
-                "Gravity, constant forces of the world at the centre of mass; one sphere and a container of one plane; where \
-                 it slips, along the line of slope or on a level plane."
+                "Gravity, constant forces of the world at the centre of mass; one sphere and a container of one \
+                 plane; where it slips, along the line of slope or on a level plane."
             }
             Exact::Turntable => {
-                "A sphere that rolls on a level box or cylinder with a kinematic spin about its vertical axis; no container."
+                "A sphere that rolls on a level box or cylinder with a kinematic spin about its vertical axis; no \
+                 container."
             }
             Exact::RockingBlock => {
-                "One box on a container of one level plane, restitution 0, friction that holds; tilted about a lower edge, \
-                 or turning about it, not enough to overturn."
+                "One box on a container of one level plane, restitution 0, friction that holds; tilted about a lower \
+                 edge, or turning about it, not enough to overturn."
             }
             Exact::FallingRod => {
                 "One capsule leaning at rest, one end on a container of one level plane; no friction, restitution 0."
             }
             Exact::Ladder => {
-                "One capsule leaning at rest, one end on each of a container's two planes, one level and one upright; no \
-                 friction, restitution 0."
+                "One capsule leaning at rest, one end on each of a container's two planes, one level and one \
+                 upright; no friction, restitution 0."
             }
             Exact::RimlessWheel => {
-                "One regular prism (a box or a convex) on a container of one plane, restitution 0, friction that holds; \
-                 tilted about a lower edge, or turning about one, along the line of slope."
+                "One regular prism (a box or a convex) on a container of one plane, restitution 0, friction that \
+                 holds; tilted about a lower edge, or turning about one, along the line of slope."
             }
             Exact::Dome => {
-                "One sphere at rest on a fixed one, off its top; restitution 0; no friction, or friction that holds until \
-                 the end."
+                "One sphere at rest on a fixed one, off its top; restitution 0; no friction, or friction that holds \
+                 until the end."
             }
             Exact::StickSlip => {
-                "One body flat on a container of one plane, too low to tip; one cosine force along the line that it moves \
-                 on, and constant forces that friction holds."
+                "One body flat on a container of one plane, too low to tip; one cosine force along the line that it \
+                 moves on, and constant forces that friction holds."
             }
         }
     }
@@ -232,8 +238,8 @@ impl Measure {
                 about("Difference quotients of the positions of a run against its velocities.", "lecture L1")
             }
             Measure::Sensitivity => about(
-                "Twin runs whose start is displaced a little. The column is one of every row, and is always filled for \
-                 methods that follow events.",
+                "Twin runs whose start is displaced a little. The column is one of every row, and is always filled \
+                 for methods that follow events.",
                 "",
             ),
         }

@@ -1,7 +1,7 @@
 //! The vocabulary, asked of the parser itself: the words of an enum, the settings that each takes, their defaults.
 //!
-//! serde's derived readers say what they want: the reader here gives them just that, and notes what it was. So a list of
-//! what can be written holds what can be read, and nothing has to be listed by hand.
+//! serde's derived readers say what they want: the reader here gives them just that, and notes what it was. So a list
+//! of what can be written holds what can be read, and nothing has to be listed by hand.
 
 use super::error::number;
 use serde::de::value::{Error, MapDeserializer, SeqDeserializer, StrDeserializer};

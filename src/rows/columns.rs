@@ -1,5 +1,5 @@
-//! The one list of columns: tables, `check`, `gotai list columns` and docs/columns.md are made from it. Those of every row
-//! are the fields of `Row`, `Measured` and `Work`; here are those that only some experiments have.
+//! The one list of columns: tables, `check`, `gotai list columns` and docs/columns.md are made from it. Those of every
+//! row are the fields of `Row`, `Measured` and `Work`; here are those that only some experiments have.
 
 use super::Row;
 use crate::heading::{CellKind, Heading, Headings};
@@ -49,8 +49,8 @@ pub const CONTACT_MATRIX: [Heading; 3] = [
     count("contact_matrix_rank", "Rank of A = J M⁻¹ Jᵀ in that step."),
     number(
         "jacobi_radius",
-        "Spectral radius of E − D⁻¹A in that step, D the diagonal of A: the factor by which a sweep of Jacobi's iteration \
-         makes an error grow.",
+        "Spectral radius of E − D⁻¹A in that step, D the diagonal of A: the factor by which a sweep of Jacobi's \
+         iteration makes an error grow.",
     ),
 ];
 
@@ -92,8 +92,8 @@ pub fn names(headings: &[Heading]) -> Vec<String> {
     headings.iter().flat_map(Heading::names).collect()
 }
 
-/// What a column of every row, or of a search's, holds. Axes, and columns that `measure:` adds, are not among them: their
-/// kind is that of their values.
+/// What a column of every row, or of a search's, holds. Axes, and columns that `measure:` adds, are not among them:
+/// their kind is that of their values.
 pub fn kind(name: &str) -> Option<CellKind> {
     let known = of_every_row().into_iter().chain(SEARCH);
     known.into_iter().find(|heading| heading.name == name).map(|heading| heading.kind)

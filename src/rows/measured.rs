@@ -7,15 +7,15 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 columns! {
-    /// What a run measures, whatever sweep it belongs to. Fields are columns, in this order; a number that means nothing
-    /// here is null. What the relative ones are relative to: docs/numbers.md.
+    /// What a run measures, whatever sweep it belongs to. Fields are columns, in this order; a number that means
+    /// nothing here is null. What the relative ones are relative to: docs/numbers.md.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct Measured {
-        /// How the run ended: `finished`, `diverged`, `stalled` or `failed`. Divergence is a result, a failure is a fault
-        /// of the program.
+        /// How the run ended: `finished`, `diverged`, `stalled` or `failed`. Divergence is a result, a failure is a
+        /// fault of the program.
         pub outcome: Outcome,
-        /// What stopped the run: `not-finite`, `energy`, `escape`, `speed` or `penetration` (diverged), `not-converged`,
-        /// `painleve` or `limit` (stalled), or a panic's message (failed). Null when it has finished.
+        /// What stopped the run: `not-finite`, `energy`, `escape`, `speed` or `penetration` (diverged),
+        /// `not-converged`, `painleve` or `limit` (stalled), or a panic's message (failed). Null when it has finished.
         pub criterion: Option<String>,
         /// Time that was reached.
         pub end_time_s: Option<f64>,
@@ -40,8 +40,8 @@ columns! {
         /// Change of linear momentum that gravity, applied forces and the contacts' impulses do not explain, of the
         /// largest Σ m|v|. Null where a pin holds a body to the world.
         pub linear_momentum_drift_rel: Option<f64>,
-        /// The same of angular momentum, about the centre of mass of all bodies, of the largest Σ(|Iω| + |r × mv|). Where
-        /// a pin holds a body to the world, it is about the pin along gravity.
+        /// The same of angular momentum, about the centre of mass of all bodies, of the largest Σ(|Iω| + |r × mv|).
+        /// Where a pin holds a body to the world, it is about the pin along gravity.
         pub angular_momentum_drift_rel: Option<f64>,
         /// Depth of the deepest contact of the run. Null where the method never looks for contacts.
         pub penetration_max_m: Option<f64>,
@@ -50,8 +50,8 @@ columns! {
         /// Largest distance between the two points that a pin holds together. Null without pins.
         pub pin_gap_max_m: Option<f64>,
         /// Distance of the worst contact of the worst step from Signorini's and Coulomb's law, relative to the largest
-        /// impulse of its island. Rounding gives 1e-16 to 1e-13, a wrong impulse O(1). Null for `free` and `penalty`, and
-        /// where nothing has touched.
+        /// impulse of its island. Rounding gives 1e-16 to 1e-13, a wrong impulse O(1). Null for `free` and `penalty`,
+        /// and where nothing has touched.
         pub residual_max: Option<f64>,
         /// Largest kinetic energy after one contact solve over that before it. Above 1 contacts have made energy.
         pub contact_gain_max: Option<f64>,
@@ -73,9 +73,9 @@ columns! {
         pub reference_uncertainty_m: Option<f64>,
         /// Last time of the reference at which its two runs agree.
         pub reference_until_s: Option<f64>,
-        /// Factor by which an error of the start has grown at the end, from three twin runs that start displaced a little.
-        /// A body in free flight has 2. Always measured for methods that follow events, for others if `measure:` asks for
-        /// it.
+        /// Factor by which an error of the start has grown at the end, from three twin runs that start displaced a
+        /// little. A body in free flight has 2. Always measured for methods that follow events, for others if
+        /// `measure:` asks for it.
         pub sensitivity: Option<f64>,
         /// Largest number of contacts in a step.
         pub contacts_max: u64,

@@ -18,8 +18,8 @@ pub struct Table {
 }
 
 impl Table {
-    /// Columns are there even if there is no row: those of every row in their order, axes and what only some experiments
-    /// have at their places in it.
+    /// Columns are there even if there is no row: those of every row in their order, axes and what only some
+    /// experiments have at their places in it.
     pub fn new(axes: &[PlanAxis], rows: &[Row]) -> Self {
         let mut blank = Row::default();
         blank.axes.extend(axes.iter().map(|axis| (axis.path.clone(), Value::Null)));

@@ -3,10 +3,10 @@
 //!     cargo build --release --locked --example peer
 //!     target/release/examples/peer SCENE_FILE REPEATS DT [key=value ...]
 //!
-//! Keys: `method` (time-stepping, the default; event-driven, auto), `tolerance`, `scheme`, `solver`, as in an experiment
-//! file. DT is the step of methods that take one. It prints one line, `RESULT dt steps wall_s n` and 13 numbers a body:
-//! px py pz qw qx qy qz vx vy vz wx wy wz (world frame, centre of mass, quaternion body to world). `wall_s` is the best of
-//! at least REPEATS runs, stepping alone.
+//! Keys: `method` (time-stepping, the default; event-driven, auto), `tolerance`, `scheme`, `solver`, as in an
+//! experiment file. DT is the step of methods that take one. It prints one line, `RESULT dt steps wall_s n` and 13
+//! numbers a body: px py pz qw qx qy qz vx vy vz wx wy wz (world frame, centre of mass, quaternion body to world).
+//! `wall_s` is the best of at least REPEATS runs, stepping alone.
 //!
 //! The scene has one item a line, SI units:
 //!

@@ -152,8 +152,8 @@ fn events(model: &Model, method: &Method) -> Option<Stage> {
 fn choice(method: &Method) -> Option<Stage> {
     let Method::Auto(Auto { tolerance }) = method else { return None };
     let why = format!(
-        "event-driven at {tolerance:e} and finer, until two runs agree to {tolerance:e} m; where all stall or fall back, \
-         time-stepping (moreau, newton), its step halved a dozen times at most"
+        "event-driven at {tolerance:e} and finer, until two runs agree to {tolerance:e} m; where all stall or fall \
+         back, time-stepping (moreau, newton), its step halved a dozen times at most"
     );
     Some(stage("choice of method", true, why))
 }

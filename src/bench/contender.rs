@@ -46,8 +46,8 @@ pub struct NotDeterministic(String);
 /// All contenders of a file, in the order written.
 ///
 /// # Errors
-/// Axes are left that are neither the method's nor the step; a contender is wrong; the error is no number of a row, or there
-/// is nothing to measure it against.
+/// Axes are left that are neither the method's nor the step; a contender is wrong; the error is no number of a row, or
+/// there is nothing to measure it against.
 pub fn plan(file: &ExperimentFile, bench: &Bench) -> Result<Vec<Contender>> {
     let mut contenders = Vec::new();
     for listed in &bench.methods {

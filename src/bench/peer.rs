@@ -1,8 +1,8 @@
 //! A scene and a method in the plain words of a comparison of engines, timed, its end as one line of numbers.
 //!
-//! The scene is text, one item a line, SI units, as `benches/peer.rs` shows; it becomes an experiment file, so that what a
-//! user cannot write a comparison cannot either. `RESULT` is of stepping alone, the best of the repeats; of a method that
-//! makes its own steps, the step is their mean.
+//! The scene is text, one item a line, SI units, as `benches/peer.rs` shows; it becomes an experiment file, so that
+//! what a user cannot write a comparison cannot either. `RESULT` is of stepping alone, the best of the repeats; of a
+//! method that makes its own steps, the step is their mean.
 
 use super::timing;
 use crate::experiment::{ExperimentError, ExperimentFile};

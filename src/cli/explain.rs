@@ -58,8 +58,8 @@ impl Command {
         if self.output.json {
             let stages: Vec<_> = tallies.iter().map(tally_json).collect();
             print_json(&json!({
-                "cases": cost.cases, "references": cost.references, "steps": cost.steps, "estimated_cpu_s": cost.seconds,
-                "estimated_bytes": cost.bytes, "stages": stages,
+                "cases": cost.cases, "references": cost.references, "steps": cost.steps,
+                "estimated_cpu_s": cost.seconds, "estimated_bytes": cost.bytes, "stages": stages,
             }));
             return Ok(ExitCode::SUCCESS);
         }

@@ -1,6 +1,6 @@
-//! What the law of contact asks of a contact's normal velocity at the end of a step: Signorini's condition for a gap that
-//! may close within the step, and Newton's law of restitution for one that has closed (J. J. Moreau 1988; the gap as in
-//! D. E. Stewart, J. C. Trinkle, Int. J. Numer. Meth. Engng 39 (1996) 2673).
+//! What the law of contact asks of a contact's normal velocity at the end of a step: Signorini's condition for a gap
+//! that may close within the step, and Newton's law of restitution for one that has closed (J. J. Moreau 1988; the gap
+//! as in D. E. Stewart, J. C. Trinkle, Int. J. Numer. Meth. Engng 39 (1996) 2673).
 
 use super::Contact;
 use crate::model::Model;
@@ -19,9 +19,9 @@ pub enum Approach {
     Middle,
 }
 
-/// Leaves those contacts that may close in the step: of every body and face (or other body) none beyond twice the way that
-/// the fastest of them closes by itself, as one that touches may turn the body toward the others. `velocities`: of a body
-/// by its index, before the contacts.
+/// Leaves those contacts that may close in the step: of every body and face (or other body) none beyond twice the way
+/// that the fastest of them closes by itself, as one that touches may turn the body toward the others. `velocities`: of
+/// a body by its index, before the contacts.
 pub fn foresee(
     model: &Model,
     contacts: &mut Vec<Contact>,
@@ -91,8 +91,8 @@ impl Approach {
             Approach::Start if rebound > 0.0 && before + gained < closing => Some(closing.max(rebound + falling)),
             Approach::Start => Some(closing),
             Approach::Middle if gap_m == 0.0 && before < 0.0 => Some(rebound),
-            // A contact that bounces waits until it is inside, one that loses nothing always; any other is caught when its
-            // gap closes. What still opens is let back no faster than it came: no contact adds energy.
+            // A contact that bounces waits until it is inside, one that loses nothing always; any other is caught when
+            // its gap closes. What still opens is let back no faster than it came: no contact adds energy.
             Approach::Middle => {
                 let rests = contact.restitution < 1.0 && rebound <= -falling;
                 (gap_m == 0.0 || rests).then_some(closing.min(-before.max(0.0)))

@@ -1,7 +1,7 @@
 //! Which of many bodies may touch: a uniform grid of the bodies' centres, and the few large ones against all.
 //!
-//! Bodies no larger than a cell overlap only within neighbouring cells. Cells are sorted rather than hashed: the order is
-//! the same on every host, and once the buffers have grown nothing is allocated.
+//! Bodies no larger than a cell overlap only within neighbouring cells. Cells are sorted rather than hashed: the order
+//! is the same on every host, and once the buffers have grown nothing is allocated.
 
 use nalgebra::Vector3;
 
@@ -29,7 +29,8 @@ impl Bounds {
 
 /// Cells along an axis, 20 bits; what lies beyond is in the last one.
 const MOST_CELLS: f64 = 1_048_575.0;
-/// Of the median extent: small enough that few bodies share a cell, and bodies a little above the median count as small.
+/// Of the median extent: small enough that few bodies share a cell, and bodies a little above the median count as
+/// small.
 const CELL: f64 = 1.5;
 
 #[derive(Clone, Debug, Default)]

@@ -1,5 +1,5 @@
-//! Points of a body against the faces of a container. A face farther from the centre of mass than the bounding radius is
-//! skipped with one dot product.
+//! Points of a body against the faces of a container. A face farther from the centre of mass than the bounding radius
+//! is skipped with one dot product.
 
 use crate::model::container::Face;
 use crate::model::{Body, Geometry};
@@ -7,8 +7,8 @@ use crate::shape::solid::Solid;
 use crate::state::BodyState;
 use nalgebra::Vector3;
 
-/// Calls `visit(node, from the centre of mass to it in world axes, gap)` for all candidate points of a body whose gap to
-/// the face is below the limit; says how many points were looked at.
+/// Calls `visit(node, from the centre of mass to it in world axes, gap)` for all candidate points of a body whose gap
+/// to the face is below the limit; says how many points were looked at.
 pub fn each_near(
     body: &Body,
     at: &BodyState,

@@ -1,5 +1,5 @@
-//! When a contact that holds stops doing so: its slip ends, it begins to slip, it opens, or it comes to the border of a face or
-//! the end of an edge.
+//! When a contact that holds stops doing so: its slip ends, it begins to slip, it opens, or it comes to the border of a
+//! face or the end of an edge.
 
 use super::decide::{Change, margin};
 use super::forces::{Forces, Held, Mode, NO_SLIP, Slip, meeting_m_s};

@@ -1,10 +1,10 @@
-//! Which contacts hold, which stick and which slide from here on: Signorini's condition and Coulomb's law for accelerations
-//! (C. Glocker, Set-Valued Force Laws, 2001).
+//! Which contacts hold, which stick and which slide from here on: Signorini's condition and Coulomb's law for
+//! accelerations (C. Glocker, Set-Valued Force Laws, 2001).
 //!
-//! Most often what was there goes on: one linear system and a look at the cones. Else contacts that cannot stick are made
-//! to slide against the force that would be needed. Only then the law itself is solved, all contacts at once, by the exact
-//! contact solver: with accelerations for velocities it is the same law for contacts that do not slip; one that slips
-//! gets so large a fictitious slip that its force is on the edge of the cone.
+//! Most often what was there goes on: one linear system and a look at the cones. Else contacts that cannot stick are
+//! made to slide against the force that would be needed. Only then the law itself is solved, all contacts at once, by
+//! the exact contact solver: with accelerations for velocities it is the same law for contacts that do not slip; one
+//! that slips gets so large a fictitious slip that its force is on the edge of the cone.
 
 use super::forces::{Forces, Held, Mode, NO_SLIP, Rows, Slip, direction, edge, meeting_m_s};
 use super::touch::{Here, Touch};
@@ -251,9 +251,9 @@ fn is_stopped(block: &Block, p: &Impulse, a: &Vector3<f64>, slip_W: Vector3<f64>
     slip_W != Vector3::zeros() && p.x > 0.0 && left.norm() <= 1e-6 * slip_W.norm()
 }
 
-/// How far the contacts that hold are from a change, over the largest force: the least normal force, and what is left of
-/// the cone of those that stick. Negative: something has changed. Where redundant contacts share forces so that one of them
-/// pulls or slips, but could share them otherwise, nothing has.
+/// How far the contacts that hold are from a change, over the largest force: the least normal force, and what is left
+/// of the cone of those that stick. Negative: something has changed. Where redundant contacts share forces so that one
+/// of them pulls or slips, but could share them otherwise, nothing has.
 pub fn margin(model: &Model, state: &State, held: &[Held], forces: &mut Forces, work: &mut Work) -> f64 {
     forces.gather(model, state, held.iter().map(|held| &held.touch));
     if !forces.hold(held, Choice::Least) {

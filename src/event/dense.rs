@@ -1,5 +1,6 @@
-//! Motion with forces of contact that vary: Dormand and Prince's method of order 8 with its continuous extension of order 7
-//! (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.6), for all bodies that have no closed form.
+//! Motion with forces of contact that vary: Dormand and Prince's method of order 8 with its continuous extension of
+//! order 7 (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.6), for all bodies that have no
+//! closed form.
 //!
 //! What holds is kept by accelerations; what drifts in a step, some part of its error, is taken off at its end by the
 //! smallest displacement and change of velocity (E. Eich 1993; `project`).
@@ -232,10 +233,10 @@ impl Dense {
     }
 }
 
-/// Puts what is held back in place: gaps closed by the smallest change in the metric of the masses, and no velocity left
-/// along the rows that hold, by impulses that contacts can have: what is left of a rocking that is cut off is ended with the
-/// friction that would have come with it, so that the momentum is wrong by the square of it only. True: something had to be
-/// moved. The impulses are left in `forces`.
+/// Puts what is held back in place: gaps closed by the smallest change in the metric of the masses, and no velocity
+/// left along the rows that hold, by impulses that contacts can have: what is left of a rocking that is cut off is
+/// ended with the friction that would have come with it, so that the momentum is wrong by the square of it only. True:
+/// something had to be moved. The impulses are left in `forces`.
 pub fn project(model: &Model, state: &mut State, held: &[Held], forces: &mut Forces) -> bool {
     if held.is_empty() && model.pins.is_empty() {
         return false;

@@ -1,10 +1,10 @@
 //! Forces of contact that keep what is in contact together: A f + b = 0 at the level of accelerations, for given modes.
 //!
-//! b is J V̇ without contact plus the touches' bias. A contact that sticks has three rows; one that slides has its normal
-//! row, and its force lies on the edge of the cone, n − μ d, so that the system is not symmetric and may have no solution
-//! (Painlevé). Contacts may be redundant (the four corners of a slab): then the forces are not unique and the motion is, of
-//! contacts that stick or all slide the same way. `Choice::Any` finds one solution by elimination, `Choice::Least` the
-//! smallest.
+//! b is J V̇ without contact plus the touches' bias. A contact that sticks has three rows; one that slides has its
+//! normal row, and its force lies on the edge of the cone, n − μ d, so that the system is not symmetric and may have no
+//! solution (Painlevé). Contacts may be redundant (the four corners of a slab): then the forces are not unique and the
+//! motion is, of contacts that stick or all slide the same way. `Choice::Any` finds one solution by elimination,
+//! `Choice::Least` the smallest.
 
 use super::touch::{Here, Touch};
 use crate::collide::Contact;
@@ -26,8 +26,8 @@ pub enum Mode {
     Slide(Vector3<f64>),
 }
 
-/// How far a slip is from its beginning and its end, where its direction is stiff: it turns toward that of the acceleration
-/// at the rate μ f/(m |s|), which has no bound as s → 0.
+/// How far a slip is from its beginning and its end, where its direction is stiff: it turns toward that of the
+/// acceleration at the rate μ f/(m |s|), which has no bound as s → 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Slip {
     Fast,
@@ -184,8 +184,8 @@ impl Forces {
         self.rows.resize(self.problem.blocks.len(), Rows::All);
     }
 
-    /// Of contacts that share forces, those that would pull are left out as long as the others can hold them: which of them
-    /// press decides how a slab that spins is slowed.
+    /// Of contacts that share forces, those that would pull are left out as long as the others can hold them: which of
+    /// them press decides how a slab that spins is slowed.
     fn push_only(&mut self, contacts: usize) -> bool {
         let scale = self.problem.blocks.iter().map(|block| block.b.norm()).fold(0.0, f64::max);
         let (all_rows, all, all_added) = (self.rows.clone(), self.p.clone(), self.added.clone());

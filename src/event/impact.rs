@@ -1,7 +1,7 @@
 //! Impacts: what touches at one moment, by the law of impact chosen.
 //!
-//! Newton's law of restitution is the target of the same contact problem that time-stepping solves, with no forces in it;
-//! the other laws are `solve::impact`. Held contacts take part. Bodies do not move in an impact.
+//! Newton's law of restitution is the target of the same contact problem that time-stepping solves, with no forces in
+//! it; the other laws are `solve::impact`. Held contacts take part. Bodies do not move in an impact.
 
 use super::forces::Forces;
 use crate::collide::{Contact, SolvedContact};
@@ -65,8 +65,8 @@ fn plastic(problem: &ContactProblem, p: &mut [Impulse], work: &mut Work) -> bool
 /// Of the slip: an approach that is none.
 const HINT: f64 = 1e-6;
 
-/// Of contacts that only slip, the impulses that end a slip: besides none at all, these obey the law too. They are found
-/// from those of a slight approach, which has no others (F. Génot, B. Brogliato 1999). False: there are none.
+/// Of contacts that only slip, the impulses that end a slip: besides none at all, these obey the law too. They are
+/// found from those of a slight approach, which has no others (F. Génot, B. Brogliato 1999). False: there are none.
 pub fn jam(
     model: &Model,
     state: &mut State,

@@ -4,15 +4,16 @@
 //! - `touch`: a point of contact in any state, and its rates; `shown`: which parts of two bodies meet there
 //! - `forces`: the forces that keep what is in contact together
 //! - `decide`: which contacts hold, stick, slide
-//! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion; `slip`: where that is stiff
+//! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion; `slip`: where that is
+//!   stiff
 //! - `change`: when a contact that holds stops doing so
 //! - `watch`: when the next gap closes, and the proof that none was missed
 //! - `impact`: the laws of impact at one moment
 //!
-//! Errors. A gap beyond δ = 1e-13 of the body (and rounding of its coordinates) is never stepped over. Impacts that would
-//! never end (Zeno) end when the height of the bounces left, times 1/(1 − e)², is below a millionth of the tolerance, or what
-//! is left stays within δ: the contact then holds. What is left of a rocking is ended with the friction that comes with it; that
-//! its contacts have to pull for this is seen in the residual of that blow.
+//! Errors. A gap beyond δ = 1e-13 of the body (and rounding of its coordinates) is never stepped over. Impacts that
+//! would never end (Zeno) end when the height of the bounces left, times 1/(1 − e)², is below a millionth of the
+//! tolerance, or what is left stays within δ: the contact then holds. What is left of a rocking is ended with the
+//! friction that comes with it; that its contacts have to pull for this is seen in the residual of that blow.
 
 pub mod change;
 pub mod decide;

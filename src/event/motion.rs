@@ -1,5 +1,5 @@
-//! What a body does between events: closed forms, and bounds on how fast any of its points can be accelerated, from which
-//! a contact that is not there yet is known not to be missed.
+//! What a body does between events: closed forms, and bounds on how fast any of its points can be accelerated, from
+//! which a contact that is not there yet is known not to be missed.
 
 use crate::exact::arc::Arc;
 use crate::exact::free_rotation::FreeRotation;
@@ -11,7 +11,8 @@ use nalgebra::Vector3;
 
 #[derive(Clone, Debug)]
 pub enum Motion {
-    /// Constant acceleration of both kinds: at rest, a ball that slides or rolls, a slab that slides, what does not turn.
+    /// Constant acceleration of both kinds: at rest, a ball that slides or rolls, a slab that slides, what does not
+    /// turn.
     Arc(Arc),
     /// A parabola, and a rotation without torque.
     Fall(Arc, Box<FreeRotation>),

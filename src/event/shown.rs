@@ -1,4 +1,5 @@
-//! What a solid shows at a point of its surface: the part that meets another body there, and the face, if its normal is one's.
+//! What a solid shows at a point of its surface: the part that meets another body there, and the face, if its normal is
+//! one's.
 
 use crate::model::Body;
 use crate::shape::hull::{Hull, Polygon};

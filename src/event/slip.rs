@@ -15,7 +15,8 @@ pub struct Slow {
 }
 
 impl Slow {
-    /// A young slip s ≈ ½ j t² has its direction wrong by about t², and its place by t⁵; one that fades ends after s²/2a.
+    /// A young slip s ≈ ½ j t² has its direction wrong by about t², and its place by t⁵; one that fades ends after
+    /// s²/2a.
     pub fn new(model: &Model, tolerance_m: f64) -> Self {
         let (g, size_m) = falls(model);
         let (speed, part) = ((g * size_m).sqrt(), tolerance_m / size_m);

@@ -1,10 +1,10 @@
-//! A point of contact as a function of where its bodies are, and how it moves with them: the geometry that accelerations
-//! need.
+//! A point of contact as a function of where its bodies are, and how it moves with them: the geometry that
+//! accelerations need.
 //!
-//! `Contact` is what the contact test finds in one state; a `Touch` is the same point in every other state: which parts of
-//! the two bodies meet. Its rates are analytic. With V̇ = 0 the relative velocity u of the geometric point of contact
-//! changes by β = ω_A × ṙ_A − ω_B × ṙ_B, and its normal part by n·β + ṅ·u: for a rolling sphere ṙ = 0, for a corner
-//! ṙ = ω × r (F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996, ch. 4).
+//! `Contact` is what the contact test finds in one state; a `Touch` is the same point in every other state: which parts
+//! of the two bodies meet. Its rates are analytic. With V̇ = 0 the relative velocity u of the geometric point of
+//! contact changes by β = ω_A × ṙ_A − ω_B × ṙ_B, and its normal part by n·β + ṅ·u: for a rolling sphere ṙ = 0, for a
+//! corner ṙ = ω × r (F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996, ch. 4).
 
 use super::shown::{Ball, Border, Face, Line, Part, Shown, Spot, shown, within_m};
 use crate::collide::{Contact, Key};
@@ -416,7 +416,8 @@ fn lowest(body: &Body, at: &BodyState, node: u32, found: &Contact) -> Option<Par
 /// Of a cap (rad): flatter, four points of its rim stand for it.
 const TILTED: f64 = 1e-8;
 
-/// Of the bounding radii: so far beyond a border is not beyond it. The contact test takes points as one within half of it.
+/// Of the bounding radii: so far beyond a border is not beyond it. The contact test takes points as one within half of
+/// it.
 const BORDER: f64 = 2e-9;
 
 /// Of unit vectors: less than this is parallel.

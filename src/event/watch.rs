@@ -2,9 +2,9 @@
 //!
 //! On its path a gap g obeys g(t + s) ≥ g + ġ s − M s²/2, M a bound of the acceleration of any point toward the plane
 //! (`motion::Bounds`): up to the root of that parabola nothing can close. Going from root to root never steps over a
-//! contact, and near one it is Newton's method from outside: the error is squared at every step. A ball's M is its exact
-//! acceleration, and one step is enough. The contact is there when g ≤ δ while it closes; a gap that stays within δ may go
-//! unseen, and none beyond it (conservative advancement, B. Mirtich 1996, with a bound of second order).
+//! contact, and near one it is Newton's method from outside: the error is squared at every step. A ball's M is its
+//! exact acceleration, and one step is enough. The contact is there when g ≤ δ while it closes; a gap that stays within
+//! δ may go unseen, and none beyond it (conservative advancement, B. Mirtich 1996, with a bound of second order).
 //!
 //! Pairs of bodies: of balls likewise; of others by their distance and the largest speed of their points, and within a
 //! thousandth of their size by their points of contact.

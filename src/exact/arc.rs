@@ -1,5 +1,5 @@
-//! Motion under constant acceleration and constant angular acceleration (world axes), and its succession: what a body does
-//! between events. The attitude is elementary where the axis stays, else by `attitude.rs`.
+//! Motion under constant acceleration and constant angular acceleration (world axes), and its succession: what a body
+//! does between events. The attitude is elementary where the axis stays, else by `attitude.rs`.
 
 use super::attitude::{TERMS, turned};
 use crate::state::BodyState;

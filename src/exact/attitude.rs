@@ -1,14 +1,14 @@
-//! The attitude of a body whose angular velocity is known, q̇ = ½ ω q (world axes), where no elementary function gives it:
-//! Taylor's series of the quaternion, (n + 1) c_{n+1} = ½ Σ ω_j c_{n−j}, in steps of at most a radian (Hairer, Nørsett &
-//! Wanner, Solving Ordinary Differential Equations I, I.8). Every step is exact but for rounding.
+//! The attitude of a body whose angular velocity is known, q̇ = ½ ω q (world axes), where no elementary function gives
+//! it: Taylor's series of the quaternion, (n + 1) c_{n+1} = ½ Σ ω_j c_{n−j}, in steps of at most a radian (Hairer,
+//! Nørsett & Wanner, Solving Ordinary Differential Equations I, I.8). Every step is exact but for rounding.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// Of a step's series: what is left is below 10⁻²⁰.
 pub const TERMS: usize = 25;
 
-/// After a time, from Taylor's coefficients of ω at any time on the way; `rate` is no less than |ω| and than the rate at
-/// which ω itself turns.
+/// After a time, from Taylor's coefficients of ω at any time on the way; `rate` is no less than |ω| and than the rate
+/// at which ω itself turns.
 pub fn turned(
     q_WB: &UnitQuaternion<f64>,
     t_s: f64,

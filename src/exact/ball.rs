@@ -1,9 +1,10 @@
 //! A ball and a plane, with restitution e, tangential restitution ε and Coulomb friction μ: flights, impacts, sliding,
 //! rolling. SI units.
 //!
-//! - Impact (Walton, in Particulate Two-Phase Flow, 1993, ch. 25): the normal speed w becomes e w; with k = I/(m r²) the
-//!   tangential impulse −(1 + ε) s k/(1 + k) turns the slip s into −ε s, if that is at most μ(1 + e) w, else μ(1 + e) w
-//!   acts against s. ε = e = 1 is Garwin's superball (Am. J. Phys. 37 (1969) 88). Without a rebound, e = 0, it is ε = 0.
+//! - Impact (Walton, in Particulate Two-Phase Flow, 1993, ch. 25): the normal speed w becomes e w; with k = I/(m r²)
+//!   the tangential impulse −(1 + ε) s k/(1 + k) turns the slip s into −ε s, if that is at most μ(1 + e) w, else μ(1 +
+//!   e) w acts against s. ε = e = 1 is Garwin's superball (Am. J. Phys. 37 (1969) 88). Without a rebound, e = 0, it is
+//!   ε = 0.
 //! - Impacts after the first, of the normal speed w, come 2we/g_n (1 − eⁿ)/(1 − e) later; the last one (Zeno's) after
 //!   2we/(g_n (1 − e)).
 //! - On the plane the slip ends after |s|/((1 + 1/k) μ g_n − g_t·s/|s|); then the ball rolls with g_t/(1 + k), if that

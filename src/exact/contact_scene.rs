@@ -1,12 +1,14 @@
-//! From a scene of bodies that touch to the closed form that is its motion. A container of one plane: nothing else is hit.
+//! From a scene of bodies that touch to the closed form that is its motion. A container of one plane: nothing else is
+//! hit.
 
 use super::ball::{Ball, Setting};
 use super::dome_scene::{self, OnDome};
+use super::facts::point;
 use super::facts::{Lacks, SAME};
-use super::scene::{constant_acceleration, point, unpinned};
 use super::sliding::Sliding;
 use super::stick_slip::StickSlip;
 use super::toppling_scene::{self, Block, LadderAt, Rod};
+use super::touching::{ON, along, covers, feet, lying_flat, on_its_own, only_faces, rounding_m, sphere, unhindered};
 use super::turntable::Turntable;
 use super::wheel_scene::{self, Wheel};
 use crate::collide::faces;
@@ -67,33 +69,20 @@ pub fn motion(which: Exact, model: &Model, start: &State, index: usize) -> Resul
         Exact::RimlessWheel => wheel_scene::wheel(model, index, at).map(|wheel| Touching::Wheel(Box::new(wheel))),
         Exact::Dome => dome_scene::dome(model, start, index).map(|dome| Touching::Dome(Box::new(dome))),
         Exact::StickSlip => stick_slip(model, index, at),
-        _ => rest(&model.bodies[index], at),
+        Exact::Rest => rest(&model.bodies[index], at),
+        // Of bodies that meet nothing: `scene.rs` has them.
+        Exact::FreeMotion
+        | Exact::SymmetricBody
+        | Exact::LinearDrag
+        | Exact::QuadraticDrag
+        | Exact::HeavyTop
+        | Exact::Pendulum => Err("nothing to touch".into()),
     }
 }
 
 fn rest(body: &Body, at: &BodyState) -> Result<Touching, Lacks> {
     let still = at.v_WB == Vector3::zeros() && at.w_WB == Vector3::zeros();
     if still { Ok(Touching::Rest(*at)) } else { Err(format!("`{}` at rest at the start", body.name)) }
-}
-
-/// The only thing that it touches, and the acceleration by all that acts on it but the contact.
-pub(super) fn on_its_own(model: &Model, index: usize) -> Result<(Face, Vector3<f64>), Lacks> {
-    let acceleration = unhindered(model, index)?;
-    let [face] = only_faces(model).ok_or("a `container` of one plane, and one body with a shape")?;
-    Ok((face, acceleration))
-}
-
-/// If there is nothing else to touch.
-pub(super) fn only_faces<const N: usize>(model: &Model) -> Option<[Face; N]> {
-    let faces = model.container.as_ref().map(|container| container.faces.as_slice());
-    faces.filter(|_| !model.touching_pairs).and_then(|faces| faces.try_into().ok())
-}
-
-pub(super) fn unhindered(model: &Model, index: usize) -> Result<Vector3<f64>, Lacks> {
-    if !unpinned(model, index)?.drag.is_none() {
-        return Err("no `air`".into());
-    }
-    constant_acceleration(model, index)
 }
 
 fn sliding(model: &Model, index: usize, at: &BodyState) -> Result<Touching, Lacks> {
@@ -116,19 +105,6 @@ fn sliding(model: &Model, index: usize, at: &BodyState) -> Result<Touching, Lack
     Ok(Touching::Sliding(sliding))
 }
 
-/// The points on the plane, and the state, moving along the plane.
-fn lying_flat(body: &Body, at: &BodyState, face: &Face) -> Result<(Vec<Vector3<f64>>, BodyState), Lacks> {
-    let across = face.normal.dot(&at.v_WB);
-    if across.abs() > SAME * at.v_WB.norm() || at.w_WB != Vector3::zeros() {
-        return Err(format!("`{}` moving along the plane without turning", body.name));
-    }
-    let feet = feet(body, at, face);
-    if !spread(&feet, &face.normal, body.bounding_radius_m) {
-        return Err(format!("`{}` lying flat on the plane, on three points or more", body.name));
-    }
-    Ok((feet, BodyState { v_WB: at.v_WB - face.normal * across, ..*at }))
-}
-
 fn stick_slip(model: &Model, index: usize, at: &BodyState) -> Result<Touching, Lacks> {
     let forces = point(model, index, at)?;
     let [face] = only_faces(model).ok_or("a `container` of one plane, and one body with a shape")?;
@@ -149,64 +125,6 @@ fn stick_slip(model: &Model, index: usize, at: &BodyState) -> Result<Touching, L
         return Err(format!("`{}` too low to tip: the resultant within its base", body.name));
     }
     Ok(Touching::StickSlip(Box::new(body_slips)))
-}
-
-/// What is nearer to a plane, of the size of the body and of the distance from the origin, is on it.
-const ON: f64 = 1e-9;
-
-pub(super) fn rounding_m(size_m: f64, at: &BodyState) -> f64 {
-    ON * size_m + 8.0 * f64::EPSILON * at.p_WB.amax()
-}
-
-/// From the centre of mass to the points on the plane.
-pub(super) fn feet(body: &Body, at: &BodyState, face: &Face) -> Vec<Vector3<f64>> {
-    let near_m = rounding_m(body.bounding_radius_m, at);
-    let mut feet = Vec::new();
-    faces::each_near(body, at, face, near_m, |_, r_W, gap_m| {
-        if gap_m > -near_m {
-            feet.push(r_W);
-        }
-    });
-    feet
-}
-
-/// A vector along the plane; none if it is rounding of `scale`.
-pub(super) fn along(v: &Vector3<f64>, normal: &Vector3<f64>, scale: f64) -> Vector3<f64> {
-    let along = v - normal * normal.dot(v);
-    if along.norm() <= 4.0 * f64::EPSILON * scale { Vector3::zeros() } else { along }
-}
-
-/// Not on one line.
-fn spread(points: &[Vector3<f64>], normal: &Vector3<f64>, size_m: f64) -> bool {
-    let Some(first) = points.first() else { return false };
-    let apart = |p: &&Vector3<f64>| (**p - first).norm();
-    let Some(far) = points.iter().max_by(|a, b| apart(a).total_cmp(&apart(b))) else { return false };
-    points.iter().any(|p| normal.dot(&(far - first).cross(&(p - first))).abs() > SAME * size_m * size_m)
-}
-
-/// Whether the convex hull of points on a plane has the point on it: seen from there, they leave no half-plane free.
-fn covers(points: &[Vector3<f64>], normal: &Vector3<f64>, point: &Vector3<f64>) -> bool {
-    let e_1 = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
-    let e_2 = normal.cross(&e_1);
-    let seen = |p: &Vector3<f64>| libm::atan2((p - point).dot(&e_2), (p - point).dot(&e_1));
-    let mut angles: Vec<f64> = points.iter().map(seen).collect();
-    angles.sort_by(f64::total_cmp);
-    let turn = 2.0 * std::f64::consts::PI;
-    let next = angles.iter().skip(1).copied().chain(angles.first().map(|first| first + turn));
-    let widest = angles.iter().zip(next).map(|(a, b)| b - a).fold(0.0, f64::max);
-    widest <= turn / 2.0 + ON
-}
-
-/// Radius and k = I/(m r²) of a homogeneous ball, or one with its mass about its centre.
-pub(super) fn sphere(body: &Body) -> Result<(f64, f64), Lacks> {
-    match &body.geometry {
-        Geometry::Solid { solid: Solid::Sphere { radius_m }, centre }
-            if body.isotropic && centre.norm() <= ON * radius_m =>
-        {
-            Ok((*radius_m, body.I_B[(0, 0)] / (body.mass_kg * radius_m * radius_m)))
-        }
-        _ => Err(format!("`{}` a sphere without a mesh, its mass about its centre", body.name)),
-    }
 }
 
 fn ball(model: &Model, index: usize, at: &BodyState) -> Result<Touching, Lacks> {

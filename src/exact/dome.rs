@@ -1,8 +1,10 @@
-//! A ball on top of a fixed one, let go at θ₀ from the top: it slides without friction, k = 0, or rolls, k = I/(m r²) (Routh,
-//! Elementary Rigid Dynamics, § 137). Its centre is an inverted pendulum of θ̈ = g sin θ/(d (1 + k)), d the sum of the radii,
-//! and would leave where cos θ = 2 cos θ₀/(3 + k): ⅔, and 10/17 for a homogeneous ball from the top. Then it flies.
+//! A ball on top of a fixed one, let go at θ₀ from the top: it slides without friction, k = 0, or rolls, k = I/(m r²)
+//! (Routh, Elementary Rigid Dynamics, § 137). Its centre is an inverted pendulum of θ̈ = g sin θ/(d (1 + k)), d the sum
+//! of the radii, and would leave where cos θ = 2 cos θ₀/(3 + k): ⅔, and 10/17 for a homogeneous ball from the top. Then
+//! it flies.
 //!
-//! Rolling takes k sin θ/((3 + k) cos θ − 2 cos θ₀) of friction, more than any before it leaves: it rolls until then. SI units.
+//! Rolling takes k sin θ/((3 + k) cos θ − 2 cos θ₀) of friction, more than any before it leaves: it rolls until then.
+//! SI units.
 
 use super::inverted_pendulum::InvertedPendulum;
 

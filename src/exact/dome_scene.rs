@@ -1,8 +1,8 @@
 //! From a scene to a ball that slides or rolls off a fixed one.
 
-use super::contact_scene::{rounding_m, sphere, unhindered};
 use super::dome::Dome;
 use super::facts::{Lacks, SAME};
+use super::touching::{rounding_m, sphere, unhindered};
 use crate::model::Model;
 use crate::state::{BodyState, State};
 use nalgebra::{UnitQuaternion, Vector3};

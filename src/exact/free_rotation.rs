@@ -2,16 +2,16 @@
 //! elliptic integral of the third kind (van Zon & Schofield, J. Comput. Phys. 225 (2007) 145; Celledoni, Fassò,
 //! Säfström & Zanna, SIAM J. Sci. Comput. 30 (2008) 2084).
 //!
-//! P are the principal axes, right-handed. u = L_P/|L| circles axis 3, which has the largest or the smallest moment (sign
-//! s = +1 if the smallest), at u₁ ≥ 0 and u₃ ≥ 0 when t = 0. With a = 1/I, α = |a₃ − a₂|, β = |a₂ − a₁| and the constant
-//! D = α u₃² − β u₁² ≥ 0, which is zero on the separatrix:
+//! P are the principal axes, right-handed. u = L_P/|L| circles axis 3, which has the largest or the smallest moment
+//! (sign s = +1 if the smallest), at u₁ ≥ 0 and u₃ ≥ 0 when t = 0. With a = 1/I, α = |a₃ − a₂|, β = |a₂ − a₁| and the
+//! constant D = α u₃² − β u₁² ≥ 0, which is zero on the separatrix:
 //!
 //! - u = (u₁ₘ cn x, −s u₂ₘ sn x, u₃ₘ dn x), x = ε + λ t, λ² = |L|² α (D + β), k′² = D (α + β) / (α (D + β))
 //! - u₁ₘ² = (α − D)/(α + β), u₂ₘ² = (α − D)/α, u₃ₘ² = (D + β)/(α + β)
 //! - R(t) = R(0) M(u₀) R_z(ψ) M(u)⁻¹, where M(u) is the shortest turn from axis 3 to u
-//! - ψ is Euler's angle less the azimuth of u (which is undefined at u = e₃, unlike their sum):
-//!   ψ̇ = |L| (a₁ u₁² + a₂ u₂²)/(u₁² + u₂²) − d/dt atan2(u₂, u₁). With c = (α + β)/α = (u₂ₘ/u₁ₘ)², a constant of the body,
-//!   ψ = |L| a₁ t + s (β|L|/λ) ΔJ(x) + s Δatan(√c sn x/cn x), J′ = c sn²/(cn² + c sn²)
+//! - ψ is Euler's angle less the azimuth of u (which is undefined at u = e₃, unlike their sum): ψ̇ = |L| (a₁ u₁² + a₂
+//!   u₂²)/(u₁² + u₂²) − d/dt atan2(u₂, u₁). With c = (α + β)/α = (u₂ₘ/u₁ₘ)², a constant of the body, ψ = |L| a₁ t + s
+//!   (β|L|/λ) ΔJ(x) + s Δatan(√c sn x/cn x), J′ = c sn²/(cn² + c sn²)
 //!
 //! No difference of near numbers is left but D, I₂ − I₃ and I₁ − I₂; these and the rates are double-double.
 //! Known limits: beyond 10¹⁵ half periods their count is not exact; spin within 10⁻¹⁴⁰ of the middle axis stays there.
@@ -282,7 +282,8 @@ fn rounded(v: &[Dd; 3]) -> Vector3<f64> {
     Vector3::from(v.map(Dd::f64))
 }
 
-/// q_BP of the axes, a right-handed frame: the largest of the four components first (Shepperd, J. Guidance 1 (1978) 223).
+/// q_BP of the axes, a right-handed frame: the largest of the four components first (Shepperd, J. Guidance 1 (1978)
+/// 223).
 fn quaternion(axes: &[[Dd; 3]; 3]) -> UnitQuaternion<f64> {
     let [x, y, z] = axes.each_ref().map(rounded);
     let q = if x.x + y.y + z.z > 0.0 {

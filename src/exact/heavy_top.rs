@@ -17,8 +17,8 @@
 //! - else √2 β = √(y₂(1 + c sn²))/dn · exp i(−ρt + (b − a)/(2λy₂)(x′ − (u₂ − u₁)/y₁ J_{1+c}(x′))), c = k²|y₃|/y₂
 //!
 //! Rates and roots are double-double, whole periods are counted. Known limits: beyond 10¹⁵ nutations their count is not
-//! exact; an axis within 10⁻¹⁵ of the vertical that also does not tilt stays there; a top without a transverse moment is
-//! refused; gravity that changes ω by less than 10⁻³⁰ in a turn is left out.
+//! exact; an axis within 10⁻¹⁵ of the vertical that also does not tilt stays there; a top without a transverse moment
+//! is refused; gravity that changes ω by less than 10⁻³⁰ in a turn is left out.
 
 use super::free_rotation::power_of_two;
 use super::principal::body_axes;
@@ -111,7 +111,8 @@ impl HeavyTop {
         }
     }
 
-    /// Of u; in steady precession, that of small nutation. None without gravity, upright or hanging, and on the separatrix.
+    /// Of u; in steady precession, that of small nutation. None without gravity, upright or hanging, and on the
+    /// separatrix.
     pub fn nutation_period_s(&self) -> Option<f64> {
         match &self.motion {
             Motion::Free(_) => None,

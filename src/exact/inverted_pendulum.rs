@@ -1,6 +1,7 @@
 //! The inverted pendulum, θ̈ = p² sin θ, θ from the highest position: what turns over an edge or slides down a curve.
 //!
-//! With s = sin(θ/2), θ̇² = 4p² (h + s²); τ is the time since the position that is nearest to the top (DLMF 19.25, 19.29):
+//! With s = sin(θ/2), θ̇² = 4p² (h + s²); τ is the time since the position that is nearest to the top (DLMF 19.25,
+//! 19.29):
 //!
 //! - h < 0, it turns back at s² = x₁² = −h: s = x₁/dn(pτ), k′ = x₁; pτ = R_F(U² + x₁², U² + 1, U²) with
 //!   U² = x₁² cos²(θ/2)/(s² − x₁²)

@@ -1,7 +1,7 @@
-//! A ladder that slides down a smooth wall along a smooth floor (Routh, Elementary Rigid Dynamics, § 144): on both it is an
-//! inverted pendulum, θ̈ = g sin θ/(l (1 + κ)), θ from the vertical, l half its length, κ = I/(m l²), 1/3 if homogeneous.
-//! Whatever κ, it leaves the wall where cos θ = ⅔ cos θ₀; then it falls as a rod on a floor that was let go at
-//! cos θₑ = cos θ₀ − 4/27 cos³ θ₀/(1 + κ), while its centre goes on at the speed that it has. SI units.
+//! A ladder that slides down a smooth wall along a smooth floor (Routh, Elementary Rigid Dynamics, § 144): on both it
+//! is an inverted pendulum, θ̈ = g sin θ/(l (1 + κ)), θ from the vertical, l half its length, κ = I/(m l²), 1/3 if
+//! homogeneous. Whatever κ, it leaves the wall where cos θ = ⅔ cos θ₀; then it falls as a rod on a floor that was let
+//! go at cos θₑ = cos θ₀ − 4/27 cos³ θ₀/(1 + κ), while its centre goes on at the speed that it has. SI units.
 //!
 //! Known limit: of an almost upright ladder the error grows, to 1e-11 from 0.001 rad.
 

@@ -1,4 +1,5 @@
-//! Closed forms and references: `state_at(t)`, one case a file, cited; `scene` says which scenes they are the motion of.
+//! Closed forms and references: `state_at(t)`, one case a file, cited; `scene` says which scenes they are the motion
+//! of.
 
 pub mod arc;
 mod attitude;
@@ -27,6 +28,7 @@ pub mod symmetric_body;
 mod top_phase;
 mod top_roots;
 mod toppling_scene;
+mod touching;
 pub mod turntable;
 mod wheel_scene;
 

@@ -1,5 +1,5 @@
-//! The compound plane pendulum, θ̈ = −(m g l/I) sin θ, at any amplitude (Whittaker, Analytical Dynamics, § 44). SI units;
-//! θ from the lowest position, continuous: it counts turns.
+//! The compound plane pendulum, θ̈ = −(m g l/I) sin θ, at any amplitude (Whittaker, Analytical Dynamics, § 44). SI
+//! units; θ from the lowest position, continuous: it counts turns.
 //!
 //! With ω₀² = m g l/I, p = θ̇₀/(2ω₀) and k² = p² + sin²(θ₀/2):
 //!

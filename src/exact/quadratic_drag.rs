@@ -1,5 +1,5 @@
-//! A point mass with Newton's drag along one line: v̇ = g − k |v| v, where the start velocity is parallel to g, or one of
-//! them is zero (Parker, Am. J. Phys. 45 (1977) 606). SI units, k in 1/m.
+//! A point mass with Newton's drag along one line: v̇ = g − k |v| v, where the start velocity is parallel to g, or one
+//! of them is zero (Parker, Am. J. Phys. 45 (1977) 606). SI units, k in 1/m.
 //!
 //! Along g, with the terminal speed v_t = √(g/k), τ = √(g k) t and W = v₀/v_t:
 //!

@@ -1,9 +1,10 @@
-//! A rimless wheel: a regular prism that rolls over its edges on a plane, without slip or restitution (T. McGeer, Int. J.
-//! Robotics Research 9 (1990) 62).
+//! A rimless wheel: a regular prism that rolls over its edges on a plane, without slip or restitution (T. McGeer, Int.
+//! J. Robotics Research 9 (1990) 62).
 //!
-//! About an edge it is an inverted pendulum, θ̈ = p² sin θ, p² = (g/l)/(1 + κ), κ = I/(m l²), l from the edge to the centre.
-//! The leg is at ψ = θ − γ from the plane's normal, γ the slope; at ψ = ±α, half the angle between two legs, the next edge
-//! strikes and the part (κ + cos 2α)/(κ + 1) of the rate is left. It rolls on, or back and forth until it stands. SI units.
+//! About an edge it is an inverted pendulum, θ̈ = p² sin θ, p² = (g/l)/(1 + κ), κ = I/(m l²), l from the edge to the
+//! centre. The leg is at ψ = θ − γ from the plane's normal, γ the slope; at ψ = ±α, half the angle between two legs,
+//! the next edge strikes and the part (κ + cos 2α)/(κ + 1) of the rate is left. It rolls on, or back and forth until it
+//! stands. SI units.
 
 use super::inverted_pendulum::InvertedPendulum;
 

@@ -1,4 +1,5 @@
-//! A block that rocks on its two lower edges, without slip or restitution (Housner, Bull. Seism. Soc. Am. 53 (1963) 403).
+//! A block that rocks on its two lower edges, without slip or restitution (Housner, Bull. Seism. Soc. Am. 53 (1963)
+//! 403).
 //!
 //! ψ is the angle from the vertical through the edge to the centre of mass, α flat, p² = m g R/I of the edge. Between
 //! impacts it is an inverted pendulum, ψ̇² = 4p² (sin²(ψ/2) − x₁²). An impact leaves the part
@@ -66,8 +67,8 @@ impl RockingBlock {
         (begun - 1, self.alpha_rad - psi, -rate)
     }
 
-    /// The least that never slips, of I/(m R²) about the edge. In an impact it is cot α (1 − ε)/(1 + ε) for the part ε that
-    /// is left of the speed; in between |ẍ|/(g + z̈), which is monotone in ψ̇², 0 in some later arc.
+    /// The least that never slips, of I/(m R²) about the edge. In an impact it is cot α (1 − ε)/(1 + ε) for the part ε
+    /// that is left of the speed; in between |ẍ|/(g + z̈), which is monotone in ψ̇², 0 in some later arc.
     pub fn friction(&self, inertia: f64, left: f64) -> f64 {
         const SAMPLES: u32 = 1000;
         let highest = self.highest;

@@ -1,8 +1,8 @@
-//! From a scene to the closed form that is its motion: every body's way and turning, or what a pin leaves of them; bodies
-//! that touch something: `contact_scene.rs`.
+//! From a scene to the closed form that is its motion: every body's way and turning, or what a pin leaves of them;
+//! bodies that touch something: `contact_scene.rs`.
 
 use super::contact_scene::{self, Touching};
-use super::facts::{Lacks, SAME};
+use super::facts::{Lacks, SAME, constant_acceleration, only_pin, point, unpinned};
 use super::free_rotation::FreeRotation;
 use super::heavy_top::{HeavyTop, Top};
 use super::linear_drag::LinearDrag;
@@ -112,7 +112,16 @@ pub fn motion(which: Exact, model: &Model, start: &State, index: usize) -> Resul
             let turning = SymmetricBody::new(transverse, axial, &axis, &at.q_WB, &at.w_WB);
             Ok(Motion::Free(Way::Point(point(model, index, at)?), Turning::Symmetric(turning)))
         }
-        _ => contact_scene::motion(which, model, start, index).map(Motion::Touching),
+        Exact::Rest
+        | Exact::Sliding
+        | Exact::Ball
+        | Exact::Turntable
+        | Exact::RockingBlock
+        | Exact::FallingRod
+        | Exact::Ladder
+        | Exact::RimlessWheel
+        | Exact::Dome
+        | Exact::StickSlip => contact_scene::motion(which, model, start, index).map(Motion::Touching),
     }
 }
 
@@ -125,28 +134,6 @@ fn driven(at: &BodyState) -> Motion {
 
 fn free_turning(body: &Body, at: &BodyState) -> Turning {
     Turning::Free(Box::new(FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB)))
-}
-
-/// Gravity, and forces of the world at the centre of mass.
-pub(super) fn point(model: &Model, index: usize, at: &BodyState) -> Result<PointMotion, Lacks> {
-    let body = unpinned(model, index)?;
-    if !body.drag.is_none() {
-        return Err("no `air`".into());
-    }
-    let mut way = PointMotion {
-        position_m: at.p_WB,
-        velocity_m_s: at.v_WB,
-        constant_m_s2: model.gravity_m_s2,
-        harmonics: Vec::new(),
-    };
-    for force in central_forces(model, index)? {
-        let amplitude_m_s2 = force.force_n / body.mass_kg;
-        match force.cosine {
-            None => way.constant_m_s2 += amplitude_m_s2,
-            Some((rate_rad_s, phase_rad)) => way.harmonics.push(Harmonic { amplitude_m_s2, rate_rad_s, phase_rad }),
-        }
-    }
-    Ok(way)
 }
 
 fn linear(model: &Model, index: usize, at: &BodyState) -> Result<LinearDrag, Lacks> {
@@ -170,51 +157,6 @@ fn quadratic(model: &Model, index: usize, at: &BodyState) -> Result<QuadraticDra
     let drag_per_m = body.drag.quadratic_n_s2_m2 / body.mass_kg;
     QuadraticDrag::new(at.p_WB, at.v_WB, constant_acceleration(model, index)?, drag_per_m)
         .ok_or_else(|| format!("`{}` moving along the line of its weight, or without one", body.name))
-}
-
-pub(super) fn constant_acceleration(model: &Model, index: usize) -> Result<Vector3<f64>, Lacks> {
-    let mut acceleration = model.gravity_m_s2;
-    for force in central_forces(model, index)? {
-        if force.cosine.is_some() {
-            return Err("forces that are constant".into());
-        }
-        acceleration += force.force_n / model.bodies[index].mass_kg;
-    }
-    Ok(acceleration)
-}
-
-pub(super) fn unpinned(model: &Model, index: usize) -> Result<&Body, Lacks> {
-    if model.pins.iter().any(|pin| pin.holds(index)) { Err("no `pins`".into()) } else { Ok(&model.bodies[index]) }
-}
-
-/// Forces that do not turn the body.
-fn central_forces(model: &Model, index: usize) -> Result<Vec<&AppliedForce>, Lacks> {
-    let forces: Vec<&AppliedForce> = model.forces.iter().filter(|force| force.body == index).collect();
-    let is_central = |force: &&AppliedForce| {
-        let in_world = force.frame == crate::experiment::types::Frame::World || force.force_n == Vector3::zeros();
-        force.torque_n_m == Vector3::zeros() && force.r_B == Vector3::zeros() && in_world
-    };
-    if forces.iter().all(is_central) {
-        Ok(forces)
-    } else {
-        Err("`forces` of the world's frame at the centre of mass".into())
-    }
-}
-
-/// The one pin of a body to the world, and nothing else that acts on it but gravity.
-fn only_pin(model: &Model, index: usize) -> Result<(Vector3<f64>, Vector3<f64>), Lacks> {
-    let body = &model.bodies[index];
-    if !body.drag.is_none() || model.forces.iter().any(|force| force.body == index) {
-        return Err("no `forces` and no `air`".into());
-    }
-    let held = || model.pins.iter().filter(|pin| pin.holds(index));
-    match (held().next(), held().count()) {
-        (Some(pin), 1) if pin.body == index => match pin.anchor {
-            Anchor::World(p_W) => Ok((p_W, pin.r_B)),
-            Anchor::Body(..) => Err(format!("`{}` pinned to the world", body.name)),
-        },
-        _ => Err(format!("`{}` on one pin, to the world", body.name)),
-    }
 }
 
 fn heavy_top(model: &Model, index: usize, at: &BodyState) -> Result<Motion, Lacks> {

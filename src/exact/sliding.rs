@@ -13,8 +13,8 @@ pub struct Sliding {
 }
 
 impl Sliding {
-    /// Along the plane everything accelerates with `pull`, and presses on it with `press` > 0 (of a unit mass). None if it
-    /// moves across the pull: then it slides on a curve.
+    /// Along the plane everything accelerates with `pull`, and presses on it with `press` > 0 (of a unit mass). None if
+    /// it moves across the pull: then it slides on a curve.
     pub fn new(start: &BodyState, pull: Vector3<f64>, press: f64, friction: f64) -> Option<Self> {
         let grip = friction * press;
         if grip == 0.0 {

@@ -1,7 +1,7 @@
-//! A body on a plane under a harmonic force, with Coulomb friction (J. P. Den Hartog, Trans. ASME 53 (1931) 107, without the
-//! spring): along one line v̇ = a₀ + A cos(ωt + φ) − μ g_n sgn v. It sticks where the drive is within ±μ g_n, else it slips. A
-//! slip begins at an arc cosine; it ends at a root of a transcendental equation, between two extremes of the velocity. SI
-//! units.
+//! A body on a plane under a harmonic force, with Coulomb friction (J. P. Den Hartog, Trans. ASME 53 (1931) 107,
+//! without the spring): along one line v̇ = a₀ + A cos(ωt + φ) − μ g_n sgn v. It sticks where the drive is within ±μ
+//! g_n, else it slips. A slip begins at an arc cosine; it ends at a root of a transcendental equation, between two
+//! extremes of the velocity. SI units.
 
 use super::point_motion::{Harmonic, PointMotion};
 use crate::state::BodyState;
@@ -34,8 +34,8 @@ struct Phase {
 const SHORTEST: f64 = 1e-9;
 
 impl StickSlip {
-    /// `drive`: what accelerates it along the plane but friction. None if the velocity is not along the drive, or a constant
-    /// part of the drive outweighs friction.
+    /// `drive`: what accelerates it along the plane but friction. None if the velocity is not along the drive, or a
+    /// constant part of the drive outweighs friction.
     pub fn new(start: &BodyState, constant: Vector3<f64>, drive: &Harmonic, grip_m_s2: f64) -> Option<Self> {
         use super::facts::SAME;
         let line = drive.amplitude_m_s2.try_normalize(0.0)?;

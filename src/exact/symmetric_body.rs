@@ -1,6 +1,6 @@
-//! Torque-free rotation of a body of revolution by elementary functions: the axis circles L at the rate |L|/I₁ while the
-//! body turns about its axis at (1 − I₃/I₁) ω₃ (Kane, Likins & Levinson, Spacecraft Dynamics, 1983, 3.1). A sphere only
-//! circles L. Rates are double-double, for long times.
+//! Torque-free rotation of a body of revolution by elementary functions: the axis circles L at the rate |L|/I₁ while
+//! the body turns about its axis at (1 − I₃/I₁) ω₃ (Kane, Likins & Levinson, Spacecraft Dynamics, 1983, 3.1). A sphere
+//! only circles L. Rates are double-double, for long times.
 
 use super::free_rotation::{power_of_two, turn};
 use super::principal::body_axes;

@@ -1,5 +1,5 @@
-//! Cayley's and Klein's parameters of a heavy top on one half period, without their constants: the formulae are those of
-//! heavy_top.rs.
+//! Cayley's and Klein's parameters of a heavy top on one half period, without their constants: the formulae are those
+//! of heavy_top.rs.
 
 use super::top_roots::Roots;
 use crate::math::dd::Dd;

@@ -1,10 +1,10 @@
 //! The turning points of a heavy top: the roots u₁ ≤ u₂ ≤ 1 ≤ u₃ of u̇² = (1 − u²)(α − βu) − (b − au)², each as its
 //! distances from the start, from the upright and from the hanging position, in double-double.
 //!
-//! In v = u − u₀ the cubic is βv³ + c₂v² + c₁v + u̇₀² with c₁ = 2ah − 2u₀T − βs², c₂ = 2u₀β − T − a², s² = 1 − u₀²,
-//! h = b − au₀ and T = |ω⊥|²; in y = 1 − u the product of the roots is −(b − a)²/β. The root that is far from the other
-//! two is found by Newton's method from outside, which is monotonic; the others have a product of known sign, in v or in
-//! y, so that their quadratic does not cancel.
+//! In v = u − u₀ the cubic is βv³ + c₂v² + c₁v + u̇₀² with c₁ = 2ah − 2u₀T − βs², c₂ = 2u₀β − T − a², s² = 1 − u₀², h =
+//! b − au₀ and T = |ω⊥|²; in y = 1 − u the product of the roots is −(b − a)²/β. The root that is far from the other two
+//! is found by Newton's method from outside, which is monotonic; the others have a product of known sign, in v or in y,
+//! so that their quadratic does not cancel.
 
 use crate::math::dd::Dd;
 

@@ -1,10 +1,10 @@
 //! From a scene to a block that rocks on a plane, a rod that falls over on one, or one that slides down a wall.
 
-use super::contact_scene::{along, feet, on_its_own, only_faces, unhindered};
 use super::facts::{Lacks, SAME};
 use super::falling_rod::FallingRod;
 use super::ladder::Ladder;
 use super::rocking_block::RockingBlock;
+use super::touching::{along, feet, on_its_own, only_faces, unhindered};
 use crate::model::container::Face;
 use crate::model::{Body, Geometry, Model};
 use crate::shape::solid::Solid;

@@ -1,6 +1,7 @@
-//! A ball that rolls on a level table turning at Ω about a vertical axis: with k = I/(m r²) its centre goes round a circle
-//! at λ = Ω k/(1 + k), 2Ω/7 for a homogeneous ball, wherever it starts (Routh, Advanced Rigid Dynamics, § 224; Weltner,
-//! Am. J. Phys. 47 (1979) 984). v̇ = λ n × v, r ω = n × v + Ω ρ along the table, and the spin about n stays. SI units.
+//! A ball that rolls on a level table turning at Ω about a vertical axis: with k = I/(m r²) its centre goes round a
+//! circle at λ = Ω k/(1 + k), 2Ω/7 for a homogeneous ball, wherever it starts (Routh, Advanced Rigid Dynamics, § 224;
+//! Weltner, Am. J. Phys. 47 (1979) 984). v̇ = λ n × v, r ω = n × v + Ω ρ along the table, and the spin about n stays.
+//! SI units.
 //!
 //! The attitude is elementary for a circle about the table's axis, else by `attitude.rs`.
 

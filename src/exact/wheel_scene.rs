@@ -1,8 +1,8 @@
 //! From a scene to a regular prism that rolls over its edges.
 
-use super::contact_scene::{feet, on_its_own};
 use super::facts::{Lacks, SAME};
 use super::rimless_wheel::RimlessWheel;
+use super::touching::{feet, on_its_own};
 use crate::model::{Body, Geometry, Model};
 use crate::shape::solid::Solid;
 use crate::state::BodyState;

@@ -1,4 +1,5 @@
-//! `copies:` — one described body as a row or a grid of bodies: `stack[0]`, `stack[1]`, …; `pile[0,0,0]`, `pile[0,0,1]`, ….
+//! `copies:` — one described body as a row or a grid of bodies: `stack[0]`, `stack[1]`, …; `pile[0,0,0]`,
+//! `pile[0,0,1]`, ….
 
 use super::checks::{Result, unexpected};
 use super::key_path::Path;

@@ -1,5 +1,5 @@
-//! The two values that are written either short or in full; read by hand, because serde's `untagged` would answer a slip
-//! with «did not match any variant».
+//! The two values that are written either short or in full; read by hand, because serde's `untagged` would answer a
+//! slip with «did not match any variant».
 
 use super::types::{Inertia, NodesPerEdge};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Unexpected, Visitor};

@@ -224,8 +224,8 @@ pub struct Penalty {
     pub rotation: Rotation,
 }
 
-/// A thousandth of the speeds met in the lecture's scene (some m/s): slower slip counts as sticking, larger values creep
-/// more on a slope, smaller ones need smaller steps.
+/// A thousandth of the speeds met in the lecture's scene (some m/s): slower slip counts as sticking, larger values
+/// creep more on a slope, smaller ones need smaller steps.
 fn default_slip_speed() -> f64 {
     1e-2
 }
@@ -251,8 +251,8 @@ pub struct TimeStepping {
     pub position_correction: PositionCorrection,
     #[serde(skip_serializing_if = "is_default")]
     pub local: Local,
-    /// Part of a contact's change that is made at its turn, between 0 and 2. Below 1 fewer impacts end in a limit cycle,
-    /// and all take longer.
+    /// Part of a contact's change that is made at its turn, between 0 and 2. Below 1 fewer impacts end in a limit
+    /// cycle, and all take longer.
     #[serde(skip_serializing_if = "is_one")]
     pub relaxation: f64,
     #[serde(skip_serializing_if = "is_default")]
@@ -315,7 +315,8 @@ impl Default for TimeStepping {
 }
 
 impl TimeStepping {
-    /// Given, or the solver's own: `newton` mostly needs none, and in a pile of 125 cubes more than 200 in one step of 150.
+    /// Given, or the solver's own: `newton` mostly needs none, and in a pile of 125 cubes more than 200 in one step of
+    /// 150.
     pub fn sweeps(&self) -> u32 {
         self.sweeps.unwrap_or(match self.solver {
             Solver::Pgs | Solver::Nncg => 50,
@@ -323,8 +324,9 @@ impl TimeStepping {
         })
     }
 
-    /// Given, or the solver's own: what is left of a sweep's change at 1e-12 is below the rounding of a step; a residual
-    /// of 1e-10 is met even where 400 contacts share a force or masses are 1 : 10⁶, and `newton` mostly ends at 1e-15.
+    /// Given, or the solver's own: what is left of a sweep's change at 1e-12 is below the rounding of a step; a
+    /// residual of 1e-10 is met even where 400 contacts share a force or masses are 1 : 10⁶, and `newton` mostly ends
+    /// at 1e-15.
     pub fn tolerance(&self) -> f64 {
         let own = if self.solver == Solver::Newton { 1e-10 } else { 1e-12 };
         self.tolerance.unwrap_or(own)

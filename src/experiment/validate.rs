@@ -151,8 +151,8 @@ fn reachable(tolerance: f64, at: Path) -> Result<()> {
         return Ok(());
     }
     let expected = format!(
-        "a number of at least {SMALLEST_GLOBAL:e}: positions of some metres are known to 1e-16 of them, and events to some \
-         hundred times that"
+        "a number of at least {SMALLEST_GLOBAL:e}: positions of some metres are known to 1e-16 of them, and events to \
+         some hundred times that"
     );
     Err(unexpected(at, &expected, &number(tolerance)))
 }

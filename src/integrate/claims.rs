@@ -1,5 +1,5 @@
-//! What the integrators promise for a free rigid body. One table: `gotai list methods` prints it, and the tests run every
-//! line of it.
+//! What the integrators promise for a free rigid body. One table: `gotai list methods` prints it, and the tests run
+//! every line of it.
 
 use crate::experiment::types::Integrator;
 use serde::Serialize;

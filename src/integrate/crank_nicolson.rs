@@ -1,5 +1,5 @@
-//! The trapezoidal rule (Crank & Nicolson 1947), implicit, order 2: y₁ − y₀ = h/2 (f(y₀) + f(y₁)) on position, velocity,
-//! angular velocity in body axes and quaternion; the quaternion is made a unit one after the step.
+//! The trapezoidal rule (Crank & Nicolson 1947), implicit, order 2: y₁ − y₀ = h/2 (f(y₀) + f(y₁)) on position,
+//! velocity, angular velocity in body axes and quaternion; the quaternion is made a unit one after the step.
 //!
 //! It is conjugate to the midpoint rule: energy and momentum are kept by neither step, but come back.
 

@@ -102,7 +102,8 @@ pub const E5: [f64; 12] = [
 pub const B3: [f64; 12] =
     [0.2440944881889764, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.7338466882816118, 0.0, 0.0, 0.022058823529411766];
 
-/// The continuous extension of order 7: stages 14 to 16 start at y + h Σ aᵢⱼ kⱼ, where stage 13 is the slope at the end.
+/// The continuous extension of order 7: stages 14 to 16 start at y + h Σ aᵢⱼ kⱼ, where stage 13 is the slope at the
+/// end.
 pub const EXTRA: [&[f64]; 3] = [
     &[
         0.056167502283047954,

@@ -22,8 +22,8 @@ pub fn momenta(island: &Island, model: &Model) -> Vec<Vector3<f64>> {
     island.bodies(model).zip(&island.at).map(|(body, at)| momentum_W(body, &at.q_WB, &at.w_WB)).collect()
 }
 
-/// Bodies that nothing but gravity acts on. `momenta`: the L of each, the method's own and never worked out again from ω,
-/// which would add a rounding a step.
+/// Bodies that nothing but gravity acts on. `momenta`: the L of each, the method's own and never worked out again from
+/// ω, which would add a rounding a step.
 pub fn step_free(
     equation: Equation,
     island: &mut Island,

@@ -1,6 +1,6 @@
-//! Pins as constraints (L17): forces λ at the pins for which their points stay together, A λ = c with A = J M⁻¹ Jᵀ, first
-//! for the accelerations of an integrator, then for what a step has left of the positions and velocities (E. Hairer,
-//! G. Wanner, Solving Ordinary Differential Equations II, VII.2: index reduction and projection).
+//! Pins as constraints (L17): forces λ at the pins for which their points stay together, A λ = c with A = J M⁻¹ Jᵀ,
+//! first for the accelerations of an integrator, then for what a step has left of the positions and velocities (E.
+//! Hairer, G. Wanner, Solving Ordinary Differential Equations II, VII.2: index reduction and projection).
 //!
 //! The projection is the smallest change in the metric of the masses. Pins that say the same twice (two on one body: an
 //! axis) are allowed: of all forces the smallest are taken.

@@ -1,9 +1,9 @@
 //! Sparse linear systems of 6×6 blocks, a block a pair of bodies in contact: LU factors in the order of least degree
 //! (W. F. Tinney, J. W. Walker, Proc. IEEE 55 (1967) 1801), found once a pattern.
 //!
-//! The pattern is symmetric, the numbers need not be. Rows are exchanged within a body's own six only: the systems here are
-//! E + Gᵀ D G, whose blocks on the diagonal hold what their body's contacts add. Own code, as libraries for it choose their
-//! vector instructions, and with them their rounding, by the machine.
+//! The pattern is symmetric, the numbers need not be. Rows are exchanged within a body's own six only: the systems here
+//! are E + Gᵀ D G, whose blocks on the diagonal hold what their body's contacts add. Own code, as libraries for it
+//! choose their vector instructions, and with them their rounding, by the machine.
 
 use nalgebra::{DVector, LU, Matrix6, U6, Vector6};
 

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-/// The root near `start` of a function that comes with its derivative; None if none is found: a step that has no solution
-/// must not look like one.
+/// The root near `start` of a function that comes with its derivative; None if none is found: a step that has no
+/// solution must not look like one.
 pub fn root(
     start: Vector3<f64>,
     mut at: impl FnMut(&Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>),

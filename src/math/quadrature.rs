@@ -1,6 +1,7 @@
 //! Gauss's quadrature: nodes and weights.
 
-/// Nodes and weights on −1..1: roots of Legendre's polynomial, by Newton's method (Press et al., Numerical Recipes, 4.6).
+/// Nodes and weights on −1..1: roots of Legendre's polynomial, by Newton's method (Press et al., Numerical Recipes,
+/// 4.6).
 pub fn legendre<const N: usize>() -> [(f64, f64); N] {
     let n = N as f64;
     std::array::from_fn(|i| {

@@ -1,9 +1,10 @@
 //! Whether something rises along an axis, or does so by chance.
 //!
 //! Shares: Cochran–Armitage (P. Armitage, Biometrics 11 (1955) 375), scores 0, 1, 2, … by level, so that a logarithmic
-//! axis and its exponent give the same answer. Numbers: Mann–Kendall, its statistic summed over the cells of the other axes
-//! (R. M. Hirsch, J. R. Slack & R. A. Smith, Water Resour. Res. 18 (1982) 107), exact where nothing is tied and the sample
-//! is small, else normal with continuity correction and the variance for ties (M. G. Kendall, Rank Correlation Methods).
+//! axis and its exponent give the same answer. Numbers: Mann–Kendall, its statistic summed over the cells of the other
+//! axes (R. M. Hirsch, J. R. Slack & R. A. Smith, Water Resour. Res. 18 (1982) 107), exact where nothing is tied and
+//! the sample is small, else normal with continuity correction and the variance for ties (M. G. Kendall, Rank
+//! Correlation Methods).
 
 use std::cmp::Ordering;
 
@@ -98,8 +99,8 @@ fn ties<T>(sorted: &[T], same: impl Fn(&T, &T) -> bool) -> Vec<f64> {
     sorted.chunk_by(same).map(|group| group.len() as f64).collect()
 }
 
-/// P(S ≥ s) over all orders of every cell's values: S is the number of pairs less twice the number of inversions, and the
-/// inversions of n values in random order are a sum of independent uniform numbers 0 … i, i < n.
+/// P(S ≥ s) over all orders of every cell's values: S is the number of pairs less twice the number of inversions, and
+/// the inversions of n values in random order are a sum of independent uniform numbers 0 … i, i < n.
 fn exact(cells: &[Kendall], s: f64) -> Option<f64> {
     /// Above it the normal distribution is as good.
     const MOST_PAIRS: usize = 2000;

@@ -1,6 +1,7 @@
 //! The matrix A = J M⁻¹ Jᵀ (L16) in the step with the most contacts: what its solvers have to do with.
 //!
-//! A has three rows a contact and at most six degrees of freedom a body: its nonzero eigenvalues are found body by body.
+//! A has three rows a contact and at most six degrees of freedom a body: its nonzero eigenvalues are found body by
+//! body.
 
 use super::kept::{Kept, eigenvalues};
 use crate::collide::SolvedContact;

@@ -28,7 +28,8 @@ pub struct Judge {
     pub pin_gap_max_m: Option<f64>,
     pub watched: Watched,
     divergence: Divergence,
-    /// A hundredth of a fall by the size of the largest body: what slips less than a force changes velocities in it, rests.
+    /// A hundredth of a fall by the size of the largest body: what slips less than a force changes velocities in it,
+    /// rests.
     moment_s: f64,
     /// Between two steps.
     middle: State,

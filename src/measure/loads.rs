@@ -1,6 +1,6 @@
-//! What applied forces and the air did in a step: their work and impulses, by Simpson's rule (L3) over the states at its
-//! ends and a state in its middle, so that no solver's own forces are needed. The middle is that of the cubics through
-//! positions and quaternions with their rates, right to O(h⁴): the work of a step is right to O(h⁵).
+//! What applied forces and the air did in a step: their work and impulses, by Simpson's rule (L3) over the states at
+//! its ends and a state in its middle, so that no solver's own forces are needed. The middle is that of the cubics
+//! through positions and quaternions with their rates, right to O(h⁴): the work of a step is right to O(h⁵).
 //!
 //! The work of a constant force of the world is F·Δ(its point), exactly.
 

@@ -13,8 +13,8 @@ impl Push {
     pub(super) const NONE: Push = Push { linear: Vector3::new(0.0, 0.0, 0.0), angular: Vector3::new(0.0, 0.0, 0.0) };
 }
 
-/// Part of a scale; 0 if it is no more than the rounding of what it is the difference of: a body at rest has no scale of
-/// its own.
+/// Part of a scale; 0 if it is no more than the rounding of what it is the difference of: a body at rest has no scale
+/// of its own.
 pub(super) fn beyond_rounding(amount: f64, of: f64, scale: f64) -> f64 {
     if amount.abs() <= 64.0 * f64::EPSILON * of { 0.0 } else { relative(amount, scale) }
 }

@@ -1,8 +1,8 @@
-//! A reference run as data: its states at equally spaced times, each with how far a second run at another tolerance is from
-//! it, and the errors of a run against them.
+//! A reference run as data: its states at equally spaced times, each with how far a second run at another tolerance is
+//! from it, and the errors of a run against them.
 //!
-//! The two runs of a motion that lets errors grow part at some time: from then on neither is a reference. Errors are those
-//! of the last of these times that a run has met before.
+//! The two runs of a motion that lets errors grow part at some time: from then on neither is a reference. Errors are
+//! those of the last of these times that a run has met before.
 
 use super::error::Errors;
 use crate::state::{BodyState, State};

@@ -17,8 +17,8 @@ use crate::model::Model;
 use crate::state::State;
 use nalgebra::{Matrix3, Vector3};
 
-/// Impulses below this part of a body's momentum, as of a gap that just closes, are not asked to obey to the last digit: the
-/// rounding of velocities, 1e-15, is then 1e-10 of them.
+/// Impulses below this part of a body's momentum, as of a gap that just closes, are not asked to obey to the last
+/// digit: the rounding of velocities, 1e-15, is then 1e-10 of them.
 const SMALL: f64 = 1e-5;
 
 #[derive(Clone, Copy, Debug)]
@@ -135,8 +135,8 @@ impl Seen {
         }
     }
 
-    /// Of an impact by another law than Newton's, in impulses: how far p is outside of the cone, and of what would stop the
-    /// approach that is left.
+    /// Of an impact by another law than Newton's, in impulses: how far p is outside of the cone, and of what would stop
+    /// the approach that is left.
     fn missed_by_impact(&self, contact: &Contact, impulse_W: &Vector3<f64>) -> f64 {
         let outside = (impulse_W - in_cone(impulse_W, &contact.normal, contact.friction)).norm();
         let approach = self.floor - contact.normal.dot(&self.u);

@@ -75,8 +75,8 @@ impl Model {
         !self.forces.is_empty() || self.bodies.iter().any(|body| !body.drag.is_none())
     }
 
-    /// The acceleration of the centre of mass, if nothing acts on the body but gravity and constant forces that do not turn
-    /// it.
+    /// The acceleration of the centre of mass, if nothing acts on the body but gravity and constant forces that do not
+    /// turn it.
     pub fn constant_pull(&self, index: usize) -> Option<Vector3<f64>> {
         let body = &self.bodies[index];
         let mut pull = self.gravity_m_s2;

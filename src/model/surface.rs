@@ -1,5 +1,5 @@
-//! What a pair of surfaces does: Coulomb friction and restitution, by default the geometric mean of the two bodies' own.
-//! Tangential restitution is a pair's alone.
+//! What a pair of surfaces does: Coulomb friction and restitution, by default the geometric mean of the two bodies'
+//! own. Tangential restitution is a pair's alone.
 
 use super::{Body, Geometry, Model};
 

@@ -1,14 +1,16 @@
 //! Rerun files (.rrd): the run in the Rerun Viewer, with a layout of its own.
 //!
-//! The head (layout, surfaces, configuration) goes through Rerun's stream into memory; the columns become chunks here and
-//! now, and everything is encoded on the calling thread. Rerun's own file sink writes on a further thread and only logs
-//! its errors; here a full disk is an error, and a recording needs no threads.
+//! The head (layout, surfaces, configuration) goes through Rerun's stream into memory; the columns become chunks here
+//! and now, and everything is encoded on the calling thread. Rerun's own file sink writes on a further thread and only
+//! logs its errors; here a full disk is an error, and a recording needs no threads.
 //!
 //! 3-D data is f32 in this format; the plotted numbers are f64.
 
 mod head;
 mod layout;
+mod names;
 
+use self::names::{BODIES, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, LOG, SIM_TIME, STEP, energy_path};
 use super::sample::{Batch, Event, ForceArrows, Header, Severity, Streams, norm};
 use super::schema::{self, Series};
 use super::{RecordError, Recorder};
@@ -23,23 +25,6 @@ use std::error::Error;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
-
-/// Timelines: simulated time, and the number of the step.
-const SIM_TIME: &str = "sim_time";
-const STEP: &str = "step";
-
-/// Entities. A body is `/world/bodies/<name>`, a plotted energy `/energy/<name>`.
-const WORLD: &str = "/world";
-const CONTAINER: &str = "/world/container";
-const BODIES: &str = "/world/bodies";
-const CONTACTS: &str = "/world/contacts";
-const FORCES: &str = "/world/forces";
-const ENERGY: &str = "/energy";
-const PENETRATION: &str = "/penetration";
-const CONTACT_COUNT: &str = "/contact/count";
-const CONTACT_FORCE: &str = "/contact/force";
-const LOG: &str = "/log";
-const CONFIG: &str = "/config";
 
 /// Rerun's errors come from five crates; all end as the reason of a `RecordError`.
 type Written = Result<(), Box<dyn Error>>;
@@ -194,12 +179,4 @@ fn lengths(batch: &Batch) -> impl Iterator<Item = usize> + Clone {
 /// A body's name is one part of the path, whatever characters it has.
 fn body_path(name: &str) -> EntityPath {
     EntityPath::from(BODIES).join(&EntityPath::from_single_string(name))
-}
-
-/// Penetration has a plot of its own: it is a length.
-fn energy_path(series: &Series) -> EntityPath {
-    match series.name {
-        "penetration" => PENETRATION.into(),
-        name => format!("{ENERGY}/{name}").into(),
-    }
 }

@@ -1,8 +1,8 @@
 //! What a recording calls things, once for every file format: topics, message types, fields with units, colours.
 //!
 //! Numbers are f64 in SI units, world frame. Own messages are protobuf (package `gotai`), written by hand together with
-//! the descriptors that a reader needs. Vectors are arrays, which are shorter on the wire than a nested x, y, z. A field
-//! that is `required` here is optional in the descriptor: it is always on the wire, so that -0.0 keeps its sign.
+//! the descriptors that a reader needs. Vectors are arrays, which are shorter on the wire than a nested x, y, z. A
+//! field that is `required` here is optional in the descriptor: it is always on the wire, so that -0.0 keeps its sign.
 
 use super::sample::EnergySample;
 use prost::Message;

@@ -1,7 +1,7 @@
 //! A scene is built: from one resolved experiment to its constant `Model` and first `State`.
 //!
-//! Both come from one builder: pins are anchored where the start puts them, and the zero of the potential energy may be the
-//! lowest start.
+//! Both come from one builder: pins are anchored where the start puts them, and the zero of the potential energy may be
+//! the lowest start.
 
 mod body;
 mod build;

@@ -17,8 +17,8 @@ impl Draws {
         Draws { rng: generator(seed, name) }
     }
 
-    /// Replaces what `random` names and returns a number uniform on (0, 1). All draws are made whether they are asked for
-    /// or not, in one order, so that asking for a spin does not change the velocity.
+    /// Replaces what `random` names and returns a number uniform on (0, 1). All draws are made whether they are asked
+    /// for or not, in one order, so that asking for a spin does not change the velocity.
     pub fn next(&mut self, random: &Random, state: &mut BodyState) -> f64 {
         let rng = &mut self.rng;
         let (along_v, along_w, attitude) = (direction(rng), direction(rng), attitude(rng));

@@ -1,16 +1,15 @@
 //! Along which axis two convex cores are nearest, or least deep inside each other.
 //!
-//! Both are the unit n with the largest separation s(n) = −h_a(−n) − h_b(n), h the support functions: the distance where
-//! it is positive, else minus the depth. Where s has its peak on the normal of a face, that normal is the axis.
+//! Both are the unit n with the largest separation s(n) = −h_a(−n) − h_b(n), h the support functions: the distance
+//! where it is positive, else minus the depth. Where s has its peak on the normal of a face, that normal is the axis.
 //!
-//! - Polytopes that overlap: the peak is at a face of one or at a pair of edges, one of each (S. Gottschalk, M. C. Lin &
-//!   D. Manocha, SIGGRAPH 1996, for boxes). Separated ones: GJK, which is exact after finitely many steps.
+//! - Polytopes that overlap: the peak is at a face of one or at a pair of edges, one of each (S. Gottschalk, M. C. Lin
+//!   & D. Manocha, SIGGRAPH 1996, for boxes). Separated ones: GJK, which is exact after finitely many steps.
 //! - With curved bodies: a is moved along n until they are apart, and the direction between them is the next n. That
-//!   never lowers s: the moved bodies are at least s(n) + move apart, of which the move explains no more than itself along
-//!   any other direction. Then Newton's iteration on the sphere of directions, held on great circles where straight
-//!   lines meet the other body.
-//!   Deep inside each other they have several peaks; of pairs a tenth of their size deep, one in 10⁴ ends at one that is
-//!   not the highest.
+//!   never lowers s: the moved bodies are at least s(n) + move apart, of which the move explains no more than itself
+//!   along any other direction. Then Newton's iteration on the sphere of directions, held on great circles where
+//!   straight lines meet the other body. Deep inside each other they have several peaks; of pairs a tenth of their size
+//!   deep, one in 10⁴ ends at one that is not the highest.
 
 use super::gjk::between;
 use super::placed::Placed;
@@ -162,8 +161,8 @@ fn first_guesses(a: &Placed, b: &Placed, flat: &Option<Axis>) -> [(Vector3<f64>,
     best
 }
 
-/// Newton's iteration for the peak of s on the unit sphere, from a direction near it, perpendicular to all straight lines
-/// that are so within `slack` (rad).
+/// Newton's iteration for the peak of s on the unit sphere, from a direction near it, perpendicular to all straight
+/// lines that are so within `slack` (rad).
 fn refine(a: &Placed, b: &Placed, start: Vector3<f64>, slack: f64) -> (Vector3<f64>, f64) {
     let mut lines = Vec2::default();
     if slack > 0.0 {

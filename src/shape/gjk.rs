@@ -59,8 +59,8 @@ fn nearest(simplex: &[Vector3<f64>]) -> (Vector3<f64>, [Vector3<f64>; 4], usize)
     best
 }
 
-/// Foot of the origin on the triangle at `a` with sides `e` and `f`, if it is inside; along the normal, as products of the
-/// sides' lengths cancel in the thin triangles near the end.
+/// Foot of the origin on the triangle at `a` with sides `e` and `f`, if it is inside; along the normal, as products of
+/// the sides' lengths cancel in the thin triangles near the end.
 fn on_triangle(a: &Vector3<f64>, e: &Vector3<f64>, f: &Vector3<f64>) -> Option<Vector3<f64>> {
     let m = e.cross(f);
     let square = m.norm_squared();

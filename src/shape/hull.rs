@@ -143,8 +143,8 @@ fn outward(vertices: &[Vector3<f64>], [i, j, k]: [usize; 3], rounding: f64) -> O
     Some(if above { -normal } else { normal })
 }
 
-/// Corners of the convex hull of coplanar vertices, counter-clockwise about the normal (A. M. Andrew, Inf. Proc. Lett. 9
-/// (1979) 216).
+/// Corners of the convex hull of coplanar vertices, counter-clockwise about the normal (A. M. Andrew, Inf. Proc. Lett.
+/// 9 (1979) 216).
 fn polygon(vertices: &[Vector3<f64>], on: &[usize], normal: &Vector3<f64>, rounding: f64) -> Vec<u32> {
     let t1 = Vector3::ith(normal.iamin(), 1.0).cross(normal).normalize();
     let t2 = normal.cross(&t1);

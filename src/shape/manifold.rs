@@ -1,10 +1,10 @@
-//! All points in which two cores meet along an axis: the corners of the part that their facing sides have in common, seen
-//! along the axis.
+//! All points in which two cores meet along an axis: the corners of the part that their facing sides have in common,
+//! seen along the axis.
 //!
 //! Corners of one side inside the other, and crossings of the two outlines. Which of them count is decided with a
-//! tolerance, corners of b before those of a where both coincide and before crossings: bodies that lie flush or corner on
-//! corner keep the same points whatever the last bit says. (Clipping edge after edge, I. E. Sutherland & G. W. Hodgman,
-//! Comm. ACM 17 (1974) 32, would name such points at random.)
+//! tolerance, corners of b before those of a where both coincide and before crossings: bodies that lie flush or corner
+//! on corner keep the same points whatever the last bit says. (Clipping edge after edge, I. E. Sutherland & G. W.
+//! Hodgman, Comm. ACM 17 (1974) 32, would name such points at random.)
 
 use super::axis::{Axis, Face};
 use super::placed::{PARALLEL, Placed};
@@ -245,7 +245,8 @@ fn crossing(
     }
 }
 
-/// Where straight pieces of an outline cross a rim, and the middle of the arc that each of them leaves to the other side.
+/// Where straight pieces of an outline cross a rim, and the middle of the arc that each of them leaves to the other
+/// side.
 fn rim_crossings(
     disc: &Disc,
     other: &Side,

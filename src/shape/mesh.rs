@@ -1,8 +1,8 @@
 //! Tetrahedral volume meshes (L8) of a box, a bar and a sphere, at any resolution.
 //!
-//! The order of nodes is the order of contacts, and Gauss–Seidel depends on it: a box's are in lexicographic order
-//! (x, y, z), a sphere's as subdivision makes them. (Sorted likewise, an icosphere of 162 nodes explodes in 34 % instead
-//! of 45 % of the lecture's runs at 10 ms, where 44 % were measured.)
+//! The order of nodes is the order of contacts, and Gauss–Seidel depends on it: a box's are in lexicographic order (x,
+//! y, z), a sphere's as subdivision makes them. (Sorted likewise, an icosphere of 162 nodes explodes in 34 % instead of
+//! 45 % of the lecture's runs at 10 ms, where 44 % were measured.)
 
 use super::hull::Hull;
 use nalgebra::Vector3;

@@ -1,7 +1,7 @@
 //! All points of contact of two solids.
 //!
-//! Spheres by the nearest point of the other surface, capsules among themselves by their segments; everything else by the
-//! axis between the cores (`axis.rs`), then the corners of what lies opposite along it (`manifold.rs`).
+//! Spheres by the nearest point of the other surface, capsules among themselves by their segments; everything else by
+//! the axis between the cores (`axis.rs`), then the corners of what lies opposite along it (`manifold.rs`).
 
 use super::axis::{Axis, Face, axis};
 use super::closest::closest;
@@ -69,8 +69,8 @@ impl Collect<'_> {
     }
 }
 
-/// Where edges cross over a face that lies almost flat, the axis is theirs and the points are the face's: of two, one would
-/// be lost by a last bit, and a body that topples over an edge would twist.
+/// Where edges cross over a face that lies almost flat, the axis is theirs and the points are the face's: of two, one
+/// would be lost by a last bit, and a body that topples over an edge would twist.
 const NEARLY: f64 = 0.95;
 
 /// The face of either that is nearest to facing along the axis, if it nearly does.

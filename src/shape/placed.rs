@@ -1,7 +1,8 @@
 //! A solid in the world, as support functions see it: a core, and a ball of some radius that is rolled around it.
 //!
-//! The core of a sphere is its centre, of a capsule the segment between the centres of its spheres; all others are their
-//! own core. Positions are relative to a point near both bodies, so that far from the world's origin nothing is lost.
+//! The core of a sphere is its centre, of a capsule the segment between the centres of its spheres; all others are
+//! their own core. Positions are relative to a point near both bodies, so that far from the world's origin nothing is
+//! lost.
 
 use super::solid::{Pose, Solid, corner, ellipsoid_support, rim_directions};
 use nalgebra::{Matrix3, Vector3};

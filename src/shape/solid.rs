@@ -47,8 +47,8 @@ pub struct Meeting {
     pub feature: (u32, u32),
 }
 
-/// A cap tilted by less (rad) lies flat. Below it, the lowest point of a rim is an accident of rounding, and the points of
-/// the rim are fixed in the body; what is lost is less than a third of this angle times the radius.
+/// A cap tilted by less (rad) lies flat. Below it, the lowest point of a rim is an accident of rounding, and the points
+/// of the rim are fixed in the body; what is lost is less than a third of this angle times the radius.
 const FLAT: f64 = 1e-8;
 
 impl Solid {
@@ -74,9 +74,9 @@ impl Solid {
         }
     }
 
-    /// Calls `visit(feature, point)` for all points that can bear on a half-space with this normal (unit, toward the free
-    /// side, own axes): a box's and a hull's vertices, the lowest of each sphere of a capsule, an ellipsoid's lowest, and
-    /// of each rim of a cylinder the lowest point and those a quarter turn on.
+    /// Calls `visit(feature, point)` for all points that can bear on a half-space with this normal (unit, toward the
+    /// free side, own axes): a box's and a hull's vertices, the lowest of each sphere of a capsule, an ellipsoid's
+    /// lowest, and of each rim of a cylinder the lowest point and those a quarter turn on.
     pub fn each_lowest(&self, normal: &Vector3<f64>, mut visit: impl FnMut(u32, Vector3<f64>)) {
         match self {
             Solid::Sphere { radius_m } => visit(0, -normal * *radius_m),

@@ -1,10 +1,10 @@
 //! Newton's method on the law of contact itself, from where it is nearly known which contacts stick, slip and separate:
 //! the natural map says which, their equalities are linearised, and solved together (P. Alart, A. Curnier 1991).
 //!
-//! A sticking contact has u = 0; a slipping one u_n = 0, p on the cone and opposite to the slip, so that with E = |u_t|/μ p_n
-//! turning p across by q takes u_across = −E q; a separating one p = 0. With η on the diagonal, tiny against A's
-//! eigenvalues, redundant contacts are no trouble, and since the changes of p are worked out, not p, what rounding leaves
-//! shrinks from step to step.
+//! A sticking contact has u = 0; a slipping one u_n = 0, p on the cone and opposite to the slip, so that with E =
+//! |u_t|/μ p_n turning p across by q takes u_across = −E q; a separating one p = 0. With η on the diagonal, tiny
+//! against A's eigenvalues, redundant contacts are no trouble, and since the changes of p are worked out, not p, what
+//! rounding leaves shrinks from step to step.
 
 use super::Impulse;
 use super::island::{Island, Touch};
@@ -49,9 +49,9 @@ const EVEN_ETA: f64 = 1e-5;
 /// Of the largest impulse: a change that is none.
 const SAME: f64 = 1e-10;
 
-/// Redundant contacts that slip different ways leave a continuum of solutions, each with velocities of its own. Goes, within
-/// it, to the one with the least Σ|p|² (p with units), that of contacts that give a little, all alike. What pulls there is
-/// left out. The residual.
+/// Redundant contacts that slip different ways leave a continuum of solutions, each with velocities of its own. Goes,
+/// within it, to the one with the least Σ|p|² (p with units), that of contacts that give a little, all alike. What
+/// pulls there is left out. The residual.
 pub fn even(island: &Island, p: &mut Vec<Impulse>, rounds: usize, tolerance: f64, steps: &mut u64) -> f64 {
     let mut residual = island.residual(p);
     for _ in 0..rounds {

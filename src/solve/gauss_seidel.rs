@@ -181,8 +181,8 @@ fn shuffle(order: &mut [usize], sweep: u32) {
 
 /// One pass over the contacts, each seeing what the ones before it have become.
 ///
-/// A pin's three rows are solved together. With `AfterSweep` the rows pass through uncorrected: later contacts see pulling and sticking forces of earlier ones,
-/// and that error grows with the number of contacts.
+/// A pin's three rows are solved together. With `AfterSweep` the rows pass through uncorrected: later contacts see
+/// pulling and sticking forces of earlier ones, and that error grows with the number of contacts.
 #[inline(always)]
 fn in_place(
     problem: &ContactProblem,
@@ -224,8 +224,8 @@ fn three_rows(block: &Block, c: &Vector3<f64>, p: &Impulse) -> Impulse {
 /// The normal row, its correction, then both tangent rows and theirs: projected Gauss–Seidel.
 ///
 /// The tangents move by one step length, 1/λmax of their block: where the iteration settles the force of a slipping
-/// contact then opposes its slip. With a length of its own for each row it points elsewhere, and the forces of redundant
-/// contacts work against each other (measured: a slab on four corners slides 1.15 times too far).
+/// contact then opposes its slip. With a length of its own for each row it points elsewhere, and the forces of
+/// redundant contacts work against each other (measured: a slab on four corners slides 1.15 times too far).
 #[inline(always)]
 fn within_cone(block: &Block, c: &Vector3<f64>, p: &Impulse, part: f64, cone: Cone) -> Impulse {
     let normal = (p.x - c.x * block.inverse_diagonal.x * part).max(0.0);

@@ -1,12 +1,13 @@
-//! An interior-point method for the law of contact of an island, from nothing to near the solution in a few dozen linear
-//! systems whatever the number of contacts: p and ũ stay inside their cones while p ∘ ũ falls (for a given slip V. Acary,
-//! P. Armand, H. M. Nguyen, M. Shpakovych, Second-order cone programming for frictional contact mechanics using interior
-//! point algorithm, Optim. Methods Softw. 2024; here the slip in ũ changes with p).
+//! An interior-point method for the law of contact of an island, from nothing to near the solution in a few dozen
+//! linear systems whatever the number of contacts: p and ũ stay inside their cones while p ∘ ũ falls (for a given slip
+//! V. Acary, P. Armand, H. M. Nguyen, M. Shpakovych, Second-order cone programming for frictional contact mechanics
+//! using interior point algorithm, Optim. Methods Softw. 2024; here the slip in ũ changes with p).
 //!
-//! With x = (μ p_n, p_t) and z = (ũ_n/μ, ũ_t) both cones are Lorentz's. The steps are Nesterov and Todd's with Mehrotra's
-//! predictor and corrector (L. Vandenberghe, The CVXOPT linear and quadratic cone program solvers, 2010). Without friction
-//! a contact has its normal row alone; a pin has x = p without a cone and −η Δx = u. With much friction the path that is
-//! followed may turn back before its end: then the best impulses on it are a start for others.
+//! With x = (μ p_n, p_t) and z = (ũ_n/μ, ũ_t) both cones are Lorentz's. The steps are Nesterov and Todd's with
+//! Mehrotra's predictor and corrector (L. Vandenberghe, The CVXOPT linear and quadratic cone program solvers, 2010).
+//! Without friction a contact has its normal row alone; a pin has x = p without a cone and −η Δx = u. With much
+//! friction the path that is followed may turn back before its end: then the best impulses on it are a start for
+//! others.
 
 use super::Impulse;
 use super::island::{Island, Touch};

@@ -1,7 +1,7 @@
 //! An island: bodies that contacts join, as a problem without units that a solver of the whole law works on.
 //!
-//! Bodies that move as they are told, and the container, join nothing. With M = L⁻ᵀL⁻¹ the unknown velocities are
-//! y = L⁻¹ M⁻¹ Jᵀ p, six numbers a body however many contacts it has, and A = G Gᵀ with G = J L. Every contact is scaled by
+//! Bodies that move as they are told, and the container, join nothing. With M = L⁻ᵀL⁻¹ the unknown velocities are y =
+//! L⁻¹ M⁻¹ Jᵀ p, six numbers a body however many contacts it has, and A = G Gᵀ with G = J L. Every contact is scaled by
 //! σ, its own block of A having the trace 1/σ²: velocities are σ u, impulses p/σ, and Coulomb's cone stays what it is.
 
 use super::Impulse;
@@ -178,8 +178,8 @@ impl Island {
         self.touches.iter().zip(p).for_each(|(touch, p)| all[touch.index] = p * touch.scale);
     }
 
-    /// What impulses (with units) are compared with: the largest; without any, what would stop an approach; but not less
-    /// than 10⁻⁵ of what the velocities amount to, as the judge has it.
+    /// What impulses (with units) are compared with: the largest; without any, what would stop an approach; but not
+    /// less than 10⁻⁵ of what the velocities amount to, as the judge has it.
     pub fn scale(&self, p: &[Impulse]) -> f64 {
         const SMALL: f64 = 1e-5;
         let most = |of: &dyn Fn((&Touch, &Impulse)) -> f64| self.touches.iter().zip(p).map(of).fold(0.0, f64::max);

@@ -1,6 +1,6 @@
-//! The law of contact of one contact, without units: p ∈ K, ũ ∈ K*, p ⟂ ũ with ũ = u + μ|u_t| n (G. De Saxcé, Z.-Q. Feng
-//! 1998), K Coulomb's cone |p_t| ≤ μ p_n; rows are normal, tangent 1, tangent 2. A pin is the
-//! same law with another K.
+//! The law of contact of one contact, without units: p ∈ K, ũ ∈ K*, p ⟂ ũ with ũ = u + μ|u_t| n (G. De Saxcé, Z.-Q.
+//! Feng 1998), K Coulomb's cone |p_t| ≤ μ p_n; rows are normal, tangent 1, tangent 2. A pin is the same law with
+//! another K.
 
 use super::Impulse;
 use nalgebra::{Matrix3, Vector3};

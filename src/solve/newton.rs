@@ -1,12 +1,12 @@
 //! The exact contact solver: the law of contact (`law.rs`) of all contacts of an island at once, to rounding.
 //!
-//! Impulses that are near (last step's, mostly) go straight to Newton's method on the law itself (`active_set.rs`: quadratic,
-//! once it is known which contacts stick and slip). Otherwise an interior-point method (`interior.rs`) comes near from
-//! nothing. Where friction wedges bodies and its path turns back, proximal problems with a falling η go on from there
-//! (`proximal.rs`), and where one of those is not solved, sweeps of exact projected Gauss–Seidel. All of them work on six
-//! velocities a body, in sparse blocks; contacts may be as redundant as they like, and pins are among them. Last, redundant
-//! contacts share their impulses evenly: those that slip (`active_set::even`), and then, of all impulses that make these
-//! velocities, the smallest are taken (`smallest.rs`), wherever the iteration started.
+//! Impulses that are near (last step's, mostly) go straight to Newton's method on the law itself (`active_set.rs`:
+//! quadratic, once it is known which contacts stick and slip). Otherwise an interior-point method (`interior.rs`) comes
+//! near from nothing. Where friction wedges bodies and its path turns back, proximal problems with a falling η go on
+//! from there (`proximal.rs`), and where one of those is not solved, sweeps of exact projected Gauss–Seidel. All of
+//! them work on six velocities a body, in sparse blocks; contacts may be as redundant as they like, and pins are among
+//! them. Last, redundant contacts share their impulses evenly: those that slip (`active_set::even`), and then, of all
+//! impulses that make these velocities, the smallest are taken (`smallest.rs`), wherever the iteration started.
 //!
 //! Allocates. Residuals are the judge's (`measure::residual`), worked out from J and M⁻¹ as the solver has them.
 
@@ -17,13 +17,14 @@ use super::{Impulse, active_set, interior, proximal, smallest};
 use crate::experiment::types::{Cone, Correction, Iteration, Local, Order};
 use crate::work::Work;
 
-/// Sweeps to begin with: few contacts are mostly settled by them. And sweeps between two tries where nothing else helps.
+/// Sweeps to begin with: few contacts are mostly settled by them. And sweeps between two tries where nothing else
+/// helps.
 const SWEEPS: u32 = 20;
 const SWEEPS_OF_FEW: u32 = 100;
 const MORE_SWEEPS: u32 = 300;
 
-/// η of the first proximal problem and least, contacts having blocks of trace 1 (rounding of a velocity is felt as 1/η of
-/// it); what it is multiplied by when the problem was solved, and when it was not.
+/// η of the first proximal problem and least, contacts having blocks of trace 1 (rounding of a velocity is felt as 1/η
+/// of it); what it is multiplied by when the problem was solved, and when it was not.
 const FIRST_ETA: f64 = 0.1;
 const LEAST_ETA: f64 = 1e-8;
 const ON: f64 = 0.5;
@@ -39,8 +40,8 @@ const UNTIL_EVEN: usize = 6;
 /// A residual from which Newton's method is worth a try before anything else.
 const NEAR: f64 = 1e-2;
 
-/// Improves `p` until the residual of every island is below the tolerance, by at most `sweeps.most` proximal problems each,
-/// and makes it the smallest. Whether it is solved, to the tolerance or to rounding.
+/// Improves `p` until the residual of every island is below the tolerance, by at most `sweeps.most` proximal problems
+/// each, and makes it the smallest. Whether it is solved, to the tolerance or to rounding.
 pub fn solve(
     problem: &ContactProblem,
     sweeps: &Sweeps,

@@ -1,9 +1,10 @@
 //! Removing penetration without adding kinetic energy (split impulse: E. Guendelman, R. Bridson, R. Fedkiw, ACM TOG 22
-//! (2003) 871 separate positions from velocities likewise): displacements d = M⁻¹ J_nᵀ λ, λ ≥ 0, that move every contact
-//! that would stay inside out, found by projected Gauss–Seidel on the normal rows alone.
+//! (2003) 871 separate positions from velocities likewise): displacements d = M⁻¹ J_nᵀ λ, λ ≥ 0, that move every
+//! contact that would stay inside out, found by projected Gauss–Seidel on the normal rows alone.
 //!
-//! The law of contact lets gaps close to zero and no further, so that there is little to remove: what a linear forecast of
-//! the gap misses, and impacts that were seen late. A contact that loses no energy (e = 1) is left to leave by itself.
+//! The law of contact lets gaps close to zero and no further, so that there is little to remove: what a linear forecast
+//! of the gap misses, and impacts that were seen late. A contact that loses no energy (e = 1) is left to leave by
+//! itself.
 
 use super::problem::{Block, ContactProblem, Twist};
 use crate::collide::Contact;
@@ -11,8 +12,8 @@ use crate::collide::approach::{rounding_m, size_m};
 use crate::model::{Body, Model};
 use crate::work::Work;
 
-/// Part of the depth that is removed in a step whatever it costs, and of a greater depth at most: 10 steps for 90 %. All of
-/// it at once would turn bodies so far that they leave the contacts that hold them, and a pile would shake.
+/// Part of the depth that is removed in a step whatever it costs, and of a greater depth at most: 10 steps for 90 %.
+/// All of it at once would turn bodies so far that they leave the contacts that hold them, and a pile would shake.
 const PART: f64 = 0.2;
 
 /// Sweeps; what they leave is the next step's.
@@ -42,9 +43,9 @@ impl Push {
         }
     }
 
-    /// Finds every body's displacement; false if no contact will be inside (then `moved` means nothing). `response`: what
-    /// the impulses did to the velocities, which last until the next step's contacts are seen. `lost_j`: what the contacts
-    /// of this step took.
+    /// Finds every body's displacement; false if no contact will be inside (then `moved` means nothing). `response`:
+    /// what the impulses did to the velocities, which last until the next step's contacts are seen. `lost_j`: what the
+    /// contacts of this step took.
     pub fn find(
         &mut self,
         problem: &ContactProblem,

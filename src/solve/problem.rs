@@ -137,8 +137,8 @@ pub struct Block {
     pub pin: Option<Matrix3<f64>>,
 }
 
-/// A point of a body that is held, or follows a point of another body: v_rel + A p = `velocity_W`, p any impulse, in world
-/// axes.
+/// A point of a body that is held, or follows a point of another body: v_rel + A p = `velocity_W`, p any impulse, in
+/// world axes.
 #[derive(Clone, Copy, Debug)]
 pub struct Pin {
     pub end: PinEnd,
@@ -261,8 +261,9 @@ impl ContactProblem {
         self.blocks.iter().zip(impulses).map(taken).sum()
     }
 
-    /// Impulses of an iteration that has not settled may add energy (a bar at μ = 1: up to 1.004 of it): only that part of
-    /// them is kept which takes the most. The cones allow it, as they are cones; approaches that remain are next step's.
+    /// Impulses of an iteration that has not settled may add energy (a bar at μ = 1: up to 1.004 of it): only that part
+    /// of them is kept which takes the most. The cones allow it, as they are cones; approaches that remain are next
+    /// step's.
     pub fn take_back(&self, impulses: &mut [Impulse], u: &[Twist]) {
         let added = self.energy(impulses, u);
         // What holds a pin is no cone's to choose a part of.

@@ -4,7 +4,8 @@
 //! p(y) = P_K(p_centre − ũ(y)/η),
 //!
 //! and y = Gᵀ p(y) a semi-smooth equation in six numbers a body that is regular however redundant the contacts are (the
-//! augmented Lagrangian of P. Alart, A. Curnier, Comput. Methods Appl. Mech. Engrg. 92 (1991) 353 with De Saxcé's cone).
+//! augmented Lagrangian of P. Alart, A. Curnier, Comput. Methods Appl. Mech. Engrg. 92 (1991) 353 with De Saxcé's
+//! cone).
 
 use super::Impulse;
 use super::island::{Island, Touch};

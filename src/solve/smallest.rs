@@ -1,9 +1,9 @@
-//! The smallest impulses (Σ|p|² least) that make given velocities and obey the law of contact: redundant contacts share a
-//! force evenly, and symmetric scenes have symmetric forces.
+//! The smallest impulses (Σ|p|² least) that make given velocities and obey the law of contact: redundant contacts share
+//! a force evenly, and symmetric scenes have symmetric forces.
 //!
-//! With the velocities given the law leaves every contact a convex cone F: none where it separates, the ray opposite to the
-//! slip where it slips, all of K where it sticks (and at a pin). The smallest p in F with Gᵀ p = y is p = P_F(G w), and w is the root of
-//! the slope of a convex function, Gᵀ P_F(G w) = y: Newton's method in six numbers a body.
+//! With the velocities given the law leaves every contact a convex cone F: none where it separates, the ray opposite to
+//! the slip where it slips, all of K where it sticks (and at a pin). The smallest p in F with Gᵀ p = y is p = P_F(G w),
+//! and w is the root of the slope of a convex function, Gᵀ P_F(G w) = y: Newton's method in six numbers a body.
 
 use super::Impulse;
 use super::island::{Island, Touch};
@@ -86,8 +86,8 @@ struct At {
     missing: DVector<f64>,
 }
 
-/// The smallest impulses that make the velocities of `p`, the best by the residual that was met, and that. Velocities are
-/// told from 0 when a residual of `small` is.
+/// The smallest impulses that make the velocities of `p`, the best by the residual that was met, and that. Velocities
+/// are told from 0 when a residual of `small` is.
 pub fn impulses(island: &Island, p: &[Impulse], small: f64, steps: &mut u64) -> (Vec<Impulse>, f64) {
     let faces = Faces::new(island, p, small);
     let mut at = faces.at(vec![Vector3::zeros(); p.len()]);

@@ -1,6 +1,6 @@
-//! Impacts by a law of their own (`solve::impact`), before a step's contact forces: what strikes in the step, together with
-//! what touches, passes through the law from the velocities just before; the step then goes on, plastic, from those just
-//! after.
+//! Impacts by a law of their own (`solve::impact`), before a step's contact forces: what strikes in the step, together
+//! with what touches, passes through the law from the velocities just before; the step then goes on, plastic, from
+//! those just after.
 
 use crate::collide::Contact;
 use crate::collide::approach::{Approach, is_closed};

@@ -1,5 +1,5 @@
-//! Motion between impulses: straight on, and a torque-free rotation that keeps energy and momentum: the implicit midpoint
-//! rule, order 2; of fast turns, which it cannot follow, the closed form at twenty times the cost.
+//! Motion between impulses: straight on, and a torque-free rotation that keeps energy and momentum: the implicit
+//! midpoint rule, order 2; of fast turns, which it cannot follow, the closed form at twenty times the cost.
 
 use crate::exact::free_rotation::FreeRotation;
 use crate::integrate::implicit_midpoint;

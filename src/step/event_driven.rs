@@ -1,7 +1,7 @@
 //! From event to event (`event`): a stretch of smooth motion up to the next one, then the event.
 //!
-//! A step is one of both. The clock means nothing here but its end: where a recorder looks is read off the motion, so that
-//! the run is the same with or without it.
+//! A step is one of both. The clock means nothing here but its end: where a recorder looks is read off the motion, so
+//! that the run is the same with or without it.
 
 use super::stretch::{self, Stretch};
 use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};

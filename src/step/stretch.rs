@@ -1,5 +1,5 @@
-//! Some steps of equal length by time-stepping, where events lead no further: they accumulate, or parts of bodies touch whose
-//! forces of contact are not known in closed form.
+//! Some steps of equal length by time-stepping, where events lead no further: they accumulate, or parts of bodies touch
+//! whose forces of contact are not known in closed form.
 
 use super::scratch::Scratch;
 use super::time_stepping;

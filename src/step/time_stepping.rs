@@ -1,11 +1,12 @@
 //! Velocity–impulse time-stepping: the sound default.
 //!
 //! As the lecture's constraint method, but every contact is put back into its cone right after its rows (projected
-//! Gauss–Seidel; or another solver of the same law), started from last step's impulses. Contacts are foreseen: a gap may
-//! close to zero in a step and no further (`collide::approach`). Between impulses bodies turn freely, in closed form.
+//! Gauss–Seidel; or another solver of the same law), started from last step's impulses. Contacts are foreseen: a gap
+//! may close to zero in a step and no further (`collide::approach`). Between impulses bodies turn freely, in closed
+//! form.
 //!
-//! A step is a motion, a kick and a motion: `semi-implicit` kicks first and moves for the whole step, `moreau` kicks half-way
-//! (J. J. Moreau, Comput. Methods Appl. Mech. Engrg 177 (1999) 329).
+//! A step is a motion, a kick and a motion: `semi-implicit` kicks first and moves for the whole step, `moreau` kicks
+//! half-way (J. J. Moreau, Comput. Methods Appl. Mech. Engrg 177 (1999) 329).
 
 use super::blow::Blow;
 use super::drift::drift;
@@ -202,9 +203,9 @@ fn go_on_after(
     problem.gather(model, &blow.after, &free, &mut plastic, (approach, step_s));
 }
 
-/// What has stuck before sticks on in the mean of the velocities before and after the kick, c⁺ = −c⁻, where c⁻ is what the
-/// way since the last kick has turned: friction then does no work, and rolling along a curve is of order 2 (R. McLachlan, M.
-/// Perlmutter, J. Nonlinear Sci. 16 (2006) 283). `last`: the impulses of the step before.
+/// What has stuck before sticks on in the mean of the velocities before and after the kick, c⁺ = −c⁻, where c⁻ is what
+/// the way since the last kick has turned: friction then does no work, and rolling along a curve is of order 2 (R.
+/// McLachlan, M. Perlmutter, J. Nonlinear Sci. 16 (2006) 283). `last`: the impulses of the step before.
 fn hold_half_way(problem: &mut ContactProblem, last: &[Impulse]) {
     for (block, p) in problem.blocks.iter_mut().zip(last) {
         if p.yz().norm() < STUCK * block.friction * p.x && block.tangential_restitution == 0.0 {

@@ -1,14 +1,14 @@
 //! `auto`: the method, and its step or tolerance, that follows this scene to the tolerance asked for.
 //!
-//! Two runs say how wrong the rougher of them is. `event-driven` comes first, at the tolerance and at a hundredth of it, and
-//! so on until two runs agree; where a finer one stalls, a rougher one is asked. Where all of them stall, or hand stretches
-//! over to equal steps, their tolerance means less: `time-stepping` of order 2 between impacts with the exact solver is tried
-//! too, its step halved until two runs agree or the budget is used up; the more accurate of the two is taken. The budget is
-//! counted in steps and not in seconds, so that the choice is the same on every machine.
+//! Two runs say how wrong the rougher of them is. `event-driven` comes first, at the tolerance and at a hundredth of
+//! it, and so on until two runs agree; where a finer one stalls, a rougher one is asked. Where all of them stall, or
+//! hand stretches over to equal steps, their tolerance means less: `time-stepping` of order 2 between impacts with the
+//! exact solver is tried too, its step halved until two runs agree or the budget is used up; the more accurate of the
+//! two is taken. The budget is counted in steps and not in seconds, so that the choice is the same on every machine.
 //!
-//! An estimate is some times the largest distance of a body between the two runs, and some units of rounding of the largest
-//! coordinate: of steps twice, whose error halves at least; of tolerances five times, as a rougher run may be as lucky as the
-//! finer one. It sees positions at the end alone.
+//! An estimate is some times the largest distance of a body between the two runs, and some units of rounding of the
+//! largest coordinate: of steps twice, whose error halves at least; of tolerances five times, as a rougher run may be
+//! as lucky as the finer one. It sees positions at the end alone.
 
 use crate::clock::Clock;
 use crate::experiment::tolerances::SMALLEST_GLOBAL;
@@ -96,8 +96,8 @@ impl Scene<'_> {
         if by_steps.estimate_m < by_events.estimate_m { by_steps } else { by_events }
     }
 
-    /// The first tolerance at which two runs agree, else the one that agreed best; and whether both runs were by events to
-    /// their end.
+    /// The first tolerance at which two runs agree, else the one that agreed best; and whether both runs were by events
+    /// to their end.
     pub fn by_events(&self) -> (Candidate, bool) {
         let candidate = |tolerance, estimate_m| Candidate { method: by_events(tolerance), step_s: None, estimate_m };
         let is_whole = |run: &Stepped| run.stopped.is_none() && run.work.fallbacks == 0;

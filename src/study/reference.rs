@@ -1,7 +1,7 @@
 //! Reference runs: `event-driven` at a tight tolerance, twice, kept as a file for all cases of the same motion.
 //!
-//! A reference depends on the physics alone (scene, seed, end, law of impact), its tolerance and the program: cases that
-//! differ by method, step or what is recorded share one.
+//! A reference depends on the physics alone (scene, seed, end, law of impact), its tolerance and the program: cases
+//! that differ by method, step or what is recorded share one.
 
 use crate::build_info::BUILD;
 use crate::case;

@@ -1,12 +1,12 @@
 //! How an error of the start has grown at the end of a run, from twin runs whose start is displaced a little.
 //!
-//! κ = max |p′(T) − p(T)| / ε over bodies and twins. Three twins displace every body by ε along the three axes of a frame
-//! that no scene has, each body along another one, and give it ε/T of velocity along the same line: a body in free flight
-//! has κ = 2. Below one something has forgotten its start; far above one no method can follow the motion, and errors at
-//! its end say nothing about the method.
+//! κ = max |p′(T) − p(T)| / ε over bodies and twins. Three twins displace every body by ε along the three axes of a
+//! frame that no scene has, each body along another one, and give it ε/T of velocity along the same line: a body in
+//! free flight has κ = 2. Below one something has forgotten its start; far above one no method can follow the motion,
+//! and errors at its end say nothing about the method.
 //!
-//! A displacement is along what a body touches, never into it: ε is to be small against the motion, not against a closed
-//! gap. Bodies on pins, or driven ones, stay where they are.
+//! A displacement is along what a body touches, never into it: ε is to be small against the motion, not against a
+//! closed gap. Bodies on pins, or driven ones, stay where they are.
 
 use crate::clock::Clock;
 use crate::collide::{Contact, Detector, Reach};

@@ -50,8 +50,8 @@ impl Cell {
         self.members.len() * (2 + halvings as usize)
     }
 
-    /// Bisects. The row's other columns are those of the run at `search_low`, or at the bracket's lower end where there is
-    /// none; `wall_s` is that of all runs. References are kept in the folder.
+    /// Bisects. The row's other columns are those of the run at `search_low`, or at the bracket's lower end where there
+    /// is none; `wall_s` is that of all runs. References are kept in the folder.
     pub fn bisect(&self, dir: &Path) -> Measured {
         self.try_bisect(dir).unwrap_or_else(|error| Measured::failed(error.to_string()))
     }

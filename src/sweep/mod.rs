@@ -1,7 +1,7 @@
 //! Axes → ordered cases → rows: expanded and checked before the first run, run on all cores, kept as they end.
 //!
-//! `plan` resolves the axes into cases, `store` keeps plan, journal and tables in a folder, `recordings` picks the cases
-//! that are recorded, `runner` does it, `search` bisects.
+//! `plan` resolves the axes into cases, `store` keeps plan, journal and tables in a folder, `recordings` picks the
+//! cases that are recorded, `runner` does it, `search` bisects.
 
 pub mod build;
 pub mod cell;

@@ -1,9 +1,9 @@
 //! The critical value of a key, by bisection (L3), in every cell of the axes.
 //!
 //! A value counts as reached when the condition holds in the stated share of the runs that are tried together (all
-//! seeds, say; the same ones at every value). Between an end where it is reached and one where it is not, the bracket is
-//! halved: in the logarithm where both ends are positive, in whole numbers where the key wants them. What remains has one
-//! end of each kind. Over chaotic runs the share is noisy and need not be monotone: the result is one crossing.
+//! seeds, say; the same ones at every value). Between an end where it is reached and one where it is not, the bracket
+//! is halved: in the logarithm where both ends are positive, in whole numbers where the key wants them. What remains
+//! has one end of each kind. Over chaotic runs the share is noisy and need not be monotone: the result is one crossing.
 
 use super::build::{build, columns};
 use super::cell::Cell;

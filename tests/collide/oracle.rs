@@ -64,7 +64,8 @@ pub fn solids() -> Vec<Solid> {
     ]
 }
 
-/// In own axes: negative inside, 0 on the surface; a distance but near the ellipsoid, where it is at least a third of it.
+/// In own axes: negative inside, 0 on the surface; a distance but near the ellipsoid, where it is at least a third of
+/// it.
 pub fn level(solid: &Solid, p: &Vector3<f64>) -> f64 {
     let radial = (p.x * p.x + p.z * p.z).sqrt();
     match solid {

@@ -1,5 +1,6 @@
 //! Gaps of all pairs, by weak duality: no plane parts two solids by more than their distance. A gap that a plane parts
-//! them by, with a point of either solid at its ends, is the distance; if negative, no plane of thousands may do better.
+//! them by, with a point of either solid at its ends, is the distance; if negative, no plane of thousands may do
+//! better.
 
 use super::oracle::{Draws, beside, level_at, separation, solids};
 use gotai::shape::pair::touches;

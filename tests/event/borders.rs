@@ -1,5 +1,5 @@
-//! Where faces end and edges cross: a box slides over the edge of a table and falls, bars lie across each other, a ball rolls
-//! from an edge onto a face.
+//! Where faces end and edges cross: a box slides over the edge of a table and falls, bars lie across each other, a ball
+//! rolls from an edge onto a face.
 
 use super::apart_m;
 use crate::methods::order;

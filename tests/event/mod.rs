@@ -14,11 +14,11 @@ use gotai::clock::Clock;
 use gotai::experiment::types::Experiment;
 use gotai::measure::error::Errors;
 use gotai::outcome::Outcome;
+use gotai::plan::Plan;
 use gotai::rows::Measured;
 use gotai::shown::Span;
 use gotai::state::State;
 use gotai::step::Stepper;
-use gotai::{model, plan::Plan};
 
 /// The largest of the errors of position, orientation and velocities against the closed form.
 fn worst_error(measured: &Measured) -> f64 {

@@ -1,5 +1,5 @@
-//! P. Painlevé's rod slides on its tip, leaning so that friction presses it down: with enough of it no finite force goes on,
-//! and an impulse stops the tip.
+//! P. Painlevé's rod slides on its tip, leaning so that friction presses it down: with enough of it no finite force
+//! goes on, and an impulse stops the tip.
 
 use crate::yaml::{experiment, run};
 use gotai::outcome::Outcome;

@@ -1,4 +1,5 @@
-//! What is asked for is what comes out: bodies of six shapes thrown on a floor, against themselves at the least tolerance.
+//! What is asked for is what comes out: bodies of six shapes thrown on a floor, against themselves at the least
+//! tolerance.
 
 use super::apart_m;
 use crate::yaml::experiment;

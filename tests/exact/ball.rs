@@ -158,7 +158,8 @@ fn bounces_are_what_their_events_one_after_another_say() {
     }
 }
 
-/// Garwin's ball gives back all of its slip up to |s| = 7/4 μ(1 + e)w; without tangential restitution the slip ends up to 7/2.
+/// Garwin's ball gives back all of its slip up to |s| = 7/4 μ(1 + e)w; without tangential restitution the slip ends up
+/// to 7/2.
 #[test]
 fn the_slip_comes_back_up_to_seven_quarters_of_the_friction_impulse() {
     let (mu, e, w) = (0.2, 0.9, 3.0);
@@ -182,8 +183,8 @@ fn the_slip_comes_back_up_to_seven_quarters_of_the_friction_impulse() {
     }
 }
 
-/// Thrown with v and no spin it turns between two motions: after the first bounce (3v/7, −10v/7r), after the second as it
-/// was. Its energy is kept.
+/// Thrown with v and no spin it turns between two motions: after the first bounce (3v/7, −10v/7r), after the second as
+/// it was. Its energy is kept.
 #[test]
 fn a_superball_returns_to_its_throw_every_second_bounce() {
     let motion = ball(&[

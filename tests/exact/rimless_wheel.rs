@@ -1,5 +1,5 @@
-//! The closed form of the rimless wheel against small steps of its equation of motion, McGeer's ratio and limit cycle, and the
-//! rocking block.
+//! The closed form of the rimless wheel against small steps of its equation of motion, McGeer's ratio and limit cycle,
+//! and the rocking block.
 
 use super::contact::{reference, scene};
 use gotai::exact::rimless_wheel::RimlessWheel;

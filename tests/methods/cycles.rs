@@ -95,7 +95,8 @@ fn tangent_rows_of_their_own_settle_elsewhere() {
         let friction = format!("scene.friction={friction}");
         let after = |sweeps: u32, local: &str| residual(0, sweeps, &[&friction, local]);
         let (rows, later) = (after(5_000, "local=rows"), after(5_001, "local=rows"));
-        // measured: 1.5e-2 (μ = 0.1), 1.4e-2 (μ = 0.3), the same to 4e-15 a sweep later; 2.4e-16 and 2.8e-16 with `common`
+        // measured: 1.5e-2 (μ = 0.1), 1.4e-2 (μ = 0.3), the same to 4e-15 a sweep later; 2.4e-16 and 2.8e-16 with
+        // `common`
         assert!(rows > 1e-3 && (later / rows - 1.0).abs() < 1e-9, "{rows} {later}");
         assert!(after(5_000, "local=common") < 1e-14);
     }
@@ -127,8 +128,8 @@ fn no_cure_gains_energy_wherever_it_is_stopped() {
     assert!(most <= 1.0 + 1e-12, "{most}");
 }
 
-/// Impulses that had not settled gained 1.15 (exact), 12.7 and 77453 (over-relaxation) here, before what adds energy was
-/// taken back.
+/// Impulses that had not settled gained 1.15 (exact), 12.7 and 77453 (over-relaxation) here, before what adds energy
+/// was taken back.
 #[test]
 fn impulses_that_have_not_settled_add_no_energy() {
     let all = [

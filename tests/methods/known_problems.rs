@@ -80,7 +80,8 @@ time: {{ step_s: 1e-9, end_s: 1e-9 }}
     assert!(ended.measured.residual_max.unwrap() < 1e-10);
 }
 
-/// A thick disk that spins on its rim with its centre at rest: Ω² sin α (A cos α − C (c/a) sin α) = mg (a cos α − c sin α).
+/// A thick disk that spins on its rim with its centre at rest: Ω² sin α (A cos α − C (c/a) sin α) = mg (a cos α − c sin
+/// α).
 #[test]
 fn a_spinning_disk_keeps_its_centre_at_rest() {
     let (a, c, alpha, gravity) = (0.5, 0.05, 30.0_f64.to_radians(), 9.81);

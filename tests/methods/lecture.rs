@@ -93,8 +93,8 @@ fn every_variant_runs_and_a_cube_at_small_steps_comes_to_rest() {
     assert_eq!(jacobi.outcome, Outcome::Diverged);
 }
 
-/// `lecture` with `correction: per-contact` and the solver of `pgs` are one iteration: the first impact, where nothing is
-/// warm yet, gives the same velocities.
+/// `lecture` with `correction: per-contact` and the solver of `pgs` are one iteration: the first impact, where nothing
+/// is warm yet, gives the same velocities.
 #[test]
 fn the_lecture_corrected_per_contact_is_projected_gauss_seidel() {
     let flat = ["scene.random=null", "scene.bodies.cube.position_m=[0, 0.5, 0]", "time.end_s=0.01"];

@@ -188,8 +188,8 @@ fn dop853_keeps_its_inner_step_from_one_step_of_the_clock_to_the_next() {
 
 #[test]
 fn the_work_of_a_step_is_known() {
-    // A hundred steps. Newton's method takes three turns, and the trapezoidal rule the old velocity too; a series serves
-    // many steps.
+    // A hundred steps. Newton's method takes three turns, and the trapezoidal rule the old velocity too; a series
+    // serves many steps.
     assert_eq!(Integrator::ALL.map(|i| at_the_end(i, &[]).1), [100, 100, 400, 300, 400, 300, 1200, 102, 0]);
 }
 

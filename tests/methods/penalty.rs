@@ -27,7 +27,8 @@ method: { penalty: { stiffness_n_m: 1e4 } }
 time: { step_s: 1e-3, end_s: 1 }
 ";
 
-/// A cube of `nodes` nodes an edge in its equilibrium, mg/k n_c deep, so that all n_c nodes of the face stay in contact.
+/// A cube of `nodes` nodes an edge in its equilibrium, mg/k n_c deep, so that all n_c nodes of the face stay in
+/// contact.
 fn at_rest(nodes: u32, sets: &[&str]) -> (Stepper, Model, State) {
     let mesh = format!("scene.bodies.cube.mesh.nodes_per_edge={nodes}");
     let experiment = experiment(LYING, &[&[mesh.as_str()], sets].concat());

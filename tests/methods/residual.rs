@@ -84,8 +84,8 @@ time: {{ step_s: {}, end_s: {} }}
     }
 }
 
-/// Sticking, slipping, bouncing, at rest, separating, and with a slip that is given back, in part, where friction holds and
-/// where it does not, and not without a bounce.
+/// Sticking, slipping, bouncing, at rest, separating, and with a slip that is given back, in part, where friction holds
+/// and where it does not, and not without a bounce.
 fn impacts() -> [Impact; 10] {
     let back = Impact { tangential_restitution: 0.6, ..IMPACT };
     [

@@ -1,5 +1,5 @@
-//! Symmetries of mechanics: whatever is rotated, mirrored, moved far away, boosted, listed in another order or written in
-//! other units moves the same; what loses no energy runs backward.
+//! Symmetries of mechanics: whatever is rotated, mirrored, moved far away, boosted, listed in another order or written
+//! in other units moves the same; what loses no energy runs backward.
 
 use crate::yaml::{experiment, run};
 use gotai::state::BodyState;

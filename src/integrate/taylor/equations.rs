@@ -1,8 +1,8 @@
 //! The equations of motion of an island as operations on series. The body's axes are here the principal ones, in which
 //! Euler's equation takes three products.
 //!
-//! Pins: their forces λ are such that the accelerations of their two points agree. The order k of that is linear in λₖ with
-//! the matrix A = J M⁻¹ Jᵀ at the start: what is missing at λₖ = 0 says what λₖ is.
+//! Pins: their forces λ are such that the accelerations of their two points agree. The order k of that is linear in λₖ
+//! with the matrix A = J M⁻¹ Jᵀ at the start: what is missing at λₖ = 0 says what λₖ is.
 
 use super::invariants::Invariants;
 use super::tape::{Id, Tape};
@@ -126,8 +126,8 @@ impl Equations {
         }
     }
 
-    /// Starts where the present expansion is after `h`. Its own numbers, not the island's: in world axes a small part of
-    /// ω would be rounded like the whole.
+    /// Starts where the present expansion is after `h`. Its own numbers, not the island's: in world axes a small part
+    /// of ω would be rounded like the whole.
     pub fn go_on(&mut self, order: usize, h: f64) {
         for moving in &self.bodies {
             moving.go_on(&mut self.tape, order, h);

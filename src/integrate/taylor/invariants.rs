@@ -1,9 +1,9 @@
-//! Energy and angular momentum of a body without torque, restored after every expansion (E. Hairer, C. Lubich, G. Wanner,
-//! Geometric Numerical Integration, IV.4). What is left of the error is along the motion.
+//! Energy and angular momentum of a body without torque, restored after every expansion (E. Hairer, C. Lubich, G.
+//! Wanner, Geometric Numerical Integration, IV.4). What is left of the error is along the motion.
 //!
-//! Near an axis m the two integrals say almost the same. Told apart they are L² − 2 E Iₘ = Σ Iᵢ (Iᵢ − Iₘ) ωᵢ², without ωₘ, and
-//! then E for ωₘ. The sum is the distance from the separatrix, on which the time of a flip depends by its logarithm: it is
-//! kept in double-double, where the ω of a turning body has not the digits for it.
+//! Near an axis m the two integrals say almost the same. Told apart they are L² − 2 E Iₘ = Σ Iᵢ (Iᵢ − Iₘ) ωᵢ², without
+//! ωₘ, and then E for ωₘ. The sum is the distance from the separatrix, on which the time of a flip depends by its
+//! logarithm: it is kept in double-double, where the ω of a turning body has not the digits for it.
 
 use crate::math::dd::Dd;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};

@@ -1,10 +1,10 @@
 //! Taylor coefficients of a motion, order by order (A. Jorba, M. Zou, Exp. Math. 14 (2005) 99; as a list of operations:
 //! F. Biscani, D. Izzo, MNRAS 504 (2021) 2614).
 //!
-//! A series is a vector or a quaternion (x, y, z, w) as a function of time by its coefficients, which lie one after the other
-//! with four numbers each: sums over them are four products at a time. The tape lists operations on series, an operand
-//! before its use; coefficient k of a product is Σ aⱼ bₖ₋ⱼ, and the integral of a rate has coefficient k + 1 from
-//! coefficient k.
+//! A series is a vector or a quaternion (x, y, z, w) as a function of time by its coefficients, which lie one after the
+//! other with four numbers each: sums over them are four products at a time. The tape lists operations on series, an
+//! operand before its use; coefficient k of a product is Σ aⱼ bₖ₋ⱼ, and the integral of a rate has coefficient k + 1
+//! from coefficient k.
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 

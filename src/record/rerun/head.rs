@@ -1,6 +1,9 @@
 //! What an .rrd says once, before the first sample: layout, names, surfaces, colours, configuration.
 
-use super::{CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, WORLD, energy_path, layout};
+use super::layout;
+use super::names::{
+    APPLICATION, CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, WORLD, energy_path,
+};
 use crate::record::sample::{BodyHeader, Header};
 use crate::record::schema::{self, Rgb};
 use ::rerun::components::Radius;
@@ -10,9 +13,6 @@ use ::rerun::{
     RecordingStreamResult, SeriesLines, StoreId, TextDocument, ViewCoordinates,
 };
 use std::error::Error;
-
-/// Application id: recordings of one application share a layout and are listed together.
-pub const APPLICATION: &str = "gotai";
 
 /// Sizes on the screen, in points, so that they are legible at any zoom.
 const POINT_RADIUS: f32 = 4.0;

@@ -1,6 +1,6 @@
 //! The layout that the viewer opens with: the scene beside its plots, events and configuration below.
 
-use super::{CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, LOG, PENETRATION, SIM_TIME, WORLD};
+use super::names::{APPLICATION, CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, LOG, PENETRATION, SIM_TIME, WORLD};
 use crate::record::sample::{Header, Streams};
 use ::rerun::blueprint::{
     Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, Tabs,
@@ -34,7 +34,7 @@ pub fn messages(header: &Header) -> Result<Vec<LogMsg>, Box<dyn Error>> {
     }
 
     // The public interface only sends a layout through a recording's stream; the recording is thrown away.
-    let (stream, memory) = RecordingStreamBuilder::new(super::head::APPLICATION).enabled(true).memory()?;
+    let (stream, memory) = RecordingStreamBuilder::new(APPLICATION).enabled(true).memory()?;
     blueprint(scene, plots).send(&stream, BlueprintActivation::default())?;
     let mut messages = memory.take();
     let recording = memory.store_id();

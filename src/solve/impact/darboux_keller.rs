@@ -1,13 +1,14 @@
-//! The impact of one contact with Coulomb friction, its sliding followed along the normal impulse (G. Darboux, Bull. Sci.
-//! Math. 4 (1880) 126; J. B. Keller, J. Appl. Mech. 53 (1986) 1), ended by W. J. Stronge's energetic restitution (Proc. R.
-//! Soc. A 431 (1990) 169): the normal impulse gives back e² of the work that it took.
+//! The impact of one contact with Coulomb friction, its sliding followed along the normal impulse (G. Darboux, Bull.
+//! Sci. Math. 4 (1880) 126; J. B. Keller, J. Appl. Mech. 53 (1986) 1), ended by W. J. Stronge's energetic restitution
+//! (Proc. R. Soc. A 431 (1990) 169): the normal impulse gives back e² of the work that it took.
 //!
-//! Bodies do not move, velocities do: du/dp_n = A (1, f), with the contact's 3×3 block A and friction f = −μ t opposite to
-//! the slip. At slip 0 it sticks by f = −A_tt⁻¹ A_tn if |f| ≤ μ; else it starts to slip in the one direction that the disc
+//! Bodies do not move, velocities do: du/dp_n = A (1, f), with the contact's 3×3 block A and friction f = −μ t opposite
+//! to the slip. At slip 0 it sticks by f = −A_tt⁻¹ A_tn if |f| ≤ μ; else it starts to slip in the one direction that
+//! the disc
 //! |f| ≤ μ leaves (dissipation is least at the f of `disc::least`). That and any slip of constant direction, so every
-//! planar impact, is piecewise linear and solved exactly; a slip that turns has a hodograph, followed by its Taylor series
-//! (`hodograph`). Work of friction is never positive and that of the normal impulse is −(1 − e²) W_compression, so no
-//! impact gains energy. For central and for frictionless impacts it is Newton's and Poisson's law.
+//! planar impact, is piecewise linear and solved exactly; a slip that turns has a hodograph, followed by its Taylor
+//! series (`hodograph`). Work of friction is never positive and that of the normal impulse is −(1 − e²) W_compression,
+//! so no impact gains energy. For central and for frictionless impacts it is Newton's and Poisson's law.
 
 use super::super::Impulse;
 use super::disc;

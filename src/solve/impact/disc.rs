@@ -7,8 +7,8 @@ const MOST: usize = 100;
 
 /// The x of least ½ xᵀ S x − dᵀ x within |x| ≤ `radius`; S positive.
 ///
-/// On the rim (S + α) x = d with α > 0. 1/|x(α)| is concave and nearly linear, so that Newton's method for it comes from
-/// α = 0 without a step too far (J. Moré, D. Sorensen, SIAM J. Sci. Stat. Comput. 4 (1983) 553).
+/// On the rim (S + α) x = d with α > 0. 1/|x(α)| is concave and nearly linear, so that Newton's method for it comes
+/// from α = 0 without a step too far (J. Moré, D. Sorensen, SIAM J. Sci. Stat. Comput. 4 (1983) 553).
 pub fn least(S: &Matrix2<f64>, d: &Vector2<f64>, radius: f64) -> Vector2<f64> {
     if radius <= 0.0 {
         return Vector2::zeros();

@@ -1,8 +1,8 @@
 //! Laws of impact: from the velocities just before an impact to its impulses, on the plain data of a `ContactProblem`.
 //!
-//! `ContactProblem::b` holds the contacts' velocities just before the impact: no forces, no restitution in it. Newton's law
-//! is the one that is not here: it is e v⁻ in b, and with friction it can gain kinetic energy. These laws never do, for any
-//! J, M, μ and 0 ≤ e ≤ 1:
+//! `ContactProblem::b` holds the contacts' velocities just before the impact: no forces, no restitution in it. Newton's
+//! law is the one that is not here: it is e v⁻ in b, and with friction it can gain kinetic energy. These laws never do,
+//! for any J, M, μ and 0 ≤ e ≤ 1:
 //!
 //! - `darboux_keller`: one contact; its sliding is followed along the normal impulse
 //! - `sequential`: that law, one contact at a time

@@ -3,8 +3,8 @@
 use super::super::Impulse;
 use super::super::problem::ContactProblem;
 
-/// Improves impulses (all 0 at first) until the problem's contacts obey the law of plastic contacts: c = 0 or separating,
-/// Coulomb friction. Whether it has settled.
+/// Improves impulses (all 0 at first) until the problem's contacts obey the law of plastic contacts: c = 0 or
+/// separating, Coulomb friction. Whether it has settled.
 pub type Plastic<'a> = dyn FnMut(&ContactProblem, &mut [Impulse]) -> bool + 'a;
 
 /// An approach below this part of the fastest velocity of the problem is rounding.

@@ -1,18 +1,19 @@
 //! Poisson's law for all contacts at once, in two phases (Ch. Glocker, F. Pfeiffer, Nonlinear Dynamics 7 (1995) 471).
 //!
-//! Compression: the plastic impulses p_C with friction. Expansion: normal impulses e p_C,n, more only where contacts would
-//! penetrate (p_n − e p_C,n ≥ 0 ⟂ u_n ≥ 0), and Coulomb friction within μ p_n of the expansion's own normal impulse.
-//! There is no tangential restitution: a contact that sticks after compression stays stuck where friction allows.
+//! Compression: the plastic impulses p_C with friction. Expansion: normal impulses e p_C,n, more only where contacts
+//! would penetrate (p_n − e p_C,n ≥ 0 ⟂ u_n ≥ 0), and Coulomb friction within μ p_n of the expansion's own normal
+//! impulse. There is no tangential restitution: a contact that sticks after compression stays stuck where friction
+//! allows.
 //!
-//! Energetic bound: the expansion of an island that would gain energy over both phases is scaled by the largest factor ≤ 1
-//! that does not; cones, contacts that stick and contacts that separate allow any factor. Where the solver settles the
-//! bound is hardly ever met: p = e p_C would gain nothing, as p_C · u_C ≤ 0, and of the tangent impulses that a cone allows
-//! friction chooses those that leave the least energy. It is met where compression has not settled.
+//! Energetic bound: the expansion of an island that would gain energy over both phases is scaled by the largest factor
+//! ≤ 1 that does not; cones, contacts that stick and contacts that separate allow any factor. Where the solver settles
+//! the bound is hardly ever met: p = e p_C would gain nothing, as p_C · u_C ≤ 0, and of the tangent impulses that a
+//! cone allows friction chooses those that leave the least energy. It is met where compression has not settled.
 //!
-//! The expansion is solved by projected Jacobi: all contacts at once, each as if its bodies' masses were shared among their
-//! contacts (R. Tonge, F. Benevolenti, A. Voroshilov, ACM Trans. Graph. 31 (2012) 105). With normal impulses given that
-//! only descends; it keeps symmetric scenes symmetric, which one contact after the other does not. Approaches that are left
-//! where it has not settled are taken by another plastic solve.
+//! The expansion is solved by projected Jacobi: all contacts at once, each as if its bodies' masses were shared among
+//! their contacts (R. Tonge, F. Benevolenti, A. Voroshilov, ACM Trans. Graph. 31 (2012) 105). With normal impulses
+//! given that only descends; it keeps symmetric scenes symmetric, which one contact after the other does not.
+//! Approaches that are left where it has not settled are taken by another plastic solve.
 
 use super::super::island::islands;
 use super::super::problem::{Block, ContactProblem, Twist};

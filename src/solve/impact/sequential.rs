@@ -1,12 +1,12 @@
-//! Simultaneous impacts one at a time: always the contact that approaches fastest has an impact by Darboux–Keller, as if it
-//! were alone, until none approaches.
+//! Simultaneous impacts one at a time: always the contact that approaches fastest has an impact by Darboux–Keller, as
+//! if it were alone, until none approaches.
 //!
-//! Order: the fastest approach; of contacts that are as fast to rounding, the first in the order of contacts. What several
-//! contacts of a symmetric scene get then depends on that order, and need not be symmetric. End: no approach above 1e-12 of
-//! the problem's fastest contact velocity. Elastic impacts end after few; at a smaller e some scenes (a ball between heavier
-//! ones that close on it, contacts of one face) need infinitely many, weaker and weaker. After 100 impacts per contact the
-//! law has not come to its own end, and a plastic solve settles what is left. No impact gains energy, so the sequence does
-//! not.
+//! Order: the fastest approach; of contacts that are as fast to rounding, the first in the order of contacts. What
+//! several contacts of a symmetric scene get then depends on that order, and need not be symmetric. End: no approach
+//! above 1e-12 of the problem's fastest contact velocity. Elastic impacts end after few; at a smaller e some scenes (a
+//! ball between heavier ones that close on it, contacts of one face) need infinitely many, weaker and weaker. After 100
+//! impacts per contact the law has not come to its own end, and a plastic solve settles what is left. No impact gains
+//! energy, so the sequence does not.
 
 use super::super::Impulse;
 use super::super::problem::{ContactProblem, Coupling, Memory};

@@ -106,8 +106,11 @@ impl What {
 fn page(whats: &[What]) -> String {
     let named: Vec<String> = whats.iter().map(|what| what.word()).collect();
     let titles: Vec<String> = whats.iter().map(|what| what.title().to_lowercase()).collect();
-    let mut text =
-        format!("# {}\n\nMade by `gotai list {} --markdown`.\n", capital(&titles.join(", ")), named.join(" "));
+    let mut text = format!(
+        "# {}\n\nMade by `gotai list {} --markdown`, not by hand.\n",
+        capital(&titles.join(", ")),
+        named.join(" ")
+    );
     for what in whats {
         let (list, part) = if whats.len() > 1 { ("##", "###") } else { ("#", "##") };
         if whats.len() > 1 {
@@ -170,7 +173,7 @@ fn sourced(About { what, source }: &About) -> String {
 fn methods() -> Vec<Section> {
     let lead = format!(
         "`method:` is one of these words, or one key with settings: `method: {{ lecture: {{ sweeps: 50 }} }}`. The \
-         default is `{}`.",
+         default is `{}`. What the settings mean: `docs/experiment-file.md`.",
         Method::default().word()
     );
     let mut sections = vec![Section { title: String::new(), lead, head: &[], rows: Vec::new() }];
@@ -279,7 +282,8 @@ fn all_columns() -> Vec<Section> {
         section(
             "Every row".to_string(),
             "In this order; after `case` comes every axis by its path, before `build` what only some experiments \
-             have. A number that means nothing in a run is null: an empty cell.",
+             have. A number that means nothing in a run is null: an empty cell. What the relative ones mean, with \
+             examples: `docs/numbers.md`.",
             &columns::of_every_row(),
         ),
         section("Rows of a search".to_string(), "The other columns are of the run at `search_low`.", &columns::SEARCH),
@@ -303,7 +307,8 @@ fn measures() -> Section {
     let row = |Word { name, value, .. }: Word<Measure>| {
         let About { what, source } = value.about();
         let names: Vec<&str> = more::headings(value).iter().map(|heading| heading.name).collect();
-        vec![code(name), what, codes(&names), source.to_string()]
+        let columns = if names.is_empty() { "one of every row".to_string() } else { codes(&names) };
+        vec![code(name), what, columns, source.to_string()]
     };
     Section {
         title: String::new(),

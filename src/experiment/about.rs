@@ -238,7 +238,7 @@ impl Measure {
                 about("Difference quotients of the positions of a run against its velocities.", "lecture L1")
             }
             Measure::Sensitivity => about(
-                "Twin runs whose start is displaced a little. The column is one of every row, and is always filled \
+                "Twin runs whose start is displaced a little. The column is always filled \
                  for methods that follow events.",
                 "",
             ),

@@ -11,13 +11,13 @@ pub fn of_every_row() -> Vec<Heading> {
 
 /// The columns that a search adds. Those of every row are of its run at `search_low`.
 pub const SEARCH: [Heading; 4] = [
-    number(
-        "search_low",
-        "Lower end of the bracket, in the unit of the key. Null where the condition holds already there.",
-    ),
-    number("search_high", "Upper end of the bracket. Null where the condition holds up to there."),
+    number("search_low", "Lower end of the bracket, in the unit of the key. Null where the verdict is `below`."),
+    number("search_high", "Upper end of the bracket, in the unit of the key. Null where the verdict is `above`."),
     count("search_runs", "Number of runs that the search took."),
-    text("search_verdict", "`found`, or `below` or `above`: the critical value is outside of `between`."),
+    text(
+        "search_verdict",
+        "`found`, or, where both ends of `between` are of one kind, the side on which the critical value is: `below` or `above`.",
+    ),
 ];
 
 /// `measure: [state]`.

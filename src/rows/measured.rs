@@ -67,7 +67,7 @@ columns! {
         pub error_angular_velocity_rad_s: Option<f64>,
         /// Time that the errors are of.
         pub error_time_s: Option<f64>,
-        /// Bound of the error of positions at the end, by what `auto` has seen of two runs. Null for other methods.
+        /// Estimate of the error of positions at the end, by what `auto` has seen of two runs. Null for other methods.
         pub error_estimate_m: Option<f64>,
         /// Distance between the two runs of the reference at `error_time_s`.
         pub reference_uncertainty_m: Option<f64>,
@@ -82,7 +82,7 @@ columns! {
         /// Counters of work.
         #[serde(flatten)]
         pub work: Work,
-        /// Time that the steps took on this machine, without the judges.
+        /// Time that the steps took on this machine, without the judges; of a search, those of all its runs.
         pub wall_s: Option<f64>,
         /// Time that `auto` took to choose, on this machine.
         pub wall_search_s: Option<f64>,

@@ -93,6 +93,7 @@ fn the_page_of_experiments_has_every_question() {
 
 #[test]
 fn every_link_leads_to_a_file_or_a_heading_that_is_there() {
+    let mut lost = Vec::new();
     for page in pages() {
         let text = std::fs::read_to_string(&page).unwrap();
         for link in text.split("](").skip(1).map(|rest| rest.split(')').next().unwrap()) {
@@ -101,14 +102,17 @@ fn every_link_leads_to_a_file_or_a_heading_that_is_there() {
             }
             let (path, heading) = link.split_once('#').unwrap_or((link, ""));
             let target = if path.is_empty() { page.clone() } else { page.parent().unwrap().join(path) };
-            assert!(target.exists(), "{}: {link} leads nowhere", name(&page));
-            if !heading.is_empty() {
+            if !target.exists() {
+                lost.push(format!("{}: {link}", name(&page)));
+            } else if !heading.is_empty() {
                 let there = std::fs::read_to_string(&target).unwrap();
-                let is_there = there.lines().filter(|line| line.starts_with('#')).any(|line| anchor(line) == heading);
-                assert!(is_there, "{}: {link}: no such heading", name(&page));
+                if !there.lines().filter(|line| line.starts_with('#')).any(|line| anchor(line) == heading) {
+                    lost.push(format!("{}: {link}: no such heading", name(&page)));
+                }
             }
         }
     }
+    assert!(lost.is_empty(), "links that lead nowhere: {lost:#?}");
 }
 
 /// As GitHub makes them from a heading.
@@ -124,14 +128,17 @@ fn every_row_of_the_lecture_leads_to_files_that_are_there() {
         assert!(text.contains(&format!("| L{row} |")), "docs/lecture.md lacks L{row}");
     }
     // Between backticks: a file or folder of the repository, of src/ or of configs/, or an experiment without `.yaml`.
-    for path in text.split('`').skip(1).step_by(2).filter(|path| !path.contains(' ') && !path.starts_with('.')) {
-        let is_path = path.contains('/') || [".rs", ".py", ".yaml"].iter().any(|ending| path.ends_with(ending));
-        let there = ["", "src/", "configs/", "configs/lecture/"].iter().any(|folder| {
-            let path = format!("{folder}{path}");
-            root().join(&path).exists() || root().join(format!("{path}.yaml")).exists()
-        });
-        assert!(!is_path || there, "docs/lecture.md: `{path}` is not there");
-    }
+    let is_there = |path: &&str| {
+        ["", "src/", "configs/", "configs/lecture/"].iter().any(|folder| {
+            let path = root().join(format!("{folder}{path}"));
+            path.exists() || path.with_extension("yaml").exists()
+        })
+    };
+    let is_path =
+        |path: &&str| path.contains('/') || [".rs", ".py", ".yaml"].iter().any(|ending| path.ends_with(ending));
+    let named = text.split('`').skip(1).step_by(2).filter(|path| !path.contains(' ') && !path.starts_with('.'));
+    let lost: Vec<&str> = named.filter(is_path).filter(|path| !is_there(path)).collect();
+    assert!(lost.is_empty(), "docs/lecture.md names what is not there: {lost:?}");
 }
 
 /// Brackets and braces are patterns to a shell: zsh refuses what they match nothing with.

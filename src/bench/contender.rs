@@ -1,6 +1,7 @@
 //! One method at one step or tolerance: what is planned, and the row that it makes.
 
 use crate::check::{Schema, refuse_no_numbers};
+use crate::experiment::Value;
 use crate::experiment::bench::{Bench, Listed, bench_path};
 use crate::experiment::file::Change;
 use crate::experiment::key_path::{self, KeyPath, Segment};
@@ -19,7 +20,6 @@ use crate::state::State;
 use crate::study;
 use crate::study::{choose, reference};
 use crate::sweep::build::build;
-use serde_yaml::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 

@@ -35,3 +35,6 @@ pub mod vocabulary;
 
 pub use error::ExperimentError;
 pub use file::ExperimentFile;
+pub use source::to_yaml;
+// What callers name of the YAML library: nobody else needs to know which one it is.
+pub use serde_yaml::{Number, Value};

@@ -5,7 +5,8 @@ use super::sampler::{steps_between, streams};
 use crate::build_info::{BUILD, PROGRAM};
 use crate::case::Case;
 use crate::clock::Clock;
-use crate::experiment::types::{Container, ContainerBox, Experiment, Plane};
+use crate::experiment::to_yaml;
+use crate::experiment::types::{Container, ContainerBox, Plane};
 use crate::model::{Body, Model};
 use nalgebra::Vector3;
 
@@ -24,15 +25,6 @@ pub fn header(case: &Case, model: &Model, clock: &Clock) -> Header {
         container_strips_m: container_strips(case.experiment.scene.container.as_ref(), model),
         arrow_m_per_n: arrow_m_per_n(model),
     }
-}
-
-/// As the user would write it.
-pub fn to_yaml(experiment: &Experiment) -> String {
-    let mut text = Vec::new();
-    let mut serializer = serde_yaml::Serializer::new(&mut text);
-    // Writing plain data into memory cannot fail.
-    let _ = serde_yaml::with::singleton_map_recursive::serialize(experiment, &mut serializer);
-    String::from_utf8_lossy(&text).into_owned()
 }
 
 fn title(case: &Case) -> String {

@@ -12,7 +12,7 @@ mod names;
 
 use self::names::{BODIES, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, LOG, SIM_TIME, STEP, energy_path};
 use super::sample::{Batch, Event, ForceArrows, Header, Severity, Streams, norm};
-use super::schema::{self, Series};
+use super::schema::{self};
 use super::{RecordError, Recorder};
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};

@@ -1,6 +1,7 @@
 //! The critical value of a key in one cell of the axes, by bisection.
 
 use super::build::build;
+use crate::experiment::Number;
 use crate::experiment::axes::{decimal, float};
 use crate::experiment::predicate::Predicate;
 use crate::experiment::search::Search;
@@ -12,7 +13,6 @@ use crate::rows::columns::{self, SEARCH};
 use crate::study::{self, reference};
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use serde_yaml::Number;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -9,11 +9,11 @@ use super::build::{build, columns};
 use super::cell::Cell;
 use super::planned::Planned;
 use crate::case::Case;
+use crate::experiment::Number;
 use crate::experiment::search::Search;
 use crate::experiment::{ExperimentError, ExperimentFile};
 use rayon::prelude::*;
 use serde_json::Map;
-use serde_yaml::Number;
 use std::sync::Arc;
 
 /// All cells in plan order, both ends of every bracket resolved and built.

@@ -1,0 +1,279 @@
+//! The floors: who may import whom, no circles, faces that define nothing, one type a name, and where the edges are.
+
+use super::sources::{Source, arrows, circle, sources};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Room → rooms that it may import, from the ground up. A room stands above all that it imports, so that this list
+/// is in an order: a new arrow is a line here, seen in review.
+const ROOMS: &[(&str, &[&str])] = &[
+    ("math", &[]),
+    ("state", &[]),
+    ("outcome", &[]),
+    ("work", &[]),
+    ("files", &[]),
+    ("build_info", &[]),
+    ("panics", &[]),
+    ("clock", &["state"]),
+    ("shape", &["math"]),
+    ("rows", &["math", "outcome", "work"]),
+    ("experiment", &["shape", "clock", "outcome"]),
+    ("report", &["rows"]),
+    ("model", &["experiment", "shape", "state"]),
+    ("case", &["experiment"]),
+    ("check", &["experiment", "rows", "outcome", "math"]),
+    ("collide", &["model", "shape", "state", "work"]),
+    ("integrate", &["model", "experiment", "math", "state", "work"]),
+    ("plan", &["experiment", "model", "collide"]),
+    ("shown", &["collide", "state"]),
+    ("scene", &["experiment", "model", "shape", "collide", "state", "work"]),
+    ("exact", &["experiment", "model", "shape", "collide", "math", "state"]),
+    ("solve", &["experiment", "model", "collide", "math", "state", "work"]),
+    ("event", &["exact", "solve", "integrate", "collide", "model", "shape", "experiment", "math", "state", "work"]),
+    // The judges know no method: neither what steps, nor what solves, nor a closed form.
+    (
+        "measure",
+        &["math", "shape", "work", "plan", "shown", "collide", "model", "experiment", "rows", "outcome", "state"],
+    ),
+    (
+        "record",
+        &[
+            "measure",
+            "case",
+            "rows",
+            "outcome",
+            "collide",
+            "model",
+            "experiment",
+            "state",
+            "clock",
+            "build_info",
+            "panics",
+        ],
+    ),
+    (
+        "step",
+        &[
+            "event",
+            "exact",
+            "solve",
+            "integrate",
+            "collide",
+            "model",
+            "experiment",
+            "math",
+            "state",
+            "work",
+            "plan",
+            "shown",
+            "clock",
+            "outcome",
+        ],
+    ),
+    (
+        "run",
+        &[
+            "step",
+            "record",
+            "measure",
+            "exact",
+            "collide",
+            "plan",
+            "shown",
+            "model",
+            "experiment",
+            "rows",
+            "outcome",
+            "work",
+            "state",
+            "clock",
+        ],
+    ),
+    (
+        "study",
+        &[
+            "run",
+            "step",
+            "record",
+            "measure",
+            "collide",
+            "plan",
+            "model",
+            "experiment",
+            "case",
+            "rows",
+            "outcome",
+            "work",
+            "state",
+            "clock",
+            "files",
+            "build_info",
+        ],
+    ),
+    (
+        "sweep",
+        &[
+            "study",
+            "run",
+            "record",
+            "exact",
+            "scene",
+            "model",
+            "case",
+            "experiment",
+            "rows",
+            "outcome",
+            "state",
+            "files",
+            "build_info",
+            "panics",
+        ],
+    ),
+    (
+        "bench",
+        &[
+            "sweep",
+            "study",
+            "step",
+            "measure",
+            "plan",
+            "check",
+            "model",
+            "experiment",
+            "rows",
+            "outcome",
+            "state",
+            "clock",
+            "files",
+            "panics",
+        ],
+    ),
+    (
+        "cli",
+        &[
+            "bench",
+            "sweep",
+            "study",
+            "run",
+            "step",
+            "record",
+            "measure",
+            "scene",
+            "plan",
+            "collide",
+            "integrate",
+            "check",
+            "case",
+            "model",
+            "report",
+            "experiment",
+            "rows",
+            "outcome",
+            "state",
+            "files",
+            "build_info",
+        ],
+    ),
+];
+
+#[test]
+fn rooms_import_downward() {
+    for (i, (room, allowed)) in ROOMS.iter().enumerate() {
+        for below in *allowed {
+            let floor = ROOMS.iter().position(|(name, _)| name == below);
+            assert!(floor.is_some_and(|floor| floor < i), "the table has {below} above {room}");
+        }
+    }
+    let sources = sources();
+    let rooms: BTreeSet<&str> = sources.iter().map(Source::room).filter(|room| *room != "lib").collect();
+    assert_eq!(rooms, ROOMS.iter().map(|(room, _)| *room).collect(), "every room of src/ has its line in the table");
+    let mut used = BTreeMap::new();
+    let mut wrong = Vec::new();
+    for (from, to) in arrows(&sources) {
+        let (from, to) = (&sources[from], &sources[to]);
+        let allowed = ROOMS.iter().find(|(room, _)| *room == from.room()).map_or(&[][..], |(_, allowed)| allowed);
+        if from.room() != to.room() {
+            used.entry(from.room()).or_insert_with(BTreeSet::new).insert(to.room());
+            if !allowed.contains(&to.room()) {
+                wrong.push(format!("{} imports {}", from.name, to.name));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "imports that no floor allows:\n{}", wrong.join("\n"));
+    for (room, allowed) in ROOMS {
+        let unused: Vec<_> =
+            allowed.iter().filter(|to| !used.get(room).is_some_and(|used| used.contains(**to))).collect();
+        assert!(unused.is_empty(), "{room} no longer imports {unused:?}: strike it from the table");
+    }
+}
+
+#[test]
+fn no_files_go_in_a_circle() {
+    let sources = sources();
+    let found = circle(&arrows(&sources), sources.len());
+    let names = |way: Vec<usize>| way.iter().map(|file| sources[*file].name.clone()).collect::<Vec<_>>().join(" → ");
+    assert!(found.is_none(), "{}", found.map(names).unwrap_or_default());
+}
+
+/// It holds docs, `mod` and `pub use`.
+#[test]
+fn a_mod_rs_is_a_face() {
+    let mut faces = 0;
+    for source in sources().iter().filter(|source| source.is_face()) {
+        faces += 1;
+        for item in &source.syntax.items {
+            let hands_on = match item {
+                syn::Item::Mod(module) => module.content.is_none(),
+                syn::Item::Use(item) => !matches!(item.vis, syn::Visibility::Inherited),
+                _ => false,
+            };
+            assert!(hands_on, "{} defines something", source.name);
+        }
+    }
+    assert!(faces > 15, "{faces} faces");
+}
+
+/// Names that two public types still share. The list only shrinks.
+const SHARED: &[&str] = &[];
+
+#[test]
+fn a_name_has_one_type() {
+    let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for source in sources() {
+        for item in &source.syntax.items {
+            let (vis, ident) = match item {
+                syn::Item::Struct(item) => (&item.vis, &item.ident),
+                syn::Item::Enum(item) => (&item.vis, &item.ident),
+                syn::Item::Trait(item) => (&item.vis, &item.ident),
+                _ => continue,
+            };
+            if matches!(vis, syn::Visibility::Public(_)) {
+                places.entry(ident.to_string()).or_default().push(source.name.clone());
+            }
+        }
+    }
+    // Every command is `Command` in its own file.
+    places.remove("Command");
+    let shared: Vec<_> = places.iter().filter(|(_, places)| places.len() > 1).collect();
+    let new: Vec<_> = shared.iter().filter(|(name, _)| !SHARED.contains(&name.as_str())).collect();
+    assert!(new.is_empty(), "one name, several types: {new:#?}");
+    let gone: Vec<_> = SHARED.iter().filter(|name| !shared.iter().any(|(shared, _)| shared == *name)).collect();
+    assert!(gone.is_empty(), "no longer shared, strike them from the list: {gone:?}");
+}
+
+/// What is named, and the rooms that may name it.
+const PLACES: &[(&str, &[&str])] = &[
+    ("serde_yaml", &["experiment"]),
+    ("std::fs", &["files", "experiment", "record", "sweep", "cli"]),
+    ("Instant", &["run", "study", "bench", "cli"]),
+    ("println!", &["cli"]),
+];
+
+#[test]
+fn files_clocks_and_printing_stay_at_the_edges() {
+    for source in sources() {
+        for (name, rooms) in PLACES {
+            let is_named = source.text.lines().any(|line| !line.trim_start().starts_with("//") && line.contains(name));
+            assert!(!is_named || rooms.contains(&source.room()), "{} names {name}", source.name);
+        }
+    }
+}

@@ -23,6 +23,7 @@
 pub mod build_info;
 pub mod clock;
 pub mod files;
+pub mod heading;
 pub mod math;
 pub mod outcome;
 mod panics;

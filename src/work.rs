@@ -1,28 +1,44 @@
 //! Work, counted in integers: the same on every machine, so that a test can hold it.
 
-/// Columns `work_*` of a row.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Work {
-    /// Points held against a face.
-    pub contact_tests: u64,
-    /// Contacts found, summed over steps.
-    pub contacts: u64,
-    /// Steps with at least one contact to solve.
-    pub contact_solves: u64,
-    /// Sweeps over the contacts of a step, velocities and positions.
-    pub sweeps: u64,
-    /// Contact solves that missed their tolerance.
-    pub unsolved: u64,
-    /// Linear systems of an island's velocities that the exact contact solver solved.
-    pub newton_steps: u64,
-    /// Evaluations of the gyroscopic term, or of the momentum-conserving rotation in its place.
-    pub gyroscopic: u64,
-    /// Systems of all pins of an island that were solved.
-    pub pin_solves: u64,
-    /// Steps inside those of the clock, summed over islands; tries that were given up are not among them.
-    pub inner_steps: u64,
-    /// Impacts, and changes between flight, sticking and sliding.
-    pub events: u64,
-    /// Stretches that were handed over to steps of equal length.
-    pub fallbacks: u64,
+use crate::heading::columns;
+use serde::{Deserialize, Serialize};
+
+columns! {
+    /// Columns `work_*` of a row.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub struct Work {
+        /// Points that were held against a face.
+        #[serde(rename = "work_contact_tests")]
+        pub contact_tests: u64,
+        /// Contacts that were found, summed over the steps.
+        #[serde(rename = "work_contacts")]
+        pub contacts: u64,
+        /// Steps with at least one contact to solve.
+        #[serde(rename = "work_contact_solves")]
+        pub contact_solves: u64,
+        /// Sweeps over the contacts of a step, for velocities and for positions.
+        #[serde(rename = "work_sweeps")]
+        pub sweeps: u64,
+        /// Contact solves that missed their tolerance. A method that has no tolerance to miss has none.
+        #[serde(rename = "work_unsolved")]
+        pub unsolved: u64,
+        /// Linear systems of an island's velocities that the exact contact solver (`newton`) solved.
+        #[serde(rename = "work_newton_steps")]
+        pub newton_steps: u64,
+        /// Evaluations of the gyroscopic term, or of the momentum-conserving rotation in its place.
+        #[serde(rename = "work_gyroscopic")]
+        pub gyroscopic: u64,
+        /// Systems of all pins of an island that were solved.
+        #[serde(rename = "work_pin_solves")]
+        pub pin_solves: u64,
+        /// Steps inside those of the clock, summed over islands. Tries that were given up are not among them.
+        #[serde(rename = "work_inner_steps")]
+        pub inner_steps: u64,
+        /// Impacts, and changes between flight, sticking and sliding, of a method that follows events.
+        #[serde(rename = "work_events")]
+        pub events: u64,
+        /// Stretches of `event-driven` that were handed over to steps of equal length.
+        #[serde(rename = "work_fallbacks")]
+        pub fallbacks: u64,
+    }
 }

@@ -6,7 +6,7 @@ use crate::yaml::{CUBE_IN_BOX, measured};
 fn the_work_of_a_run_is_known() {
     let counters = |sets: &[&str]| {
         let m = measured(CUBE_IN_BOX, &[sets, &["diverge.escape=false"]].concat());
-        [m.work_contact_tests, m.work_contacts, m.work_contact_solves, m.work_sweeps, m.work_gyroscopic]
+        [m.work.contact_tests, m.work.contacts, m.work.contact_solves, m.work.sweeps, m.work.gyroscopic]
     };
     assert_eq!(counters(&["method=free"]), [0, 0, 0, 0, 200]);
     assert_eq!(counters(&["method=free", "method.free.integrator=rk4"]), [0, 0, 0, 0, 800]);

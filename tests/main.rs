@@ -16,6 +16,7 @@
 //! - `configs`: every file under configs/ runs
 //! - `allocation`: no step allocates
 //! - `counters`: how much work a run is
+//! - `docs`: pages that are made, links, paths and commands of the others
 //! - `tidy`: rules of the repository
 
 #![allow(non_snake_case)]
@@ -27,6 +28,7 @@ mod cli;
 mod collide;
 mod configs;
 mod counters;
+mod docs;
 mod event;
 mod exact;
 mod experiment;

@@ -153,7 +153,7 @@ pub fn run(contender: &Contender, bench: &Bench, scene: &str) -> std::result::Re
         Err(panic) => (Measured::failed(panics::message(panic.as_ref()).to_string()), None),
     };
     let steps = match experiment.method.accuracy() {
-        Accuracy::Tolerance(_) if !experiment.method.follows_events() => measured.work_inner_steps,
+        Accuracy::Tolerance(_) if !experiment.method.follows_events() => measured.work.inner_steps,
         _ => measured.steps,
     };
     let mut row = Trial {

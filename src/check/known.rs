@@ -7,12 +7,11 @@ use crate::experiment::filter::{Condition, Filter, is_same, shown_cell};
 use crate::experiment::key_path::{KeyPath, Path};
 use crate::experiment::predicate::{Column, Predicate, Quantity};
 use crate::experiment::search::{Search, search_path};
+use crate::heading::CellKind;
 use crate::outcome::Criterion;
+use crate::rows::columns;
 
 type Result = std::result::Result<(), ExperimentError>;
-
-/// Columns of text: nothing to be compared with a number.
-const TEXTS: [&str; 6] = ["case", "outcome", "criterion", "method_used", "build", "search_verdict"];
 
 /// The first name that nothing has. The error has no file and line yet.
 pub fn refuse_unknown(schema: &Schema, expectations: &[Expectation], search: Option<&Search>) -> Result {
@@ -72,7 +71,7 @@ pub fn numbers(schema: &Schema, column: &Column, at: Path) -> Result {
     for name in column.names() {
         known(schema, name, at)?;
         let is_text = |values: &[serde_json::Value]| !values.iter().any(serde_json::Value::is_number);
-        if TEXTS.contains(&name) || schema.axis(name).is_some_and(is_text) {
+        if columns::kind(name) == Some(CellKind::Text) || schema.axis(name).is_some_and(is_text) {
             let found = format!("`{name}`, which is text");
             return Err(ExperimentError::unexpected(at.to_key_path(), "a column of numbers", &found));
         }

@@ -2,7 +2,8 @@
 
 use crate::experiment::axes::Axes;
 use crate::experiment::filter::{Filter, is_same};
-use crate::rows::columns::STATE;
+use crate::heading::Headings;
+use crate::rows::columns::{STATE, names};
 use crate::rows::{Measured, Row, cells};
 use serde_json::{Map, Value};
 use std::collections::HashMap;
@@ -30,7 +31,7 @@ impl Schema {
         let shown: Vec<_> = shown.map(|i| (path(&i), values(i))).collect();
         let mut columns = vec!["case".to_string()];
         columns.extend(shown.iter().map(|(path, _)| path.clone()));
-        columns.extend(cells(&Measured::nothing()).keys().cloned());
+        columns.extend(names(&Measured::headings()));
         columns.extend(more.iter().cloned());
         Schema {
             axes: shown,
@@ -64,7 +65,7 @@ impl Schema {
         let mut vectors: Vec<(&str, Vec<&str>)> = Vec::new();
         for column in &self.columns {
             let Some((vector, "x" | "y" | "z" | "w")) = column.rsplit_once('.') else { continue };
-            let is_state = vector.rsplit_once('.').is_some_and(|(_, last)| STATE.iter().any(|(name, _)| *name == last));
+            let is_state = STATE.iter().any(|part| part.is_of_a_body(vector));
             if vector != name && !(name == "state" && is_state) {
                 continue;
             }

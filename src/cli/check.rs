@@ -9,7 +9,7 @@ use super::table::table;
 use crate::check::{Schema, cells_of, judge, refuse_unknown};
 use crate::experiment::types::RecordTo;
 use crate::measure::more;
-use crate::sweep::cell;
+use crate::rows::columns::{self, SEARCH};
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -91,7 +91,7 @@ fn schema(planned: &PlannedSweep) -> Schema {
         }
     }
     let search = planned.file.search();
-    names.extend(search.iter().flat_map(|_| cell::COLUMNS.map(str::to_string)));
+    names.extend(search.iter().flat_map(|_| columns::names(&SEARCH)));
     Schema::new(planned.file.axes(), search.and_then(|search| search.over), &names)
 }
 

@@ -1,19 +1,28 @@
-//! `gotai list`: what can be written, one line each.
+//! `gotai list`: what can be written, from the vocabulary itself; as text, JSON, or a page of Markdown.
 
 use super::args::OutputArgs;
 use super::error::CliError;
 use super::output::{print, print_json};
-use crate::experiment::types::{Accuracy, Exact, Integrator};
-use crate::integrate::claims::{Claim, Kept, claim};
+use super::table::table;
+use crate::experiment::about::About;
+use crate::experiment::types::{Accuracy, Exact, Integrator, Measure, Method, Shape};
+use crate::experiment::vocabulary::{Initial, Setting, Takes, Word, shown, words};
+use crate::heading::Heading;
+use crate::integrate::claims::{Kept, claim};
+use crate::measure::more;
+use crate::rows::columns;
 use clap::{Args, ValueEnum};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::process::ExitCode;
 
 #[derive(Args)]
 pub struct Command {
     /// What to list
-    #[arg(value_enum)]
-    what: What,
+    #[arg(value_enum, required = true)]
+    what: Vec<What>,
+    /// A page of Markdown on stdout
+    #[arg(long, conflicts_with = "json")]
+    markdown: bool,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -21,267 +30,334 @@ pub struct Command {
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum What {
     Methods,
-    Shapes,
     /// Closed forms that errors can be measured against (`exact:`)
     Exact,
+    Shapes,
+    /// Columns of the table of results, with unit and meaning
+    Columns,
     /// What `measure:` can ask for
     Measures,
 }
 
-/// Word, settings with defaults, what it is, source.
-type Line = (&'static str, &'static str, &'static str, &'static str);
-
-const METHODS: [Line; 6] = [
-    (
-        "free",
-        "integrator: semi-implicit-euler (default), or one of those below; tolerance: 1e-9 (of dop853 and taylor)",
-        "motion without contact",
-        "lecture L4, L5, L24",
-    ),
-    (
-        "lecture",
-        "start: none (default) | direct | inverse | pseudo-inverse; iteration: jacobi | gauss-seidel (default); \
-         correction: after-sweep (default) | per-contact; cone: disc (default) | box; sweeps: 50; update: explicit | semi-implicit (default); \
-         rotation: literal (default) | momentum",
-        "the lecture's constraint method, order 1; unstable at long steps and many nodes",
-        "lecture L16–L21",
-    ),
-    (
-        "penalty",
-        "stiffness_n_m (needed); damping_n_s_m: 0; slip_speed_m_s: 0.01; update: explicit | semi-implicit (default); \
-         rotation: literal | momentum (default)",
-        "a spring and a damper in every penetrating node; critical step 2/√λmax",
-        "lecture L15",
-    ),
-    (
-        "time-stepping",
-        "solver: pgs (default) | nncg | newton; scheme: semi-implicit (default) | moreau; impact: newton (default) | poisson \
-         | sequential; sweeps: 50 (newton: 500); tolerance: 1e-12 (newton: 1e-10); \
-         position_correction: projection (default) | none; local: common (default) | rows | exact; relaxation: 1; order: \
-         fixed (default) | shuffled; contacts_per_face: all (default) or at least 3",
-        "velocity–impulse with projected Gauss–Seidel, its conjugate gradients or the exact law of contact; gaps close to \
-         zero and no further; free rotation in closed form; order 1, between impacts 2 with `moreau`; the default method",
-        "Moreau 1988, 1999; Stewart & Trinkle 1996; Anitescu & Potra 1997; Glocker & Pfeiffer 1995; Stronge 1990",
-    ),
-    (
-        "event-driven",
-        "tolerance: 1e-9 (of positions at the end, metres, times the sensitivity where that is above 1; at least 1e-13); \
-         impact: newton (default) | poisson | sequential",
-        "closed forms between events, else order 8 with a continuous extension of order 7; impacts, ends and beginnings of \
-         slips, and openings as roots in time; where events lead no further, short steps of time-stepping (work_fallbacks)",
-        "Dormand & Prince 8(5,3); Glocker 2001; Mirtich 1996",
-    ),
-    (
-        "auto",
-        "tolerance: 1e-6 (of positions at the end, metres)",
-        "event-driven, or time-stepping where that stalls or falls back: whatever two runs say is accurate enough; columns \
-         method_used, error_estimate_m",
-        "",
-    ),
-];
-
-const SHAPES: [Line; 7] = [
-    ("box", "size_m: [x, y, z]; mesh: { nodes_per_edge: n | [nx, ny, nz] }", "touches with corners, or mesh nodes", ""),
-    ("sphere", "radius_m; mesh: { subdivisions: k }", "touches with its surface, or mesh nodes", ""),
-    ("cylinder", "radius_m; height_m", "axis y; touches with its rims and caps", ""),
-    ("capsule", "radius_m; height_m (between the centres of its spheres)", "axis y; touches with its surface", ""),
-    ("ellipsoid", "semi_axes_m: [x, y, z]", "touches with its surface", ""),
-    ("convex", "vertices_m: [[x, y, z], ...], corners of the hull", "polyhedron; touches with its vertices", ""),
-    ("none", "", "a point with mass and inertia, without contact", ""),
-];
-
-/// The settings column says of which scenes.
-const EXACT: [Line; 16] = [
-    (
-        Exact::FreeMotion.word(),
-        "gravity, and constant or cosine forces of the world at the centre of mass; no air, no pins, no contact",
-        "parabola and torque-free rotation of any body, by Jacobi elliptic functions",
-        "van Zon & Schofield, JCP 225 (2007) 145",
-    ),
-    (
-        Exact::SymmetricBody.word(),
-        "the same, every body with two equal moments of inertia",
-        "parabola and torque-free rotation, by elementary functions",
-        "Kane, Likins & Levinson 1983, 3.1",
-    ),
-    (
-        Exact::LinearDrag.word(),
-        "gravity, constant forces of the world at the centre of mass, air with linear_drag_n_s_m",
-        "Stokes' drag, exp(-c t/m), and torque-free rotation",
-        "lecture L2; Stokes 1851",
-    ),
-    (
-        Exact::QuadraticDrag.word(),
-        "the same, air with a drag_coefficient; velocity along the line of the forces, or no forces",
-        "Newton's drag, tanh and ln cosh, and torque-free rotation",
-        "Parker, Am. J. Phys. 45 (1977) 606",
-    ),
-    (
-        Exact::HeavyTop.word(),
-        "gravity; every body one of revolution, on one pin to the world on its axis",
-        "precession and nutation, sleeping top, spherical pendulum, by elliptic functions and integrals",
-        "Whittaker, Analytical Dynamics, 71-75",
-    ),
-    (
-        Exact::Pendulum.word(),
-        "gravity; every body on one pin to the world, turning about a horizontal principal axis of the pin",
-        "the compound plane pendulum at any amplitude, by elliptic functions",
-        "Whittaker, Analytical Dynamics, 44",
-    ),
-    (
-        Exact::Rest.word(),
-        "every body at rest at the start; for piles and slopes that hold",
-        "all bodies stay where they are",
-        "Newton's first law",
-    ),
-    (
-        Exact::Sliding.word(),
-        "gravity, constant forces of the world at the centre of mass; one body flat on a container of one plane, without \
-         spin, moving along the line of slope or on a level plane; too low to tip",
-        "sliding to a stop, sticking, or starting back down; Coulomb friction",
-        "Goldstein, Classical Mechanics, 1.5",
-    ),
-    (
-        Exact::Ball.word(),
-        "the same forces; one sphere and a container of one plane; where it slips, along the line of slope or on a level \
-         plane",
-        "flights, impacts with restitution (normal and tangential) and friction up to Zeno's point, sliding, rolling",
-        "Walton 1993; Garwin, Am. J. Phys. 37 (1969) 88; Routh, Advanced Rigid Dynamics, 240",
-    ),
-    (
-        Exact::Turntable.word(),
-        "a sphere that rolls on a level box or cylinder with a kinematic spin about its vertical axis; no container",
-        "circles at k/(1 + k) of the table's rate, k = I/(m r²): 2/7 of it for a homogeneous ball",
-        "Routh, Advanced Rigid Dynamics, 224; Weltner, Am. J. Phys. 47 (1979) 984",
-    ),
-    (
-        Exact::RockingBlock.word(),
-        "one box on a container of one level plane, restitution 0, friction that holds; tilted about a lower edge, or turning \
-         about it, not enough to overturn",
-        "elliptic functions from impact to impact, until it stands",
-        "Housner, Bull. Seism. Soc. Am. 53 (1963) 403",
-    ),
-    (
-        Exact::FallingRod.word(),
-        "one capsule leaning at rest, one end on a container of one level plane; no friction, restitution 0",
-        "its centre falls straight down, by a quadrature; then flat at rest",
-        "Routh, Elementary Rigid Dynamics, 136",
-    ),
-    (
-        Exact::Ladder.word(),
-        "one capsule leaning at rest, one end on each of a container's two planes, one level and one upright; no friction, \
-         restitution 0",
-        "leaves the wall at 2/3 of its height, by elliptic functions; then a falling rod that goes on sideways",
-        "Routh, Elementary Rigid Dynamics, 144",
-    ),
-    (
-        Exact::RimlessWheel.word(),
-        "one regular prism (a box or a convex) on a container of one plane, restitution 0, friction that holds; tilted about \
-         a lower edge, or turning about one, along the line of slope",
-        "rolls over its edges, on and on or back and forth until it stands; elliptic functions from impact to impact",
-        "McGeer, Int. J. Robotics Research 9 (1990) 62",
-    ),
-    (
-        Exact::Dome.word(),
-        "one sphere at rest on a fixed one, off its top; restitution 0; no friction, or friction that holds until the end",
-        "slides until it leaves at 2/3 of the height, then flies; or rolls until it slips; elliptic functions",
-        "Routh, Elementary Rigid Dynamics, 137",
-    ),
-    (
-        Exact::StickSlip.word(),
-        "one body flat on a container of one plane, too low to tip; one cosine force along the line that it moves on, and \
-         constant forces that friction holds",
-        "sticks and slips; the slips' ends are roots of a transcendental equation",
-        "Den Hartog, Trans. ASME 53 (1931) 107",
-    ),
-];
-
-const MEASURES: [Line; 6] = [
-    (
-        "state",
-        "<body>.position_m.x, .orientation_xyzw.x, .velocity_m_s.x, .angular_velocity_rad_s.x, …",
-        "each body's end state: centre of mass, body → world, world frame",
-        "",
-    ),
-    (
-        "inertia",
-        "<body>.mass_kg, .center_of_mass_m.x, …, .inertia_kg_m2.xx, …",
-        "mass properties that the run used; inertia about the centre of mass, body axes",
-        "lecture L8, L9",
-    ),
-    (
-        "contact-matrix",
-        "contact_matrix_contacts, contact_matrix_rank, jacobi_radius",
-        "A = J M⁻¹ Jᵀ at the first step with the most contacts: its rank, and the spectral radius of E − D⁻¹A",
-        "lecture L16, L20",
-    ),
-    (
-        "critical-step",
-        "normal_lambda_max_1_kg, critical_step_s",
-        "largest eigenvalue of Jn M⁻¹ Jnᵀ at the first contact, and the longest stable step of `penalty` by linear theory",
-        "lecture L15",
-    ),
-    (
-        "difference-quotients",
-        "difference_forward_m_s, difference_backward_m_s, difference_central_m_s",
-        "quotients of the positions of a run against its velocities, the largest difference",
-        "lecture L1",
-    ),
-    (
-        "sensitivity",
-        "sensitivity (a column of every row; of `event-driven` and `auto` it is never null unless no twin arrives)",
-        "twin runs whose start is displaced a little: their largest distance at the end over that at the start",
-        "",
-    ),
-];
+/// Texts are Markdown.
+struct Section {
+    /// Empty: that of its list.
+    title: String,
+    lead: String,
+    head: &'static [&'static str],
+    rows: Vec<Vec<String>>,
+}
 
 impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
-        let lines: &[Line] = match self.what {
-            What::Methods => &METHODS,
-            What::Shapes => &SHAPES,
-            What::Exact => &EXACT,
-            What::Measures => &MEASURES,
-        };
-        if self.output.json {
-            print_json(&lines.iter().map(line_json).collect::<Vec<_>>());
+        if self.markdown {
+            print(page(&self.what).trim_end());
+        } else if self.output.json {
+            match self.what[..] {
+                [what] => print_json(&what.json()),
+                _ => print_json(&self.what.iter().map(|what| (what.word(), what.json())).collect::<Map<_, _>>()),
+            }
         } else {
-            for (name, settings, what, source) in lines {
-                let from = if source.is_empty() { String::new() } else { format!(" [{source}]") };
-                print(format!("{name:14} {what}{from}\n{:14}   {settings}", ""));
-                for integrator in integrators(name) {
-                    print(format!("{:14}     {}", "", promise(*integrator)));
-                }
+            for section in self.what.iter().flat_map(|what| what.sections()) {
+                print(plain(&section));
             }
         }
         Ok(ExitCode::SUCCESS)
     }
 }
 
-/// Those that a method chooses among.
-fn integrators(method: &str) -> &'static [Integrator] {
-    if method == "free" { &Integrator::ALL } else { &[] }
+impl What {
+    fn word(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_string())
+    }
+
+    fn title(self) -> &'static str {
+        match self {
+            What::Methods => "Methods",
+            What::Exact => "Closed forms",
+            What::Shapes => "Shapes",
+            What::Columns => "Columns",
+            What::Measures => "Measures",
+        }
+    }
+
+    fn sections(self) -> Vec<Section> {
+        match self {
+            What::Methods => methods(),
+            What::Exact => closed_forms(),
+            What::Shapes => vec![shapes()],
+            What::Columns => all_columns(),
+            What::Measures => vec![measures()],
+        }
+    }
+
+    fn json(self) -> Value {
+        match self {
+            What::Methods => words::<Method>().iter().map(method_json).collect(),
+            What::Exact => words::<Exact>().iter().map(exact_json).collect(),
+            What::Shapes => words::<Shape>().iter().map(|shape| word_json(shape, &shape.value.about())).collect(),
+            What::Columns => columns_json(),
+            What::Measures => words::<Measure>().iter().map(measure_json).collect(),
+        }
+    }
 }
 
-fn line_json((name, settings, what, source): &Line) -> Value {
-    let mut line = json!({ "name": name, "settings": settings, "what": what, "source": source });
-    let integrators = integrators(name);
-    if !integrators.is_empty() {
-        let named = |i: &Integrator| json!({ "name": i.word(), "claim": claim(*i) });
-        line["integrators"] = integrators.iter().map(named).collect();
+/// A document of its own.
+fn page(whats: &[What]) -> String {
+    let named: Vec<String> = whats.iter().map(|what| what.word()).collect();
+    let titles: Vec<String> = whats.iter().map(|what| what.title().to_lowercase()).collect();
+    let mut text = format!(
+        "# {}\n\nMade by `gotai list {} --markdown`, not by hand.\n",
+        capital(&titles.join(", ")),
+        named.join(" ")
+    );
+    for what in whats {
+        let (list, part) = if whats.len() > 1 { ("##", "###") } else { ("#", "##") };
+        if whats.len() > 1 {
+            text += &format!("\n{list} {}\n", what.title());
+        }
+        for Section { title, lead, head, rows } in what.sections() {
+            if !title.is_empty() {
+                text += &format!("\n{part} {title}\n");
+            }
+            if !lead.is_empty() {
+                text += &format!("\n{lead}\n");
+            }
+            if !rows.is_empty() {
+                let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+                text += &format!(
+                    "\n{}|{}\n",
+                    line(head.iter().map(ToString::to_string).collect()),
+                    "---|".repeat(head.len())
+                );
+                text.extend(
+                    rows.into_iter().map(|cells| line(cells.iter().map(|cell| cell.replace('|', "\\|")).collect())),
+                );
+            }
+        }
+    }
+    text
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// For a terminal.
+fn plain(Section { title, lead, head, rows }: &Section) -> String {
+    let without_marks = |text: &str| text.replace('`', "");
+    let mut parts: Vec<String> =
+        [title, lead].into_iter().filter(|text| !text.is_empty()).map(|text| without_marks(text)).collect();
+    if !rows.is_empty() {
+        let mut table = table(head);
+        table.add_rows(rows.iter().map(|cells| cells.iter().map(|cell| without_marks(cell)).collect::<Vec<_>>()));
+        parts.push(table.to_string());
+    }
+    parts.join("\n") + "\n"
+}
+
+fn code(text: &str) -> String {
+    format!("`{text}`")
+}
+
+fn codes<T: AsRef<str>>(texts: &[T]) -> String {
+    texts.iter().map(|text| code(text.as_ref())).collect::<Vec<_>>().join(", ")
+}
+
+/// A sentence, and where it is from.
+fn sourced(About { what, source }: &About) -> String {
+    if source.is_empty() { what.clone() } else { format!("{what} Source: {source}.") }
+}
+
+fn methods() -> Vec<Section> {
+    let lead = format!(
+        "`method:` is one of these words, or one key with settings: `method: {{ lecture: {{ sweeps: 50 }} }}`. The \
+         default is `{}`. What the settings mean: `docs/experiment-file.md`.",
+        Method::default().word()
+    );
+    let mut sections = vec![Section { title: String::new(), lead, head: &[], rows: Vec::new() }];
+    for Word { name, value, settings } in words::<Method>() {
+        let by = match (&value, value.accuracy()) {
+            (Method::Free(_), _) => "What makes it more accurate is the integrator's affair, as listed below.",
+            (_, Accuracy::Step) => "A shorter `time.step_s` makes it more accurate.",
+            (_, Accuracy::Tolerance(_)) => "A smaller `tolerance` makes it more accurate; it needs no `time.step_s`.",
+            (_, Accuracy::Closed) => "It is a closed form.",
+        };
+        let rows = settings.iter().map(|setting| setting_row(&value, setting)).collect();
+        let lead = format!("{} {by}", sourced(&value.about()));
+        sections.push(Section { title: code(name), lead, head: &["setting", "takes", "default"], rows });
+        if let Method::Free(_) = value {
+            sections.push(integrators());
+        }
+    }
+    sections
+}
+
+fn setting_row(method: &Method, Setting { name, takes, initial }: &Setting) -> Vec<String> {
+    let takes = match takes {
+        Takes::Words(words) => codes(words),
+        other => other.to_string(),
+    };
+    let initial = match initial {
+        Initial::Needed => "(needed)".to_string(),
+        Initial::Is(value) => code(&shown(value)),
+        Initial::Absent => method.unless_set(name),
+    };
+    vec![code(name), takes, initial]
+}
+
+fn integrators() -> Section {
+    let row = |word: Word<Integrator>| {
+        let claim = claim(word.value);
+        let (order, by) = match (word.value.accuracy(), claim.order) {
+            (Accuracy::Step, order) => (order, "a shorter `time.step_s`"),
+            (Accuracy::Tolerance(_), order) => (order, "a smaller `tolerance`"),
+            (Accuracy::Closed, order) => (order, "nothing: it has no error"),
+        };
+        let order = order.map_or_else(|| "–".to_string(), |order| order.to_string());
+        vec![code(word.name), order, by.to_string(), kept(word.value), claim.source.to_string()]
+    };
+    Section {
+        title: "Integrators of `free`".to_string(),
+        lead: "The order is of attitude and angular velocity, of the position too where the parabola is not kept; a \
+               dash: none of its own. What is kept is so to rounding, of a body without torque, at any step. Tests \
+               hold every line."
+            .to_string(),
+        head: &["integrator", "order", "more accurate by", "keeps", "source"],
+        rows: words::<Integrator>().into_iter().map(row).collect(),
+    }
+}
+
+fn kept(integrator: Integrator) -> String {
+    let claim = claim(integrator);
+    let kept = [(claim.energy, "energy"), (claim.angular_momentum, "angular momentum"), (claim.parabola, "parabola")];
+    let kept: Vec<&str> = kept.iter().filter(|(kept, _)| *kept == Kept::ToRounding).map(|(_, what)| *what).collect();
+    if kept.is_empty() { "nothing".to_string() } else { kept.join(", ") }
+}
+
+fn closed_forms() -> Vec<Section> {
+    let section = |touches: bool, title: &str| {
+        let row = |Word { name, value, .. }: Word<Exact>| {
+            let About { what, source } = value.about();
+            vec![code(name), value.scenes().to_string(), what, source.to_string()]
+        };
+        let rows = words::<Exact>().into_iter().filter(|word| word.value.touches() == touches).map(row).collect();
+        Section {
+            title: title.to_string(),
+            lead: String::new(),
+            head: &["`exact:`", "of which scenes", "motion", "source"],
+            rows,
+        }
+    };
+    let lead = "The closed form that `exact:` names is what errors are measured against. A scene that it is not the \
+                motion of is refused.";
+    let before = Section { title: String::new(), lead: lead.to_string(), head: &[], rows: Vec::new() };
+    vec![before, section(false, "Without contact"), section(true, "With contact")]
+}
+
+fn shapes() -> Section {
+    let row = |Word { name, value, settings }: Word<Shape>| {
+        let settings: Vec<String> = settings.iter().map(|s| format!("{} ({})", code(s.name), s.takes)).collect();
+        vec![code(name), settings.join(", "), value.about().what]
+    };
+    Section {
+        title: String::new(),
+        lead: "`shape:` of a body; all keys are needed. The body frame's origin is the centre of the shape, of a \
+               `convex` that of its vertices."
+            .to_string(),
+        head: &["shape", "keys", "what touches"],
+        rows: words::<Shape>().into_iter().map(row).collect(),
+    }
+}
+
+fn all_columns() -> Vec<Section> {
+    let section = |title: String, lead: &str, headings: &[Heading]| Section {
+        title,
+        lead: lead.to_string(),
+        head: &["column", "kind", "unit", "meaning"],
+        rows: headings.iter().map(column_row).collect(),
+    };
+    let mut sections = vec![
+        section(
+            "Every row".to_string(),
+            "In this order; after `case` comes every axis by its path, before `build` what only some experiments \
+             have. A number that means nothing in a run is null: an empty cell. What the relative ones mean, with \
+             examples: `docs/numbers.md`.",
+            &columns::of_every_row(),
+        ),
+        section("Rows of a search".to_string(), "The other columns are of the run at `search_low`.", &columns::SEARCH),
+    ];
+    for Word { name, value, .. } in words::<Measure>() {
+        let headings = more::headings(value);
+        if !headings.is_empty() {
+            sections.push(section(format!("`measure: [{name}]`"), &value.about().what, headings));
+        }
+    }
+    sections
+}
+
+fn column_row(heading: &Heading) -> Vec<String> {
+    let mut names = vec![code(&heading.names()[0])];
+    names.extend(heading.parts.iter().skip(1).map(|part| code(&format!(".{part}"))));
+    vec![names.join(" "), heading.kind.word().to_string(), heading.unit().to_string(), heading.meaning.to_string()]
+}
+
+fn measures() -> Section {
+    let row = |Word { name, value, .. }: Word<Measure>| {
+        let About { what, source } = value.about();
+        let names: Vec<&str> = more::headings(value).iter().map(|heading| heading.name).collect();
+        let columns = if names.is_empty() { "one of every row".to_string() } else { codes(&names) };
+        vec![code(name), what, columns, source.to_string()]
+    };
+    Section {
+        title: String::new(),
+        lead: "`measure:` is a list of these words. `gotai list columns` says what their columns are.".to_string(),
+        head: &["word", "what is measured", "columns", "source"],
+        rows: words::<Measure>().into_iter().map(row).collect(),
+    }
+}
+
+fn word_json<T>(Word { name, settings, .. }: &Word<T>, About { what, source }: &About) -> Value {
+    json!({ "name": name, "settings": settings, "what": what, "source": source })
+}
+
+fn method_json(method: &Word<Method>) -> Value {
+    let mut line = word_json(method, &method.value.about());
+    if let Method::Free(_) = method.value {
+        let named = |word: Word<Integrator>| json!({ "name": word.name, "claim": claim(word.value) });
+        line["integrators"] = words::<Integrator>().into_iter().map(named).collect();
     }
     line
 }
 
-fn promise(integrator: Integrator) -> String {
-    let Claim { order, energy, angular_momentum, parabola, source } = claim(integrator);
-    let kept = [(energy, "energy"), (angular_momentum, "angular momentum"), (parabola, "parabola")];
-    let kept: Vec<&str> = kept.iter().filter(|(kept, _)| *kept == Kept::ToRounding).map(|(_, what)| *what).collect();
-    let keeps = if kept.is_empty() { String::new() } else { format!("; to rounding: {}", kept.join(", ")) };
-    let order = match (integrator.accuracy(), order) {
-        (_, Some(order)) => format!("order {order}"),
-        (Accuracy::Closed, _) => "without error".to_string(),
-        _ => "any order, as the tolerance asks".to_string(),
+fn exact_json(exact: &Word<Exact>) -> Value {
+    let mut line = word_json(exact, &exact.value.about());
+    line["scenes"] = json!(exact.value.scenes());
+    line["touches"] = json!(exact.value.touches());
+    line
+}
+
+fn measure_json(measure: &Word<Measure>) -> Value {
+    let mut line = word_json(measure, &measure.value.about());
+    line["columns"] = json!(more::headings(measure.value));
+    line
+}
+
+/// Each says by which word of `measure:` it comes, null: in every row, or `search`.
+fn columns_json() -> Value {
+    let from = |of: Value, headings: &[Heading]| -> Vec<Value> {
+        let line = |heading: &Heading| {
+            let mut line = json!(heading);
+            line["of"] = of.clone();
+            line
+        };
+        headings.iter().map(line).collect()
     };
-    format!("{:19} {order}{keeps} [{source}]", integrator.word())
+    let mut lines = from(Value::Null, &columns::of_every_row());
+    lines.extend(from(json!("search"), &columns::SEARCH));
+    for word in words::<Measure>() {
+        lines.extend(from(json!(word.name), more::headings(word.value)));
+    }
+    Value::Array(lines)
 }

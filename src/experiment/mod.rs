@@ -2,6 +2,7 @@
 //!
 //! `ExperimentFile::load` reads a file with its `--set`s; `experiment` and `case` give resolved `Experiment`s.
 
+pub mod about;
 mod accuracy;
 pub mod axes;
 pub mod bench;
@@ -30,6 +31,7 @@ mod validate;
 mod validate_body;
 mod validate_loads;
 pub mod value_de;
+pub mod vocabulary;
 
 pub use error::ExperimentError;
 pub use file::ExperimentFile;

@@ -13,8 +13,6 @@ use serde_json::{Value, json};
 /// Eigenvalues above this part of the largest count for the rank.
 const RANK: f64 = 1e-9;
 
-pub const NAMES: [&str; 3] = ["contact_matrix_contacts", "contact_matrix_rank", "jacobi_radius"];
-
 /// Keeps the step with the most contacts, the first of equals.
 #[derive(Clone, Debug, Default)]
 pub struct ContactMatrix {

@@ -11,8 +11,6 @@ use crate::model::Model;
 use crate::state::State;
 use serde_json::{Value, json};
 
-pub const NAMES: [&str; 2] = ["normal_lambda_max_1_kg", "critical_step_s"];
-
 /// Keeps the first step in which a node is inside.
 #[derive(Clone, Debug, Default)]
 pub struct CriticalStep {

@@ -4,9 +4,6 @@
 use crate::state::State;
 use serde_json::{Value, json};
 
-/// Columns: m/s.
-pub const NAMES: [&str; 3] = ["difference_forward_m_s", "difference_backward_m_s", "difference_central_m_s"];
-
 #[derive(Clone, Debug, Default)]
 pub struct Differences {
     largest: [f64; 3],

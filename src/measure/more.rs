@@ -1,12 +1,13 @@
 //! Columns that are measured only when `measure:` asks for them.
 
-use super::contact_matrix::{self, ContactMatrix};
-use super::critical_step::{self, CriticalStep};
-use super::difference::{self, Differences};
+use super::contact_matrix::ContactMatrix;
+use super::critical_step::CriticalStep;
+use super::difference::Differences;
 use crate::collide::SolvedContact;
 use crate::experiment::types::{self as file, Experiment, Measure, Method};
+use crate::heading::{EACH_BODY, Heading};
 use crate::model::{Body, Model};
-use crate::rows::columns::STATE;
+use crate::rows::columns;
 use crate::state::{BodyState, State};
 use serde_json::{Map, Value, json};
 
@@ -47,7 +48,7 @@ impl Watched {
 }
 
 /// The columns that an experiment asks for, from its model, its last state and what was watched on the way there.
-pub fn columns(experiment: &Experiment, model: &Model, end: &State, watched: &Watched) -> Map<String, Value> {
+pub fn cells(experiment: &Experiment, model: &Model, end: &State, watched: &Watched) -> Map<String, Value> {
     let of = |measure: &Measure| -> Vec<Value> {
         match measure {
             Measure::State => end.bodies.iter().flat_map(end_state).collect(),
@@ -66,36 +67,29 @@ pub fn columns(experiment: &Experiment, model: &Model, end: &State, watched: &Wa
 
 /// Names of those columns, before anything has run.
 pub fn names(experiment: &Experiment) -> Vec<String> {
-    let each_body = |parts: &[(&str, &[&str])]| -> Vec<String> {
-        experiment.scene.bodies.iter().flat_map(|body| names_of(&body.name, parts)).collect()
-    };
-    let of = |measure: &Measure| match measure {
-        Measure::State => each_body(&STATE),
-        Measure::Inertia => each_body(&INERTIA),
-        Measure::ContactMatrix => contact_matrix::NAMES.map(str::to_string).to_vec(),
-        Measure::CriticalStep => critical_step::NAMES.map(str::to_string).to_vec(),
-        Measure::DifferenceQuotients => difference::NAMES.map(str::to_string).to_vec(),
-        // A column of every row.
-        Measure::Sensitivity => Vec::new(),
+    let bodies = &experiment.scene.bodies;
+    // Body by body, as their values come.
+    let of = |measure: &Measure| match headings(*measure) {
+        headings if headings.iter().any(|heading| heading.name.starts_with(EACH_BODY)) => {
+            let of_body = |body: &file::Body| headings.iter().flat_map(|h| h.names_of(&body.name)).collect::<Vec<_>>();
+            bodies.iter().flat_map(of_body).collect()
+        }
+        headings => columns::names(headings),
     };
     experiment.measure.iter().flat_map(of).collect()
 }
 
-/// Mass properties; the tensor is about the centre of mass, body axes.
-const INERTIA: [(&str, &[&str]); 3] = [
-    ("mass_kg", &[]),
-    ("center_of_mass_m", &["x", "y", "z"]),
-    ("inertia_kg_m2", &["xx", "yy", "zz", "xy", "yz", "zx"]),
-];
-
-fn names_of(body: &str, quantities: &[(&str, &[&str])]) -> Vec<String> {
-    let components = |(quantity, parts): &(&str, &[&str])| {
-        if parts.is_empty() {
-            return vec![format!("{body}.{quantity}")];
-        }
-        parts.iter().map(|part| format!("{body}.{quantity}.{part}")).collect::<Vec<_>>()
-    };
-    quantities.iter().flat_map(components).collect()
+/// The columns that a word of `measure:` adds.
+pub fn headings(measure: Measure) -> &'static [Heading] {
+    match measure {
+        Measure::State => &columns::STATE,
+        Measure::Inertia => &columns::INERTIA,
+        Measure::ContactMatrix => &columns::CONTACT_MATRIX,
+        Measure::CriticalStep => &columns::CRITICAL_STEP,
+        Measure::DifferenceQuotients => &columns::DIFFERENCE_QUOTIENTS,
+        // A column of every row.
+        Measure::Sensitivity => &[],
+    }
 }
 
 /// Position of the centre of mass, attitude body → world, velocities in the world frame.

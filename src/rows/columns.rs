@@ -1,9 +1,100 @@
-//! Columns of a row: their names.
+//! The one list of columns: tables, `check`, `gotai list columns` and docs/columns.md are made from it. Those of every
+//! row are the fields of `Row`, `Measured` and `Work`; here are those that only some experiments have.
 
-/// The vectors of a state and their components.
-pub const STATE: [(&str, &[&str]); 4] = [
-    ("position_m", &["x", "y", "z"]),
-    ("orientation_xyzw", &["x", "y", "z", "w"]),
-    ("velocity_m_s", &["x", "y", "z"]),
-    ("angular_velocity_rad_s", &["x", "y", "z"]),
+use super::Row;
+use crate::heading::{CellKind, Heading, Headings};
+
+/// Columns of every row, axes left out.
+pub fn of_every_row() -> Vec<Heading> {
+    Row::headings()
+}
+
+/// The columns that a search adds. Those of every row are of its run at `search_low`.
+pub const SEARCH: [Heading; 4] = [
+    number("search_low", "Lower end of the bracket, in the unit of the key. Null where the verdict is `below`."),
+    number("search_high", "Upper end of the bracket, in the unit of the key. Null where the verdict is `above`."),
+    count("search_runs", "Number of runs that the search took."),
+    text(
+        "search_verdict",
+        "`found`, or, where both ends of `between` are of one kind, the side on which the critical value is: `below` or `above`.",
+    ),
 ];
+
+/// `measure: [state]`.
+pub const STATE: [Heading; 4] = [
+    number("<body>.position_m", "Position of the body's centre of mass at the end, world frame.").with_parts(&XYZ),
+    number("<body>.orientation_xyzw", "Attitude at the end, body to world, as a unit quaternion.")
+        .with_parts(&["x", "y", "z", "w"]),
+    number("<body>.velocity_m_s", "Velocity of the centre of mass at the end, world frame.").with_parts(&XYZ),
+    number("<body>.angular_velocity_rad_s", "Angular velocity at the end, world frame.").with_parts(&XYZ),
+];
+
+/// `measure: [inertia]`: as the run used them.
+pub const INERTIA: [Heading; 3] = [
+    number("<body>.mass_kg", "Mass of the body."),
+    number("<body>.center_of_mass_m", "Centre of mass in the body frame.").with_parts(&XYZ),
+    number(
+        "<body>.inertia_kg_m2",
+        "Inertia about the centre of mass, body axes. Null for a point without `inertia_kg_m2`.",
+    )
+    .with_parts(&["xx", "yy", "zz", "xy", "yz", "zx"]),
+];
+
+/// `measure: [contact-matrix]`: of A = J M⁻¹ Jᵀ in the first step with the most contacts.
+pub const CONTACT_MATRIX: [Heading; 3] = [
+    count(
+        "contact_matrix_contacts",
+        "Number of contacts in the first step with the most of them. Null if nothing touched.",
+    ),
+    count("contact_matrix_rank", "Rank of A = J M⁻¹ Jᵀ in that step."),
+    number(
+        "jacobi_radius",
+        "Spectral radius of E − D⁻¹A in that step, D the diagonal of A: the factor by which a sweep of Jacobi's \
+         iteration makes an error grow.",
+    ),
+];
+
+/// `measure: [critical-step]`: of the first contact.
+pub const CRITICAL_STEP: [Heading; 2] = [
+    number(
+        "normal_lambda_max_1_kg",
+        "Largest eigenvalue of Jn M⁻¹ Jnᵀ in the first step in which a node is inside. Null if nothing touched.",
+    ),
+    number(
+        "critical_step_s",
+        "Longest stable step of `penalty` in that state, by linear theory. Null for other methods.",
+    ),
+];
+
+/// `measure: [difference-quotients]`.
+pub const DIFFERENCE_QUOTIENTS: [Heading; 3] = [
+    number("difference_forward_m_s", "Largest difference of the forward quotient of positions from the velocity."),
+    number("difference_backward_m_s", "The same of the backward quotient."),
+    number("difference_central_m_s", "The same of the central quotient. Null after a single step."),
+];
+
+const XYZ: [&str; 3] = ["x", "y", "z"];
+
+const fn number(name: &'static str, meaning: &'static str) -> Heading {
+    Heading::new(name, CellKind::Number, meaning)
+}
+
+const fn count(name: &'static str, meaning: &'static str) -> Heading {
+    Heading::new(name, CellKind::Count, meaning)
+}
+
+const fn text(name: &'static str, meaning: &'static str) -> Heading {
+    Heading::new(name, CellKind::Text, meaning)
+}
+
+/// Names of the columns under these headings, `<body>` as it stands.
+pub fn names(headings: &[Heading]) -> Vec<String> {
+    headings.iter().flat_map(Heading::names).collect()
+}
+
+/// What a column of every row, or of a search's, holds. Axes, and columns that `measure:` adds, are not among them:
+/// their kind is that of their values.
+pub fn kind(name: &str) -> Option<CellKind> {
+    let known = of_every_row().into_iter().chain(SEARCH);
+    known.into_iter().find(|heading| heading.name == name).map(|heading| heading.kind)
+}

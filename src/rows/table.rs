@@ -1,7 +1,8 @@
 //! Rows as a table: CSV for spreadsheets, Parquet for everything columnar. Null is an empty cell.
 
 use super::plan_file::PlanAxis;
-use super::{Measured, Row, cells};
+use super::{Row, cells, columns};
+use crate::heading::CellKind;
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, ZstdLevel};
@@ -10,41 +11,30 @@ use parquet::file::properties::WriterProperties;
 use serde_json::{Map, Value};
 use std::sync::Arc;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Text,
-    Integer,
-    Number,
-}
-
 /// Columns by name, and every row's cells in their order.
 pub struct Table {
-    columns: Vec<(String, Kind)>,
+    columns: Vec<(String, CellKind)>,
     rows: Vec<Map<String, Value>>,
 }
 
 impl Table {
-    /// Columns are there even if there is no row.
+    /// Columns are there even if there is no row: those of every row in their order, axes and what only some
+    /// experiments have at their places in it.
     pub fn new(axes: &[PlanAxis], rows: &[Row]) -> Self {
-        let mut columns = vec![("case".to_string(), Kind::Text)];
-        columns.extend(axes.iter().map(|axis| (axis.path.clone(), kind_of(&axis.values))));
-        columns.extend(cells(&Measured::nothing()).into_iter().map(|(name, value)| {
-            let kind = match name.as_str() {
-                "outcome" | "criterion" | "method_used" => Kind::Text,
-                _ if value.is_u64() => Kind::Integer,
-                _ => Kind::Number,
-            };
-            (name, kind)
-        }));
-        let rows: Vec<_> = rows.iter().map(|row| (cells(row), &row.measured.more)).collect();
-        for name in rows.iter().flat_map(|(_, more)| more.keys()) {
-            if !columns.iter().any(|(known, _)| known == name) {
-                let values: Vec<_> = rows.iter().filter_map(|(_, more)| more.get(name)).cloned().collect();
-                columns.push((name.clone(), kind_of(&values)));
-            }
-        }
-        columns.push(("build".to_string(), Kind::Text));
-        Table { columns, rows: rows.into_iter().map(|(row, _)| row).collect() }
+        let mut blank = Row::default();
+        blank.axes.extend(axes.iter().map(|axis| (axis.path.clone(), Value::Null)));
+        let more = rows.iter().flat_map(|row| row.measured.more.keys());
+        blank.measured.more.extend(more.map(|name| (name.clone(), Value::Null)));
+        let listed = columns::of_every_row();
+        let kind = |name: &str| {
+            let values = |axis: &PlanAxis| kind_of(axis.values.iter());
+            let axis = axes.iter().find(|axis| axis.path == name).map(values);
+            let own = || listed.iter().find(|heading| heading.name == name).map(|heading| heading.kind);
+            axis.or_else(own).unwrap_or_else(|| kind_of(rows.iter().filter_map(|row| row.measured.more.get(name))))
+        };
+        let columns = cells(&blank).into_iter().map(|(name, _)| (kind(&name), name));
+        let columns = columns.map(|(kind, name)| (name, kind)).collect();
+        Table { columns, rows: rows.iter().map(cells).collect() }
     }
 
     pub fn to_csv(&self) -> Result<Vec<u8>, csv::Error> {
@@ -68,25 +58,25 @@ impl Table {
         Ok(file)
     }
 
-    fn column(&self, name: &str, kind: Kind) -> ArrayRef {
+    fn column(&self, name: &str, kind: CellKind) -> ArrayRef {
         let cells = self.rows.iter().map(|row| row.get(name));
         match kind {
-            Kind::Text => Arc::new(cells.map(text).collect::<StringArray>()),
-            Kind::Integer => Arc::new(cells.map(|cell| cell.and_then(Value::as_i64)).collect::<Int64Array>()),
-            Kind::Number => Arc::new(cells.map(|cell| cell.and_then(Value::as_f64)).collect::<Float64Array>()),
+            CellKind::Text => Arc::new(cells.map(text).collect::<StringArray>()),
+            CellKind::Count => Arc::new(cells.map(|cell| cell.and_then(Value::as_i64)).collect::<Int64Array>()),
+            CellKind::Number => Arc::new(cells.map(|cell| cell.and_then(Value::as_f64)).collect::<Float64Array>()),
         }
     }
 }
 
 /// A column of integers or numbers if all its values are; null is either.
-fn kind_of(values: &[Value]) -> Kind {
-    let all = |is: fn(&Value) -> bool| values.iter().all(|value| value.is_null() || is(value));
+fn kind_of<'a>(values: impl Iterator<Item = &'a Value> + Clone) -> CellKind {
+    let all = |is: fn(&Value) -> bool| values.clone().all(|value| value.is_null() || is(value));
     if all(Value::is_i64) {
-        Kind::Integer
+        CellKind::Count
     } else if all(Value::is_number) {
-        Kind::Number
+        CellKind::Number
     } else {
-        Kind::Text
+        CellKind::Text
     }
 }
 

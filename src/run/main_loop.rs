@@ -108,7 +108,7 @@ pub fn run(
             measured.reference_uncertainty_m = finite(met.uncertainty_m);
         }
     }
-    measured.more = more::columns(experiment, model, &state, &judge.watched);
+    measured.more = more::cells(experiment, model, &state, &judge.watched);
     if let Some(sampler) = &mut sampler {
         sampler.end(&state, &measured);
     }
@@ -155,7 +155,7 @@ fn summarize(
     stepping: Duration,
 ) -> Measured {
     let penetration_end_m = judge.penetration_end_m(model, state);
-    let mut measured = Measured {
+    Measured {
         outcome: stopped.map_or(Outcome::Finished, |(outcome, _)| outcome),
         criterion: stopped.map(|(_, criterion)| criterion.name().to_string()),
         end_time_s: finite(state.time_s),
@@ -173,9 +173,8 @@ fn summarize(
         residual_max: judge.residual.max.and_then(finite),
         contact_gain_max: judge.energy.contact_gain_max.and_then(finite),
         contacts_max: judge.contacts_max,
+        work: *stepper.work(),
         wall_s: finite(stepping.as_secs_f64()),
-        ..Measured::nothing()
-    };
-    measured.count_work(stepper.work());
-    measured
+        ..Measured::default()
+    }
 }

@@ -9,14 +9,12 @@ use crate::experiment::types::Experiment;
 use crate::experiment::{ExperimentError, ExperimentFile};
 use crate::outcome::Outcome;
 use crate::rows::Measured;
+use crate::rows::columns::{self, SEARCH};
 use crate::study::{self, reference};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
-
-/// Columns of a search's row, beside those of its run at `search_low`.
-pub const COLUMNS: [&str; 4] = ["search_low", "search_high", "search_runs", "search_verdict"];
 
 /// One cell of the other axes.
 #[derive(Clone, Debug)]
@@ -86,7 +84,7 @@ impl Cell {
         let holds = runs.iter().filter(|measured| is_true(&self.search.until, measured)).count();
         let wall_s = runs.iter().filter_map(|measured| measured.wall_s).sum();
         let reached = holds as f64 >= self.search.fraction * runs.len() as f64;
-        let mut measured = runs.into_iter().next().unwrap_or_else(Measured::nothing);
+        let mut measured = runs.into_iter().next().unwrap_or_default();
         measured.wall_s = Some(wall_s);
         Ok(Trial { value: value.clone(), reached, measured })
     }
@@ -111,7 +109,7 @@ impl Cell {
     fn row(&self, mut row: Measured, ends: [Value; 2], tried: usize, wall_s: f64, verdict: &str) -> Measured {
         let [low, high] = ends;
         let found = [low, high, json!(tried * self.members.len()), json!(verdict)];
-        row.more.extend(COLUMNS.map(str::to_string).into_iter().zip(found));
+        row.more.extend(columns::names(&SEARCH).into_iter().zip(found));
         row.wall_s = Some(wall_s);
         row
     }

@@ -185,16 +185,54 @@ fn explain_says_what_runs_and_what_it_costs() {
 }
 
 #[test]
-fn list_names_every_method_and_shape_that_can_be_written() {
-    let names = |what: &str| -> Vec<String> {
-        let lines = json(&["list", what, "--json"]);
-        lines.as_array().unwrap().iter().map(|line| line["name"].as_str().unwrap().to_string()).collect()
+fn lists_are_the_parsers_own() {
+    // From its error message.
+    let known = |set: &str| -> Vec<String> {
+        let said = run(&["run", "configs/lecture/demo.yaml", "--set", set]).2;
+        let (_, words) = said.split_once("expected one of ").unwrap_or_else(|| panic!("{said}"));
+        words.split(", found").next().unwrap().split(", ").map(str::to_string).collect()
     };
-    // The parser's own list, from its error message.
-    let known = |set: &str| run(&["run", "configs/lecture/demo.yaml", "--set", set]).2;
-    let (methods, shapes) = (known("method=nonsense"), known("scene.bodies.cube.shape=nonsense"));
-    assert!(names("methods").iter().all(|name| methods.contains(name.as_str())) && names("methods").len() == 6);
-    assert!(names("shapes").iter().all(|name| shapes.contains(name.as_str())) && names("shapes").len() == 7);
+    for (what, set) in [
+        ("methods", "method=nonsense"),
+        ("shapes", "scene.bodies.cube.shape=nonsense"),
+        ("exact", "exact=nonsense"),
+        ("measures", "measure=[nonsense]"),
+    ] {
+        let lines = json(&["list", what, "--json"]);
+        let names: Vec<&str> = lines.as_array().unwrap().iter().map(|line| line["name"].as_str().unwrap()).collect();
+        assert_eq!(names, known(set), "{what}");
+    }
+}
+
+#[test]
+fn listed_settings_and_defaults_are_those_of_the_method() {
+    let methods = json(&["list", "methods", "--json"]);
+    let setting = |method: &str, name: &str| -> Value {
+        let of =
+            |list: &Value, name: &str| list.as_array().unwrap().iter().find(|l| l["name"] == name).unwrap().clone();
+        of(&of(&methods, method)["settings"], name)
+    };
+    assert_eq!(setting("lecture", "sweeps")["default"]["is"], 50);
+    assert_eq!(setting("lecture", "cone")["default"]["is"], "disc");
+    assert_eq!(setting("lecture", "start")["takes"]["words"].as_array().unwrap().len(), 4);
+    assert_eq!(setting("penalty", "stiffness_n_m")["default"], "needed");
+    assert_eq!(setting("penalty", "slip_speed_m_s")["default"]["is"], 0.01);
+    assert_eq!(setting("time-stepping", "relaxation")["default"]["is"], 1.0);
+    assert_eq!(setting("time-stepping", "sweeps")["default"], "absent");
+}
+
+#[test]
+fn listed_columns_are_those_of_a_table() {
+    let folder = scratch::folder();
+    let out = folder.path().to_str().unwrap();
+    let args = ["sweep", "configs/smoke.yaml", "--out", out, "--record", "none", "--quiet", "--set", "time.end_s=0.01"];
+    assert_eq!(run(&args).0, 0);
+    let rows = std::fs::read_to_string(folder.path().join("rows.csv")).unwrap();
+    let (head, axis) = (rows.lines().next().unwrap(), "method");
+    let lines = json(&["list", "columns", "--json"]);
+    let every = lines.as_array().unwrap().iter().filter(|line| line["of"].is_null());
+    let every: Vec<&str> = every.map(|line| line["name"].as_str().unwrap()).collect();
+    assert_eq!(head.split(',').filter(|name| *name != axis).collect::<Vec<_>>(), every);
 }
 
 #[test]

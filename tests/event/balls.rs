@@ -68,7 +68,7 @@ fn elastic_bodies_keep_their_energy() {
             let (start_j, end_j) = (m.energy_start_j.unwrap(), m.energy_end_j.unwrap());
             // measured: 9.5e-15, after some 900 impacts of the balls and 85 … 121 of the box
             assert!((end_j / start_j - 1.0).abs() < 1e-13, "{what}, {seed}: {start_j} {end_j}");
-            assert!(m.work_events > 60, "{what}, {seed}: {}", m.work_events);
+            assert!(m.work.events > 60, "{what}, {seed}: {}", m.work.events);
         }
     }
 }

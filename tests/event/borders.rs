@@ -60,7 +60,7 @@ fn borders_are_found_to_the_tolerance() {
         let at = |tolerance: &str| run(&experiment(text, &[&format!("method.event-driven.tolerance={tolerance}")]));
         let (rough, fine) = (at("1e-9"), at("1e-12"));
         let apart = apart_m(&rough.state, &fine.state);
-        let (drift, fallbacks) = (fine.measured.energy_drift_rel.unwrap(), fine.measured.work_fallbacks);
+        let (drift, fallbacks) = (fine.measured.energy_drift_rel.unwrap(), fine.measured.work.fallbacks);
         // measured: 8.5e-12 m, a drift of 2.9e-10 (the ball; of the others 1.9e-12 m, 0)
         assert!(apart < 1e-10 && drift.abs() < 1e-9 && fallbacks == 0, "{what}: {apart:e} {drift:e} {fallbacks}");
     }

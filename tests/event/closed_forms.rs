@@ -100,7 +100,7 @@ fn a_ball_is_followed_through_all_its_bounces() {
     let mut worst = [0.0_f64; 2];
     for (k, end_s) in before.chain([1.0, 1.000_001, 1.1, 2.0].map(|part| zeno_s * part)).enumerate() {
         let m = measured(&format!("{}method: event-driven\n", SCENES[2].1), &[&format!("time.end_s={end_s:?}")]);
-        assert_eq!((m.outcome, m.work_fallbacks), (Outcome::Finished, 0));
+        assert_eq!((m.outcome, m.work.fallbacks), (Outcome::Finished, 0));
         worst[0] = worst[0].max(m.error_position_m.unwrap());
         worst[1] = worst[1].max(if k > 50 { m.error_velocity_m_s.unwrap() } else { 0.0 });
     }

@@ -57,6 +57,6 @@ fn what_rattles_comes_to_its_end() {
 #[test]
 fn a_limit_of_events_is_kept() {
     let m = measured(RATTLING, &["scene.restitution=1", "limits.events=30"]);
-    assert_eq!((m.outcome, m.criterion.as_deref(), m.work_events), (Outcome::Stalled, Some("limit"), 31));
+    assert_eq!((m.outcome, m.criterion.as_deref(), m.work.events), (Outcome::Stalled, Some("limit"), 31));
     assert!(m.end_time_s.unwrap() < 3.0);
 }

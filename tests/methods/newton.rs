@@ -32,7 +32,7 @@ fn solve(assembly: Assembly) -> (Gathered, Solved) {
 
 fn is_sound(m: &Measured, what: &str) {
     assert_eq!(m.outcome, Outcome::Finished, "{what}");
-    assert_eq!(m.work_unsolved, 0, "{what}: {:?}", m.residual_max);
+    assert_eq!(m.work.unsolved, 0, "{what}: {:?}", m.residual_max);
     // measured: 1.0
     assert!(m.contact_gain_max.unwrap_or(0.0) <= 1.0 + 1e-12, "{what}: {:?}", m.contact_gain_max);
 }
@@ -78,7 +78,7 @@ fn impacts_of_a_whole_face_are_solved() {
         let m = measured(FACE, &[NEWTON, "scene.friction=1", random, &seed]);
         is_sound(&m, &seed);
         worst = worst.max(m.residual_max.unwrap());
-        steps += m.work_newton_steps;
+        steps += m.work.newton_steps;
     }
     // measured: 9.2e-11, and 3068 linear systems of six unknowns, 1169 of them to share what slips evenly
     assert!(worst <= 1e-10, "{worst}");
@@ -94,7 +94,7 @@ fn a_run_of_the_lectures_cube_is_solved_at_every_step() {
         // measured: 3.9e-11; 850, 7032 (a face of 25 contacts slides long) and 511 systems of six unknowns in some 150
         // solves
         assert!(m.residual_max.unwrap() <= 1e-10, "{:?}", m.residual_max);
-        assert!(m.work_newton_steps < 60 * m.work_contact_solves, "{}", m.work_newton_steps);
+        assert!(m.work.newton_steps < 60 * m.work.contact_solves, "{}", m.work.newton_steps);
     }
 }
 
@@ -268,7 +268,7 @@ fn what_is_not_solved_is_counted_and_gains_nothing() {
         let method = format!("method={{time-stepping: {method}}}");
         let m = measured(FACE, &[&impact[..], &[&method]].concat());
         assert!(m.contact_gain_max.unwrap() <= 1.0 + 1e-12, "{method}: {:?}", m.contact_gain_max);
-        m.work_unsolved
+        m.work.unsolved
     };
     assert_eq!(given_up("{ solver: pgs, sweeps: 1 }"), 1);
     assert_eq!(given_up("{ solver: nncg, sweeps: 1 }"), 1);

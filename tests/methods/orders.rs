@@ -34,7 +34,7 @@ fn at_the_end(integrator: Integrator, more: &[String]) -> (BodyState, u64) {
     let set = format!("method.free.integrator={}", integrator.word());
     let sets: Vec<&str> = [&set].into_iter().chain(more).map(String::as_str).collect();
     let ended = run(&experiment(BAR, &sets));
-    (ended.state.bodies[0], ended.measured.work_gyroscopic)
+    (ended.state.bodies[0], ended.measured.work.gyroscopic)
 }
 
 fn after_steps_of(integrator: Integrator, step_s: f64) -> BodyState {
@@ -216,7 +216,7 @@ fn an_isotropic_body_keeps_its_angular_velocity_and_costs_no_gyroscopic_term() {
         let set = format!("method.free.integrator={}", integrator.word());
         let ended = run(&experiment(BAR, &[&set, "scene.bodies.bar.inertia_kg_m2=[0.3, 0.3, 0.3]"]));
         let change = (ended.state.bodies[0].w_WB - Vector3::new(0.3, 4.0, 0.5)).norm();
-        assert!(change < 1e-13 && ended.measured.work_gyroscopic == 0, "{}: {change:e}", integrator.word());
+        assert!(change < 1e-13 && ended.measured.work.gyroscopic == 0, "{}: {change:e}", integrator.word());
     }
 }
 

@@ -27,7 +27,7 @@ fn stands(masses: [f64; 10], scheme: &str) {
     }
     let ended = run(&experiment);
     let m = &ended.measured;
-    assert_eq!((m.outcome, m.work_unsolved), (Outcome::Finished, 0));
+    assert_eq!((m.outcome, m.work.unsolved), (Outcome::Finished, 0));
     // measured: 1.0e-14 at most
     assert!(m.residual_max.unwrap() < 1e-10, "{masses:?} {scheme}: {:?}", m.residual_max);
     for (i, at) in ended.state.bodies.iter().enumerate() {

@@ -46,17 +46,17 @@ fn equal_moments_need_no_gyroscopic_term() {
 #[test]
 fn a_far_face_is_not_tested() {
     let falling = measured(CUBE_IN_BOX, &["scene.random=null", "time.end_s=0.3"]);
-    assert_eq!((falling.work_contact_tests, falling.contacts_max), (0, 0));
+    assert_eq!((falling.work.contact_tests, falling.contacts_max), (0, 0));
     let landed = measured(CUBE_IN_BOX, &["scene.random=null", "time.end_s=1"]);
     // 27 nodes against the floor alone, in fewer than 100 steps.
-    assert!(landed.work_contact_tests > 0 && landed.work_contact_tests <= 27 * 100);
-    assert!(landed.work_contact_tests.is_multiple_of(27));
+    assert!(landed.work.contact_tests > 0 && landed.work.contact_tests <= 27 * 100);
+    assert!(landed.work.contact_tests.is_multiple_of(27));
 }
 
 #[test]
 fn a_scene_without_container_does_no_contact_work() {
     let m = measured(FREE_BAR, &[]);
-    assert_eq!((m.work_contact_tests, m.work_contacts, m.work_sweeps), (0, 0, 0));
+    assert_eq!((m.work.contact_tests, m.work.contacts, m.work.sweeps), (0, 0, 0));
     assert_eq!(m.penetration_max_m, None);
     let stages = |text: &str, sets: &[&str]| {
         let experiment = experiment(text, sets);

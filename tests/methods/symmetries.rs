@@ -167,7 +167,7 @@ time: {{ step_s: 0.004, end_s: 1.2 }}
     };
     let start = BodyState { p_WB: Vector3::new(0.0, 1.2, 0.0), ..bodies()[0] };
     let there = run(&experiment(&text(&start), &[]));
-    assert!(there.measured.work_contact_solves >= 3, "{}", there.measured.work_contact_solves);
+    assert!(there.measured.work.contact_solves >= 3, "{}", there.measured.work.contact_solves);
     let reversed = |at: &BodyState| BodyState { v_WB: -at.v_WB, w_WB: -at.w_WB, ..*at };
     let back = reversed(&run(&experiment(&text(&reversed(&there.state.bodies[0])), &[])).state.bodies[0]);
     let difference = apart(&[back, back], &[start, start]);

@@ -111,7 +111,7 @@ fn the_error_on_an_unstable_motion_follows_the_tolerance_down_to_rounding() {
         let error = ended.error_orientation_rad.unwrap() / tolerance;
         // measured: 1.70, 1.40, 1.39, 1.71
         assert!((0.1..10.0).contains(&error), "{tolerance:e}: {error}");
-        assert_eq!(ended.work_inner_steps, inner, "{tolerance:e}");
+        assert_eq!(ended.work.inner_steps, inner, "{tolerance:e}");
         // measured: 1.2e-15 and less
         assert!(ended.energy_drift_rel.unwrap().abs() < 1e-14, "{ended:?}");
         assert!(ended.angular_momentum_drift_rel.unwrap() < 1e-14, "{ended:?}");
@@ -153,7 +153,7 @@ fn the_clock_does_not_change_the_series() {
         let difference = apart(&once, &often);
         // measured: 5.6e-17 and less
         assert!(difference < 1e-15, "{name}: {difference:e}");
-        assert_eq!(one.work_inner_steps, many.work_inner_steps, "{name}");
+        assert_eq!(one.work.inner_steps, many.work.inner_steps, "{name}");
         // measured: 2.1e-15
         assert!(many.pin_gap_max_m.is_none_or(|gap| gap < 1e-12), "{name}: {:?}", many.pin_gap_max_m);
     }
@@ -165,7 +165,7 @@ fn a_body_that_nothing_turns_needs_one_series_for_all_times() {
     let ended = run(&experiment(RACKET, &sets));
     // measured: 1.6e-15
     assert!(ended.measured.error_orientation_rad.unwrap() < 1e-13);
-    assert_eq!((ended.measured.work_inner_steps, ended.measured.work_gyroscopic), (1, 0));
+    assert_eq!((ended.measured.work.inner_steps, ended.measured.work.gyroscopic), (1, 0));
 }
 
 #[test]

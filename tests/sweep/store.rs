@@ -98,7 +98,7 @@ fn both_tables_hold_the_rows_in_plan_order() {
 
 #[test]
 fn few_recordings_show_both_outcomes() {
-    let with = |outcome| Measured { outcome, ..Measured::nothing() };
+    let with = |outcome| Measured { outcome, ..Measured::default() };
     let (finished, diverged) = (with(Outcome::Finished), with(Outcome::Diverged));
     let all: Vec<Option<&Measured>> =
         (0..1000).map(|i| Some(if i % 100 == 7 { &diverged } else { &finished })).collect();

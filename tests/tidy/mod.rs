@@ -78,33 +78,3 @@ fn lines_stay_short() {
         }
     }
 }
-
-#[test]
-fn the_readme_names_every_config_method_row_and_folder() {
-    let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
-    for config in files("configs", "yaml") {
-        let name = config.strip_prefix(root()).unwrap().display().to_string();
-        assert!(readme.contains(&name), "README.md lacks {name}");
-    }
-    for row in 1..=25 {
-        assert!(readme.contains(&format!("| L{row} |")), "README.md's lecture map lacks L{row}");
-    }
-    for folder in [
-        "cli",
-        "experiment",
-        "sweep",
-        "model",
-        "step",
-        "integrate",
-        "collide",
-        "solve",
-        "exact",
-        "measure",
-        "record",
-        "check",
-        "bench",
-        "report",
-    ] {
-        assert!(root().join("src").join(folder).is_dir() && readme.contains(&format!("{folder}/")), "{folder}");
-    }
-}

@@ -1,0 +1,178 @@
+//! Headings of a table's columns. `columns!` makes them from the lines that declare a row's fields, so that a column
+//! stands in one place.
+
+use serde::{Serialize, Serializer};
+use serde_json::{Map, Value};
+
+/// What the cells of a column hold; any of them may be null.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CellKind {
+    Text,
+    /// A whole number.
+    Count,
+    Number,
+}
+
+impl CellKind {
+    pub fn word(self) -> &'static str {
+        match self {
+            CellKind::Text => "text",
+            CellKind::Count => "count",
+            CellKind::Number => "number",
+        }
+    }
+}
+
+/// One column, or the columns of a vector's components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heading {
+    /// Its name; `<body>.` at the start stands for each body's name.
+    pub name: &'static str,
+    /// Names of the components, each a column `name.part`; none: the name is the column.
+    pub parts: &'static [&'static str],
+    pub kind: CellKind,
+    /// What the number is, in whole sentences.
+    pub meaning: &'static str,
+}
+
+/// What a name that belongs to each body begins with.
+pub const EACH_BODY: &str = "<body>";
+
+impl Heading {
+    /// `meaning` as a doc comment has it: with a space before every line.
+    pub const fn new(name: &'static str, kind: CellKind, meaning: &'static str) -> Self {
+        Heading { name, parts: &[], kind, meaning: meaning.trim_ascii() }
+    }
+
+    pub const fn with_parts(self, parts: &'static [&'static str]) -> Self {
+        Heading { parts, ..self }
+    }
+
+    /// Names of its columns as they stand here; the name itself, if it has no parts.
+    pub fn names(&self) -> Vec<String> {
+        match self.parts {
+            [] => vec![self.name.to_string()],
+            parts => parts.iter().map(|part| format!("{}.{part}", self.name)).collect(),
+        }
+    }
+
+    /// Names of its columns for one body.
+    pub fn names_of(&self, body: &str) -> Vec<String> {
+        self.names().iter().map(|name| name.replacen(EACH_BODY, body, 1)).collect()
+    }
+
+    /// Whether a body's column, or vector, stands under this heading.
+    pub fn is_of_a_body(&self, name: &str) -> bool {
+        self.name.strip_prefix(EACH_BODY).is_some_and(|own| name.ends_with(own))
+    }
+
+    /// The unit that its name ends with; empty for texts, counts and ratios.
+    pub fn unit(&self) -> &'static str {
+        let unit = UNITS.iter().find(|(ending, _)| self.name.ends_with(ending));
+        unit.map_or("", |(_, unit)| unit)
+    }
+}
+
+/// What stands last in a name, the longer before its own ending.
+const UNITS: [(&str, &str); 9] = [
+    ("_rad_s", "rad/s"),
+    ("_m_s", "m/s"),
+    ("_kg_m2", "kg m²"),
+    ("_1_kg", "1/kg"),
+    ("_kg", "kg"),
+    ("_rad", "rad"),
+    ("_m", "m"),
+    ("_s", "s"),
+    ("_j", "J"),
+];
+
+/// As lists show it, the unit written out.
+impl Serialize for Heading {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Shown<'a> {
+            name: &'a str,
+            parts: &'a [&'a str],
+            kind: CellKind,
+            unit: &'a str,
+            meaning: &'a str,
+        }
+        let Heading { name, parts, kind, meaning } = *self;
+        Shown { name, parts, kind, unit: self.unit(), meaning }.serialize(serializer)
+    }
+}
+
+/// A type of a field that is one cell.
+pub trait InCell {
+    const KIND: CellKind;
+}
+
+impl InCell for String {
+    const KIND: CellKind = CellKind::Text;
+}
+
+impl InCell for u64 {
+    const KIND: CellKind = CellKind::Count;
+}
+
+impl InCell for f64 {
+    const KIND: CellKind = CellKind::Number;
+}
+
+impl<T: InCell> InCell for Option<T> {
+    const KIND: CellKind = T::KIND;
+}
+
+/// A row, or a part of one.
+pub trait Headings {
+    /// In the order in which serde writes the fields.
+    fn headings() -> Vec<Heading>;
+}
+
+/// Columns whose names are known only when an experiment is there.
+impl Headings for Map<String, Value> {
+    fn headings() -> Vec<Heading> {
+        Vec::new()
+    }
+}
+
+/// Declares a struct whose fields are the columns of a table, and lists them: a field's doc comment is the column's
+/// meaning, its type the kind, `#[serde(rename)]` another name for it; a field with `#[serde(flatten)]` has columns of
+/// its own.
+macro_rules! columns {
+    (
+        $(#[$on_struct:meta])*
+        pub struct $row:ident {
+            $($(#[doc = $meaning:literal])+ $(#[serde($($how:tt)+)])? pub $field:ident: $type:ty,)+
+        }
+    ) => {
+        $(#[$on_struct])*
+        pub struct $row {
+            $($(#[doc = $meaning])+ $(#[serde($($how)+)])? pub $field: $type,)+
+        }
+
+        impl $crate::heading::Headings for $row {
+            fn headings() -> Vec<$crate::heading::Heading> {
+                let mut headings = Vec::new();
+                $($crate::heading::columns!(
+                    @add headings, $field, $type, concat!($($meaning),+), [$($($how)+)?]
+                );)+
+                headings
+            }
+        }
+    };
+    (@add $headings:ident, $field:ident, $type:ty, $meaning:expr, [flatten]) => {
+        $headings.extend(<$type as $crate::heading::Headings>::headings());
+    };
+    (@add $headings:ident, $field:ident, $type:ty, $meaning:expr, [rename = $name:literal]) => {
+        $crate::heading::columns!(@one $headings, $name, $type, $meaning);
+    };
+    (@add $headings:ident, $field:ident, $type:ty, $meaning:expr, []) => {
+        $crate::heading::columns!(@one $headings, stringify!($field), $type, $meaning);
+    };
+    (@one $headings:ident, $name:expr, $type:ty, $meaning:expr) => {
+        $headings.push($crate::heading::Heading::new($name, <$type as $crate::heading::InCell>::KIND, $meaning));
+    };
+}
+pub(crate) use columns;

@@ -1,0 +1,114 @@
+//! What a run measures: the columns of every row, one line each.
+
+use crate::heading::{CellKind, InCell, columns};
+use crate::outcome::Outcome;
+use crate::work::Work;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+columns! {
+    /// What a run measures, whatever sweep it belongs to. Fields are columns, in this order; a number that means
+    /// nothing here is null. What the relative ones are relative to: docs/numbers.md.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Measured {
+        /// How the run ended: `finished`, `diverged`, `stalled` or `failed`. Divergence is a result, a failure is a
+        /// fault of the program.
+        pub outcome: Outcome,
+        /// What stopped the run: `not-finite`, `energy`, `escape`, `speed` or `penetration` (diverged),
+        /// `not-converged`, `painleve` or `limit` (stalled), or a panic's message (failed). Null when it has finished.
+        pub criterion: Option<String>,
+        /// Time that was reached.
+        pub end_time_s: Option<f64>,
+        /// Number of steps that were made; of a method that follows events, of stretches.
+        pub steps: u64,
+        /// Length of the steps; of a method that makes its own, their mean.
+        pub step_used_s: Option<f64>,
+        /// Method that `auto` has chosen; null for other methods.
+        pub method_used: Option<String>,
+        /// Tolerance that `auto` has chosen for it, in metres; null where the chosen method takes a step.
+        pub tolerance_used: Option<f64>,
+        /// Kinetic and potential energy at the start, of all bodies that are not driven. The potential is zero at the
+        /// container's lowest point, else at the lowest start.
+        pub energy_start_j: Option<f64>,
+        /// Kinetic and potential energy at the end.
+        pub energy_end_j: Option<f64>,
+        /// Energy that appeared (+) or went missing (−) without a reason, of the energy scale: end − start − work of
+        /// applied forces and air + what contacts took.
+        pub energy_drift_rel: Option<f64>,
+        /// Largest rise of the energy over an earlier value, less the work between the two, of the energy scale.
+        pub energy_rise_max_rel: Option<f64>,
+        /// Change of linear momentum that gravity, applied forces and the contacts' impulses do not explain, of the
+        /// largest Σ m|v|. Null where a pin holds a body to the world.
+        pub linear_momentum_drift_rel: Option<f64>,
+        /// The same of angular momentum, about the centre of mass of all bodies, of the largest Σ(|Iω| + |r × mv|).
+        /// Where a pin holds a body to the world, it is about the pin along gravity.
+        pub angular_momentum_drift_rel: Option<f64>,
+        /// Depth of the deepest contact of the run. Null where the method never looks for contacts.
+        pub penetration_max_m: Option<f64>,
+        /// Depth of the deepest contact at the end.
+        pub penetration_end_m: Option<f64>,
+        /// Largest distance between the two points that a pin holds together. Null without pins.
+        pub pin_gap_max_m: Option<f64>,
+        /// Distance of the worst contact of the worst step from Signorini's and Coulomb's law, relative to the largest
+        /// impulse of its island. Rounding gives 1e-16 to 1e-13, a wrong impulse O(1). Null for `free` and `penalty`,
+        /// and where nothing has touched.
+        pub residual_max: Option<f64>,
+        /// Largest kinetic energy after one contact solve over that before it. Above 1 contacts have made energy.
+        pub contact_gain_max: Option<f64>,
+        /// Error of position, against the closed form that `exact:` names, at the end, or against the states of
+        /// `reference:`, at the last of their times that the run has met; the largest over all bodies. Null without
+        /// either.
+        pub error_position_m: Option<f64>,
+        /// Error of attitude, as an angle, at the same time.
+        pub error_orientation_rad: Option<f64>,
+        /// Error of the velocity of the centre of mass, at the same time.
+        pub error_velocity_m_s: Option<f64>,
+        /// Error of the angular velocity, at the same time.
+        pub error_angular_velocity_rad_s: Option<f64>,
+        /// Time that the errors are of.
+        pub error_time_s: Option<f64>,
+        /// Estimate of the error of positions at the end, by what `auto` has seen of two runs. Null for other methods.
+        pub error_estimate_m: Option<f64>,
+        /// Distance between the two runs of the reference at `error_time_s`.
+        pub reference_uncertainty_m: Option<f64>,
+        /// Last time of the reference at which its two runs agree.
+        pub reference_until_s: Option<f64>,
+        /// Factor by which an error of the start has grown at the end, from three twin runs that start displaced a
+        /// little. A body in free flight has 2. Always measured for methods that follow events, for others if
+        /// `measure:` asks for it.
+        pub sensitivity: Option<f64>,
+        /// Largest number of contacts in a step.
+        pub contacts_max: u64,
+        /// Counters of work.
+        #[serde(flatten)]
+        pub work: Work,
+        /// Time that the steps took on this machine, without the judges; of a search, those of all its runs.
+        pub wall_s: Option<f64>,
+        /// Time that `auto` took to choose, on this machine.
+        pub wall_search_s: Option<f64>,
+        /// Columns that only some experiments have: `columns::SEARCH`, and what `measure:` asks for.
+        #[serde(flatten)]
+        pub more: Map<String, Value>,
+    }
+}
+
+impl InCell for Outcome {
+    const KIND: CellKind = CellKind::Text;
+}
+
+impl Measured {
+    /// A case that panicked, with its message.
+    pub fn failed(message: String) -> Self {
+        Measured { outcome: Outcome::Failed, criterion: Some(message), ..Measured::default() }
+    }
+
+    /// The same but for the time it took: what two runs of one case must agree in.
+    pub fn without_wall_time(&self) -> Self {
+        Measured { wall_s: None, wall_search_s: None, ..self.clone() }
+    }
+}
+
+/// A number that JSON can hold.
+pub fn finite(x: f64) -> Option<f64> {
+    x.is_finite().then_some(x)
+}

@@ -9,18 +9,19 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("math", &[]),
     ("state", &[]),
     ("outcome", &[]),
-    ("work", &[]),
+    ("heading", &[]),
+    ("work", &["heading"]),
     ("files", &[]),
     ("build_info", &[]),
     ("panics", &[]),
     ("clock", &["state"]),
     ("shape", &["math"]),
-    ("rows", &["math", "outcome", "work"]),
+    ("rows", &["math", "heading", "outcome", "work"]),
     ("experiment", &["shape", "clock", "outcome"]),
     ("report", &["rows"]),
     ("model", &["experiment", "shape", "state"]),
     ("case", &["experiment"]),
-    ("check", &["experiment", "rows", "outcome", "math"]),
+    ("check", &["experiment", "rows", "heading", "outcome", "math"]),
     ("collide", &["model", "shape", "state", "work"]),
     ("integrate", &["model", "experiment", "math", "state", "work"]),
     ("plan", &["experiment", "model", "collide"]),
@@ -30,10 +31,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("solve", &["experiment", "model", "collide", "math", "state", "work"]),
     ("event", &["exact", "solve", "integrate", "collide", "model", "shape", "experiment", "math", "state", "work"]),
     // The judges know no method: neither what steps, nor what solves, nor a closed form.
-    (
-        "measure",
-        &["math", "shape", "work", "plan", "shown", "collide", "model", "experiment", "rows", "outcome", "state"],
-    ),
+    ("measure", &["plan", "shown", "collide", "model", "experiment", "rows", "heading", "outcome", "state"]),
     (
         "record",
         &[
@@ -101,7 +99,6 @@ const ROOMS: &[(&str, &[&str])] = &[
             "experiment",
             "case",
             "rows",
-            "outcome",
             "work",
             "state",
             "clock",
@@ -150,6 +147,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
+            "heading",
             "bench",
             "sweep",
             "study",

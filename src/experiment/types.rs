@@ -10,6 +10,7 @@ pub use super::limits::{Limits, ReferenceRun};
 pub use super::loads::*;
 pub use super::method::*;
 use crate::clock::Clock;
+use crate::shape::mesh::box_counts;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -106,6 +107,13 @@ pub struct ContainerBox {
     pub size_m: [f64; 3],
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_m: Option<[f64; 3]>,
+}
+
+impl ContainerBox {
+    /// Its middle, given or by default.
+    pub fn center(&self) -> [f64; 3] {
+        self.center_m.unwrap_or([0.0, self.size_m[1] / 2.0, 0.0])
+    }
 }
 
 /// A half-space: n·x ≥ offset is free.
@@ -281,6 +289,16 @@ pub struct MeshSpec {
 pub enum NodesPerEdge {
     Shortest(u32),
     Each([u32; 3]),
+}
+
+impl NodesPerEdge {
+    /// Along each edge of a box. With one count, the cells are as near to cubes as whole numbers allow.
+    pub fn counts(&self, size_m: [f64; 3]) -> [u32; 3] {
+        match self {
+            NodesPerEdge::Shortest(n) => box_counts(size_m, *n),
+            NodesPerEdge::Each(counts) => *counts,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

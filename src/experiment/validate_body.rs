@@ -109,24 +109,12 @@ fn validate_nodes(shape: &BoxShape, count: &NodesPerEdge, at: Path) -> Result<()
     if let Some(few) = counts.iter().find(|n| **n < 2) {
         return Err(unexpected(at, "at least 2 nodes along an edge", &few.to_string()));
     }
-    let nodes = node_count(shape, count);
+    let nodes: f64 = count.counts(shape.size_m).map(f64::from).iter().product();
     if nodes > MOST_NODES {
         let found = format!("{} nodes", number(nodes.round()));
         return Err(unexpected(at, &format!("a mesh of at most {MOST_NODES:e} nodes"), &found));
     }
     Ok(())
-}
-
-/// Of the whole mesh; with one count, the cells are as near to cubes as whole numbers allow.
-fn node_count(shape: &BoxShape, count: &NodesPerEdge) -> f64 {
-    match count {
-        NodesPerEdge::Each(counts) => counts.iter().map(|n| f64::from(*n)).product(),
-        NodesPerEdge::Shortest(n) => {
-            let shortest = shape.size_m.iter().fold(f64::INFINITY, |min, size| min.min(*size));
-            let cells = f64::from(*n - 1);
-            shape.size_m.iter().map(|size| (size / shortest * cells).round() + 1.0).product()
-        }
-    }
 }
 
 fn validate_mass(body: &Body, at: Path) -> Result<()> {

@@ -2,9 +2,9 @@
 //! Ordinary Differential Equations I, II.5 and II.10): as many steps inside one of the clock as the tolerance asks for.
 //! A parabola is exact.
 
+use super::chain::Chain;
 use super::dop853_tableau::{A, B, B3, E5};
 use super::field::{Field, advanced, sum};
-use super::island::Chain;
 use super::phase::{Phase, phase, state};
 use crate::model::Model;
 use crate::work::Work;

@@ -1,8 +1,8 @@
 //! The lecture's two Euler methods (L5), order 1: the slide's formula moves with the old velocity (explicit), its C
 //! program with the new one (semi-implicit). Rotation in body axes, with the gyroscopic term.
 
+use super::chain::Chain;
 use super::drive::Drive;
-use super::island::Chain;
 use super::rotation::{exponential, gyroscopic_torque_B};
 use crate::experiment::types::Update;
 use crate::model::{Body, Model};

@@ -1,7 +1,7 @@
 //! The equations of motion of an island as ẏ = f(t, y), for the methods that know nothing of rotations.
 
+use super::chain::Chain;
 use super::drive::Drive;
-use super::island::Chain;
 use super::phase::{Phase, rate, state};
 use crate::model::Model;
 use crate::work::Work;

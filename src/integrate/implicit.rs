@@ -1,8 +1,8 @@
 //! What the implicit methods share: their step depends on a drive that the step itself leads to. That drive is the
 //! unknown; where it never changes (nothing but gravity) there is nothing to solve.
 
+use super::chain::Chain;
 use super::drive::Drive;
-use super::island::Chain;
 use crate::math::broyden::Broyden;
 use crate::model::{Body, Model};
 use crate::state::BodyState;

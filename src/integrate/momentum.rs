@@ -4,8 +4,8 @@
 //! A turn's unknown is the rotation of one step, c = n tan(θ/2) (Cayley's or Rodrigues' vector); the momentum L is a
 //! constant of the world, so that only the attitude can err.
 
+use super::chain::Chain;
 use super::drive::Drive;
-use super::island::Chain;
 use super::phase::fall;
 use super::rotation::exponential;
 use crate::math::newton;

@@ -1,8 +1,8 @@
 //! The classical Runge–Kutta method, order 4 (Kutta 1901), on position, velocity, angular velocity in body axes and
 //! quaternion; the quaternion is made a unit one after the step. A parabola is exact.
 
+use super::chain::Chain;
 use super::field::{Field, advanced};
-use super::island::Chain;
 use super::phase::{Phase, phase, state};
 use crate::model::Model;
 use crate::work::Work;

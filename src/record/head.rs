@@ -66,7 +66,7 @@ fn container_strips(container: Option<&Container>, model: &Model) -> Vec<Vec<[f6
 /// Floor and ceiling, then the four uprights.
 fn box_strips(container: &ContainerBox) -> Vec<Vec<[f64; 3]>> {
     let [x, y, z] = container.size_m.map(|edge| edge / 2.0);
-    let c = container.center_m.unwrap_or([0.0, y, 0.0]);
+    let c = container.center();
     let corner = |sx: f64, sy: f64, sz: f64| [c[0] + sx * x, c[1] + sy * y, c[2] + sz * z];
     let around = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let level = |sy: f64| around.iter().chain(&around[..1]).map(|(sx, sz)| corner(*sx, sy, *sz)).collect();

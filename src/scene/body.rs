@@ -8,7 +8,7 @@ use crate::model::surface::Surface;
 use crate::model::{Body, Geometry};
 use crate::shape::area::surface_m2;
 use crate::shape::hull::Hull;
-use crate::shape::mesh::{TetMesh, box_counts, box_mesh, sphere_mesh};
+use crate::shape::mesh::{TetMesh, box_mesh, sphere_mesh};
 use crate::shape::moments::{MassProperties, Moments, exact, lumped};
 use crate::shape::solid::Solid;
 use nalgebra::{Matrix3, Vector3};
@@ -66,10 +66,7 @@ fn build_solid(described: &file::Body) -> Result<Option<Solid>, BuildError> {
 
 fn volume_mesh(shape: &file::Shape, spec: &file::MeshSpec) -> Option<TetMesh> {
     match shape {
-        file::Shape::Box(b) => spec.nodes_per_edge.map(|nodes| match nodes {
-            file::NodesPerEdge::Shortest(n) => box_mesh(b.size_m, box_counts(b.size_m, n)),
-            file::NodesPerEdge::Each(counts) => box_mesh(b.size_m, counts),
-        }),
+        file::Shape::Box(b) => spec.nodes_per_edge.map(|nodes| box_mesh(b.size_m, nodes.counts(b.size_m))),
         file::Shape::Sphere(s) => spec.subdivisions.map(|k| sphere_mesh(s.radius_m, k)),
         _ => None,
     }

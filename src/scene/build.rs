@@ -62,7 +62,7 @@ fn build_container(container: &file::Container) -> Container {
         Face { normal: normal / normal.norm(), offset_m: plane.offset_m }
     };
     match container {
-        file::Container::Box(b) => Container::new_box(b.size_m, b.center_m.unwrap_or([0.0, b.size_m[1] / 2.0, 0.0])),
+        file::Container::Box(b) => Container::new_box(b.size_m, b.center()),
         file::Container::Plane(plane) => Container { faces: vec![face(plane)] },
         file::Container::Planes(planes) => Container { faces: planes.iter().map(face).collect() },
     }

@@ -60,7 +60,7 @@ fn sorted(mut face: [u32; 3]) -> [u32; 3] {
 /// Nodes along each edge so that the cells are near-cubic and the shortest edge has `n` of them.
 pub fn box_counts(size_m: [f64; 3], n: u32) -> [u32; 3] {
     let cell = size_m.into_iter().fold(f64::INFINITY, f64::min) / f64::from(n - 1);
-    size_m.map(|edge| (edge / cell).round() as u32 + 1)
+    size_m.map(|edge| ((edge / cell).round() as u32).saturating_add(1))
 }
 
 /// A box of the given edge lengths with `counts` nodes along its edges; six tets a cell around its main diagonal

@@ -3,6 +3,7 @@
 mod axes;
 mod bad;
 mod good;
+mod ids;
 mod sets;
 
 use gotai::experiment::types::Experiment;

@@ -78,3 +78,19 @@ fn lines_stay_short() {
         }
     }
 }
+
+/// Folders of experiments are found by `.ci/run` itself; whole maps wait for `.ci/full`.
+#[test]
+fn every_folder_of_experiments_is_checked() {
+    let read = |script: &str| std::fs::read_to_string(root().join(script)).unwrap();
+    assert!(read(".ci/run").contains("find configs -mindepth 1 -maxdepth 1 -type d ! -name '*-full'"));
+    assert!(read(".ci/full").contains("for folder in configs/*-full"));
+    for entry in std::fs::read_dir(root().join("configs")).unwrap() {
+        let folder = entry.unwrap().path();
+        let expects = |file: &PathBuf| std::fs::read_to_string(file).unwrap().contains("\nexpect:");
+        if folder.is_dir() {
+            let files = files(folder.strip_prefix(root()).unwrap().to_str().unwrap(), "yaml");
+            assert!(files.iter().any(expects), "{}: nothing to check", folder.display());
+        }
+    }
+}

@@ -7,7 +7,7 @@
 use super::invariants::Invariants;
 use super::tape::{Id, Tape};
 use crate::experiment::types::Frame;
-use crate::integrate::island::Chain;
+use crate::integrate::chain::Chain;
 use crate::integrate::phase::to_world;
 use crate::integrate::pin_solver::PinSolver;
 use crate::integrate::rotation::exponential;

@@ -1,6 +1,6 @@
 //! The series of the motion: how many terms, and how far they reach.
 
-use super::super::island::Chain;
+use super::super::chain::Chain;
 use super::equations::Equations;
 use crate::model::Model;
 use crate::work::Work;

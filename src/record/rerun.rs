@@ -1,24 +1,24 @@
 //! Rerun files (.rrd): the run in the Rerun Viewer, with a layout of its own.
 //!
-//! The head (layout, surfaces, configuration) goes through Rerun's stream into memory; the columns become chunks here and
-//! now, and everything is encoded on the calling thread. Rerun's own file sink writes on a further thread and only logs
-//! its errors; here a full disk is an error, and a recording needs no threads.
+//! Everything becomes chunks here and now and is encoded on the calling thread. Rerun's own stream and file sink work
+//! on further threads and only log their errors; here a full disk is an error, and a recording needs no threads.
 //!
 //! 3-D data is f32 in this format; the plotted numbers are f64.
 
 mod head;
 mod layout;
+mod store;
 
 use super::sample::{Batch, Event, ForceArrows, Header, Severity, Streams, norm};
 use super::schema::{self, Series};
 use super::{RecordError, Recorder};
-use ::rerun::external::re_build_info::CrateVersion;
-use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
-use ::rerun::log::{Chunk, ChunkId, LogMsg};
-use ::rerun::{
-    Arrows3D, EntityPath, Points3D, Scalars, SerializedComponentColumn, StoreId, TextLog, TextLogLevel, TimeColumn,
-    Transform3D,
-};
+use ::re_build_info::CrateVersion;
+use ::re_chunk::{Chunk, ChunkId, EntityPath, TimeColumn};
+use ::re_log_encoding::{Encoder, EncodingOptions};
+use ::re_log_types::{LogMsg, StoreId};
+use ::re_sdk_types::SerializedComponentColumn;
+use ::re_sdk_types::archetypes::{Arrows3D, Points3D, Scalars, TextLog, Transform3D};
+use ::re_sdk_types::components::TextLogLevel;
 use std::error::Error;
 use std::fs::File;
 use std::io::BufWriter;

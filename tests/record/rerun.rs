@@ -1,7 +1,8 @@
 use super::synthetic::{self as s, ALL, NONE};
-use ::rerun::external::re_log_encoding::Decoder;
-use ::rerun::log::LogMsg;
-use ::rerun::{ChunkStore, ChunkStoreConfig, StoreKind};
+use ::re_chunk::Chunk;
+use ::re_log_encoding::Decoder;
+use ::re_log_types::{LogMsg, StoreKind};
+use ::re_sdk_types::archetypes::{Points3D, Scalars, TextDocument};
 use gotai::record::Recorder;
 use gotai::record::rerun::RerunRecorder;
 use gotai::record::sample::{Event, Severity, Streams};
@@ -20,27 +21,39 @@ fn record(path: &Path, n: u64, streams: Streams) {
     Box::new(recorder).finish().unwrap();
 }
 
-fn read(path: &Path) -> ChunkStore {
-    let mut file = File::open(path).unwrap();
-    let stores = ChunkStore::from_rrd_reader(&ChunkStoreConfig::ALL_DISABLED, &mut file).unwrap();
-    let mut recordings = stores.into_values().filter(|store| store.id().kind() == StoreKind::Recording);
-    let store = recordings.next().unwrap();
-    assert!(recordings.next().is_none(), "one recording a file");
-    store
+fn messages(path: &Path) -> Vec<LogMsg> {
+    let decoder = Decoder::<LogMsg>::decode_eager(BufReader::new(File::open(path).unwrap())).unwrap();
+    decoder.map(Result::unwrap).collect()
+}
+
+/// What is said of the run: the chunks of the one recording in the file.
+fn read(path: &Path) -> Vec<Chunk> {
+    let mut stores = std::collections::BTreeSet::new();
+    let mut chunks = Vec::new();
+    for message in messages(path) {
+        if let LogMsg::ArrowMsg(store, chunk) = &message
+            && store.kind() == StoreKind::Recording
+        {
+            stores.insert(store.clone());
+            chunks.push(Chunk::from_arrow_msg(chunk).unwrap());
+        }
+    }
+    assert_eq!(stores.len(), 1, "one recording a file");
+    chunks
 }
 
 /// Rows by entity, without what is said once.
-fn rows(store: &ChunkStore) -> BTreeMap<String, usize> {
+fn rows(store: &[Chunk]) -> BTreeMap<String, usize> {
     let mut rows = BTreeMap::new();
-    for chunk in store.iter_physical_chunks().filter(|chunk| !chunk.is_static()) {
+    for chunk in store.iter().filter(|chunk| !chunk.is_static()) {
         *rows.entry(chunk.entity_path().to_string()).or_default() += chunk.num_rows();
     }
     rows
 }
 
-fn scalars(store: &ChunkStore, path: &str) -> Vec<f64> {
-    let chunks = store.iter_physical_chunks().filter(|chunk| chunk.entity_path().to_string() == path);
-    let component = ::rerun::Scalars::descriptor_scalars().component;
+fn scalars(store: &[Chunk], path: &str) -> Vec<f64> {
+    let chunks = store.iter().filter(|chunk| chunk.entity_path().to_string() == path);
+    let component = Scalars::descriptor_scalars().component;
     chunks.flat_map(|chunk| chunk.iter_slices::<f64>(component).map(|row| row[0]).collect::<Vec<_>>()).collect()
 }
 
@@ -82,8 +95,8 @@ fn every_sample_has_its_own_number_of_contact_points() {
     let path = dir.path().join("a.rrd");
     record(&path, 1000, ALL);
     let store = read(&path);
-    let component = ::rerun::Points3D::descriptor_positions().component;
-    let chunks = store.iter_physical_chunks().filter(|chunk| chunk.entity_path().to_string() == "/world/contacts");
+    let component = Points3D::descriptor_positions().component;
+    let chunks = store.iter().filter(|chunk| chunk.entity_path().to_string() == "/world/contacts");
     let lengths: Vec<_> =
         chunks.flat_map(|chunk| chunk.iter_slices::<[f32; 3]>(component).map(<[_]>::len).collect::<Vec<_>>()).collect();
     assert_eq!(lengths, (0..1000).map(|i| s::contacts(i).len()).collect::<Vec<_>>());
@@ -97,7 +110,7 @@ fn streams_that_are_off_leave_no_entity() {
         let path = dir.path().join("a.rrd");
         record(&path, 10, streams);
         let store = read(&path);
-        let paths = store.iter_physical_chunks().map(|chunk| chunk.entity_path().to_string());
+        let paths = store.iter().map(|chunk| chunk.entity_path().to_string());
         let mut paths: Vec<_> = paths.filter(|path| !path.starts_with("/__properties")).collect();
         paths.sort();
         paths.dedup();
@@ -122,16 +135,15 @@ fn the_layout_comes_first_and_the_configuration_is_shown() {
     let dir = crate::scratch::folder();
     let path = dir.path().join("a.rrd");
     record(&path, 10, ALL);
-    let decoder = Decoder::<LogMsg>::decode_eager(BufReader::new(File::open(&path).unwrap())).unwrap();
-    let messages: Vec<_> = decoder.map(Result::unwrap).collect();
+    let messages = messages(&path);
     assert_eq!(messages[0].store_id().kind(), StoreKind::Blueprint);
     let activation = messages.iter().position(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
     let last_of_layout = messages.iter().rposition(|message| message.store_id().kind() == StoreKind::Blueprint);
     assert_eq!(activation, last_of_layout);
 
     let store = read(&path);
-    let config = store.iter_physical_chunks().find(|chunk| chunk.entity_path().to_string() == "/config").unwrap();
-    let text = format!("{:?}", config.components().get_array(::rerun::TextDocument::descriptor_text().component));
+    let config = store.iter().find(|chunk| chunk.entity_path().to_string() == "/config").unwrap();
+    let text = format!("{:?}", config.components().get_array(TextDocument::descriptor_text().component));
     assert!(text.contains("name: bouncing"), "{text}");
 }
 

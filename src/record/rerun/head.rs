@@ -1,18 +1,17 @@
 //! What an .rrd says once, before the first sample: layout, names, surfaces, colours, configuration.
 
+use super::store::Store;
 use super::{CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, WORLD, energy_path, layout};
 use crate::record::sample::{BodyHeader, Header};
 use crate::record::schema::{self, Rgb};
-use ::rerun::components::Radius;
-use ::rerun::log::LogMsg;
-use ::rerun::{
-    AnyValues, Arrows3D, Color, EntityPath, LineStrips3D, Mesh3D, Points3D, RecordingStream, RecordingStreamBuilder,
-    RecordingStreamResult, SeriesLines, StoreId, TextDocument, ViewCoordinates,
+use ::re_chunk::{ChunkError, EntityPath};
+use ::re_log_types::{LogMsg, StoreId};
+use ::re_sdk_types::AnyValues;
+use ::re_sdk_types::archetypes::{
+    Arrows3D, LineStrips3D, Mesh3D, Points3D, RecordingInfo, SeriesLines, TextDocument, ViewCoordinates,
 };
+use ::re_sdk_types::components::{Color, Radius, Scalar, Text};
 use std::error::Error;
-
-/// Application id: recordings of one application share a layout and are listed together.
-pub const APPLICATION: &str = "gotai";
 
 /// Sizes on the screen, in points, so that they are legible at any zoom.
 const POINT_RADIUS: f32 = 4.0;
@@ -30,33 +29,32 @@ const BODY_ALPHA: u8 = 190;
 pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
     // Cases of another build have the same id; the viewer would merge recordings that share one.
     let id = format!("{} {}", header.case, header.build);
-    let (stream, memory) = RecordingStreamBuilder::new(APPLICATION).recording_id(id).enabled(true).memory()?;
-    let store = memory.store_id().ok_or("Rerun made no recording")?;
-
-    let mut messages = layout::messages(header)?;
-    describe(header, &stream)?;
+    let mut store = Store::recording(id);
+    describe(header, &mut store)?;
     if header.streams.bodies {
         for ((body, path), colour) in header.bodies.iter().zip(bodies).zip(schema::BODY_COLOURS.iter().cycle()) {
-            stream.log_static(path.clone(), &surface(body, *colour))?;
+            store.say(path.clone(), &surface(body, *colour))?;
         }
     }
     if !header.container_strips_m.is_empty() {
-        stream.log_static(CONTAINER, &container(header))?;
+        store.say(CONTAINER, &container(header))?;
     }
-    styles(header, &stream)?;
-    messages.extend(memory.take());
-    Ok((store, messages))
+    styles(header, &mut store)?;
+    let id = store.id().clone();
+    let mut messages = layout::messages(header)?;
+    messages.extend(store.into_messages());
+    Ok((id, messages))
 }
 
-fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
-    stream.send_recording_name(header.title.as_str())?;
+fn describe(header: &Header, store: &mut Store) -> Result<(), ChunkError> {
+    store.say(EntityPath::properties(), &RecordingInfo::update_fields().with_name(header.title.as_str()))?;
     let run = AnyValues::default()
-        .with_component::<::rerun::components::Text>("case", [header.case.as_str()])
-        .with_component::<::rerun::components::Text>("title", [header.title.as_str()])
-        .with_component::<::rerun::components::Text>("program", [header.program.as_str()])
-        .with_component::<::rerun::components::Text>("build", [header.build.as_str()])
-        .with_component::<::rerun::components::Scalar>("step_s", [header.step_s]);
-    stream.send_property(schema::METADATA, &run)?;
+        .with_component::<Text>("case", [header.case.as_str()])
+        .with_component::<Text>("title", [header.title.as_str()])
+        .with_component::<Text>("program", [header.program.as_str()])
+        .with_component::<Text>("build", [header.build.as_str()])
+        .with_component::<Scalar>("step_s", [header.step_s]);
+    store.say(EntityPath::properties().join(&EntityPath::from(schema::METADATA)), &run)?;
     let page = format!(
         "# {}\n\n{}, build {}\n\n```yaml\n{}\n```\n",
         header.title,
@@ -64,8 +62,8 @@ fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<
         header.build,
         header.config_yaml.trim_end()
     );
-    stream.log_static(CONFIG, &TextDocument::from_markdown(page))?;
-    stream.log_static(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())
+    store.say(CONFIG, &TextDocument::from_markdown(page))?;
+    store.say(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())
 }
 
 fn surface(body: &BodyHeader, [r, g, b]: Rgb) -> Mesh3D {
@@ -123,21 +121,21 @@ fn container(header: &Header) -> LineStrips3D {
 }
 
 /// Colours, sizes and names of what follows sample by sample.
-fn styles(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
+fn styles(header: &Header, store: &mut Store) -> Result<(), ChunkError> {
     let streams = header.streams;
     if streams.contacts {
         let style = Points3D::update_fields().with_colors([color(schema::CONTACT_COLOUR)]);
-        stream.log_static(CONTACTS, &style.with_radii([Radius::new_ui_points(POINT_RADIUS)]))?;
-        stream.log_static(CONTACT_COUNT, &line("contacts", schema::CONTAINER_COLOUR))?;
+        store.say(CONTACTS, &style.with_radii([Radius::new_ui_points(POINT_RADIUS)]))?;
+        store.say(CONTACT_COUNT, &line("contacts", schema::CONTAINER_COLOUR))?;
     }
     if streams.forces {
         let style = Arrows3D::update_fields().with_colors([color(schema::FORCE_COLOUR)]);
-        stream.log_static(FORCES, &style.with_radii([Radius::new_ui_points(ARROW_RADIUS)]))?;
-        stream.log_static(CONTACT_FORCE, &line("sum of |force| [N]", schema::FORCE_COLOUR))?;
+        store.say(FORCES, &style.with_radii([Radius::new_ui_points(ARROW_RADIUS)]))?;
+        store.say(CONTACT_FORCE, &line("sum of |force| [N]", schema::FORCE_COLOUR))?;
     }
     if streams.energy {
         for series in &schema::ENERGY_SERIES {
-            stream.log_static(energy_path(series), &line(series.label, series.colour))?;
+            store.say(energy_path(series), &line(series.label, series.colour))?;
         }
     }
     Ok(())

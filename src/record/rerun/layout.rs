@@ -1,110 +1,130 @@
 //! The layout that the viewer opens with: the scene beside its plots, events and configuration below.
 
+use super::store::Store;
 use super::{CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, LOG, PENETRATION, SIM_TIME, WORLD};
 use crate::record::sample::{Header, Streams};
-use ::rerun::blueprint::{
-    Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, Tabs,
-    TextDocumentView, TextLogView, TimePanel, TimeSeriesView, Vertical,
+use ::re_chunk::{ChunkError, EntityPath};
+use ::re_log_types::LogMsg;
+use ::re_sdk_types::blueprint::archetypes::{
+    ContainerBlueprint, EyeControls3D, PanelBlueprint, PlotLegend, TimePanelBlueprint, ViewBlueprint, ViewContents,
+    ViewportBlueprint,
 };
-use ::rerun::external::re_sdk_types::blueprint::archetypes::{EyeControls3D, PlotLegend};
-use ::rerun::external::re_sdk_types::blueprint::components::{Corner2D, PanelState};
-use ::rerun::log::LogMsg;
-use ::rerun::{AsComponents, RecordingStreamBuilder, StoreId};
+use ::re_sdk_types::blueprint::components::{
+    ContainerKind, Corner2D, IncludedContent, PanelState, RootContainer, ViewClass,
+};
+use ::re_sdk_types::external::uuid::Uuid;
 use std::error::Error;
 
 /// Where the camera stands, seen from the container's centre, in diagonals of the container: in front, to the right,
 /// above, far enough for all of it.
 const EYE: [f64; 3] = [0.48, 0.36, 0.90];
 
-/// A plot, and whether it has more than one line.
-type Plot = (TimeSeriesView, bool);
-
-/// The layout as messages of a blueprint store, complete with its activation.
+/// The layout as messages of a store of its own, complete with its activation.
 pub fn messages(header: &Header) -> Result<Vec<LogMsg>, Box<dyn Error>> {
-    let mut properties = Properties::default();
-    let scene: ContainerLike = Spatial3DView::new("scene").with_origin(WORLD).into();
-    if let Some(eye) = eye(header) {
-        properties.add(&scene, "EyeControls3D", eye);
-    }
-    let mut plots = Vec::new();
-    for (plot, several) in self::plots(header.streams) {
-        let plot: ContainerLike = plot.into();
-        properties.add(&plot, "PlotLegend", PlotLegend::new().with_visible(several).with_corner(Corner2D::RightTop));
-        plots.push(plot);
-    }
-
-    // The public interface only sends a layout through a recording's stream; the recording is thrown away.
-    let (stream, memory) = RecordingStreamBuilder::new(super::head::APPLICATION).enabled(true).memory()?;
-    blueprint(scene, plots).send(&stream, BlueprintActivation::default())?;
-    let mut messages = memory.take();
-    let recording = memory.store_id();
-    messages.retain(|message| Some(message.store_id()) != recording.as_ref());
-
-    // The activation ends a layout; whatever comes later is not part of it.
-    let last = messages.iter().rposition(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
-    if let Some(last) = last {
-        let store = messages[last].store_id().clone();
-        messages.splice(last..last, properties.messages(&store)?);
-    }
-    Ok(messages)
+    let mut layout = Layout(Store::layout());
+    let root = layout.root(header)?;
+    layout.panels(root)?;
+    Ok(layout.0.into_messages())
 }
 
-/// Properties of views that the public interface has no words for: camera, legend.
-#[derive(Default)]
-struct Properties(Vec<(String, Box<dyn AsComponents>)>);
+/// A view or a container, by its name in the store.
+struct Part {
+    id: Uuid,
+    path: EntityPath,
+}
 
-impl Properties {
-    fn add(&mut self, view: &ContainerLike, name: &str, value: impl AsComponents + 'static) {
-        if let ContainerLike::View(view) = view {
-            self.0.push((format!("{}/{name}", view.blueprint_path()), Box::new(value)));
-        }
-    }
-
-    /// As messages of the layout's store.
-    fn messages(&self, store: &StoreId) -> Result<Vec<LogMsg>, Box<dyn Error>> {
-        let builder = RecordingStreamBuilder::from_store_id(store).enabled(true).send_properties(false);
-        let (stream, memory) = builder.memory()?;
-        stream.set_time_sequence("blueprint", 0);
-        for (path, value) in &self.0 {
-            stream.log(path.as_str(), value.as_ref())?;
-        }
-        let mut messages = memory.take();
-        messages.retain(|message| matches!(message, LogMsg::ArrowMsg(..)));
-        Ok(messages)
+impl Part {
+    fn new(kind: &str) -> Self {
+        let id = Uuid::new_v4();
+        Part { id, path: format!("{kind}/{id}").into() }
     }
 }
 
-fn blueprint(scene: ContainerLike, plots: Vec<ContainerLike>) -> Blueprint {
-    let notes = Tabs::new([
-        TextLogView::new("events").with_origin(LOG).into(),
-        TextDocumentView::new("configuration").with_origin(CONFIG).into(),
-    ]);
-    let left = Vertical::new([scene, notes.into()]).with_row_shares([3.0, 1.0]);
-    let root: ContainerLike = if plots.is_empty() {
-        left.into()
-    } else {
-        Horizontal::new([left.into(), Vertical::new(plots).into()]).with_column_shares([3.0, 2.0]).into()
-    };
-    Blueprint::new(root)
-        .with_auto_views(false)
-        .with_auto_layout(false)
-        .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Collapsed))
-        .with_selection_panel(SelectionPanel::from_state(PanelState::Collapsed))
-        .with_time_panel(TimePanel::new().with_timeline(SIM_TIME).with_state(PanelState::Collapsed))
+/// Views and containers in the viewer's own words; Rerun's builder of layouts comes with its network.
+struct Layout(Store);
+
+impl Layout {
+    /// The scene above events and configuration; the plots, if any, beside them.
+    fn root(&mut self, header: &Header) -> Result<Part, ChunkError> {
+        let scene = self.view("3D", "scene", WORLD)?;
+        if let Some(eye) = eye(header) {
+            self.0.say(scene.path.join(&"EyeControls3D".into()), &eye)?;
+        }
+        let notes = [self.view("TextLog", "events", LOG)?, self.view("TextDocument", "configuration", CONFIG)?];
+        let notes = self.container(ContainerKind::Tabs, &notes, &[])?;
+        let left = self.container(ContainerKind::Vertical, &[scene, notes], &[3.0, 1.0])?;
+        let mut shown = Vec::new();
+        for Plot { name, origin, several, .. } in plots(header.streams) {
+            let plot = self.view("TimeSeries", name, origin)?;
+            let legend = PlotLegend::new().with_visible(several).with_corner(Corner2D::RightTop);
+            self.0.say(plot.path.join(&"PlotLegend".into()), &legend)?;
+            shown.push(plot);
+        }
+        if shown.is_empty() {
+            return Ok(left);
+        }
+        let right = self.container(ContainerKind::Vertical, &shown, &[])?;
+        self.container(ContainerKind::Horizontal, &[left, right], &[3.0, 2.0])
+    }
+
+    /// Shows what is recorded at and below `origin`.
+    fn view(&mut self, class: &str, name: &str, origin: &str) -> Result<Part, ChunkError> {
+        let view = Part::new("view");
+        self.0.say(view.path.join(&"ViewContents".into()), &ViewContents::new(["$origin/**"]))?;
+        let about = ViewBlueprint::new(ViewClass(class.into())).with_display_name(name).with_space_origin(origin);
+        self.0.say(view.path.clone(), &about)?;
+        Ok(view)
+    }
+
+    /// `shares`: of the height or the width, one a part; none: equal ones.
+    fn container(&mut self, kind: ContainerKind, parts: &[Part], shares: &[f32]) -> Result<Part, ChunkError> {
+        let container = Part::new("container");
+        let contents = parts.iter().map(|part| IncludedContent(part.path.to_string().into()));
+        let mut about = ContainerBlueprint::new(kind).with_contents(contents);
+        if !shares.is_empty() {
+            about = match kind {
+                ContainerKind::Horizontal => about.with_col_shares(shares.iter().copied()),
+                _ => about.with_row_shares(shares.iter().copied()),
+            };
+        }
+        self.0.say(container.path.clone(), &about)?;
+        Ok(container)
+    }
+
+    /// The viewer's own panels make room for the scene.
+    fn panels(&mut self, root: Part) -> Result<(), ChunkError> {
+        let viewport = ViewportBlueprint::new()
+            .with_root_container(RootContainer(root.id.into()))
+            .with_auto_layout(false)
+            .with_auto_views(false);
+        self.0.say("viewport", &viewport)?;
+        let folded = PanelBlueprint::new().with_state(PanelState::Collapsed);
+        self.0.say("blueprint_panel", &folded)?;
+        self.0.say("selection_panel", &folded)?;
+        let time = TimePanelBlueprint::new().with_timeline(SIM_TIME).with_state(PanelState::Collapsed);
+        self.0.say("time_panel", &time)
+    }
+}
+
+struct Plot {
+    name: &'static str,
+    origin: &'static str,
+    /// Whether it has more than one line.
+    several: bool,
+    on: bool,
 }
 
 /// Only what is recorded has a plot.
-fn plots(streams: Streams) -> Vec<Plot> {
-    let plot = |name: &str, path: &str| TimeSeriesView::new(name).with_origin(path);
+fn plots(streams: Streams) -> impl Iterator<Item = Plot> {
+    let plot = |on, name, origin, several| Plot { name, origin, several, on };
     [
-        (streams.energy, plot("energy [J]", ENERGY), true),
-        (streams.energy, plot("penetration [m]", PENETRATION), false),
-        (streams.forces, plot("sum of |contact force| [N]", CONTACT_FORCE), false),
-        (streams.contacts, plot("contacts", CONTACT_COUNT), false),
+        plot(streams.energy, "energy [J]", ENERGY, true),
+        plot(streams.energy, "penetration [m]", PENETRATION, false),
+        plot(streams.forces, "sum of |contact force| [N]", CONTACT_FORCE, false),
+        plot(streams.contacts, "contacts", CONTACT_COUNT, false),
     ]
     .into_iter()
-    .filter_map(|(on, plot, several)| on.then_some((plot, several)))
-    .collect()
+    .filter(|plot| plot.on)
 }
 
 /// The whole container in view; without one the viewer frames the bodies itself.

@@ -18,16 +18,21 @@
 //! - `counters`: how much work a run is
 //! - `docs`: pages that are made, links, paths and commands of the others
 //! - `tidy`: rules of the repository
+//! - `dependencies`: the program and its tests are made of the same crates
+//! - `assets`: what is vendored is what its README says
+//! - `tools`: tests that need more than cargo: how they find it, skip without it, fail where it is required
 
 #![allow(non_snake_case)]
 
 mod allocation;
+mod assets;
 mod bench;
 mod check;
 mod cli;
 mod collide;
 mod configs;
 mod counters;
+mod dependencies;
 mod docs;
 mod event;
 mod exact;
@@ -40,4 +45,5 @@ mod record;
 mod scratch;
 mod sweep;
 mod tidy;
+mod tools;
 mod yaml;

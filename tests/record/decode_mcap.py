@@ -1,4 +1,4 @@
-"""Decodes every message of an .mcap with nothing but what is in the file; used by hand.
+"""Decodes every message of an .mcap with nothing but what is in the file; a test runs it, and so may anybody.
 
     pip install mcap mcap-protobuf-support
     python tests/record/decode_mcap.py FILE...

@@ -203,3 +203,20 @@ fn force_arrows_are_no_longer_than_the_scene() {
     let [x, y, z] = arrows.vector_m([0.0, -1e9, 0.0]);
     assert!(x == 0.0 && z == 0.0 && (y + 48.0_f64.sqrt()).abs() < 1e-12, "{y}");
 }
+
+/// Another reader, with nothing but the file: its schemas and its index are for others too.
+#[test]
+fn python_decodes_every_message() {
+    let Some(python) = crate::tools::python_with("mcap_protobuf") else { return };
+    let dir = crate::scratch::folder();
+    let path = dir.path().join("a.mcap");
+    record(&path, 1000, ALL);
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/record/decode_mcap.py");
+    let output = std::process::Command::new(python).arg(script).arg(&path).output().unwrap();
+    let (text, error) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{error}");
+    for topic in [schema::BODIES, schema::CONTACTS, schema::ENERGY] {
+        assert!(text.contains(&format!("{:8} {topic} (", 1000)), "{topic}: {text}");
+    }
+    assert!(text.contains(&format!("last: step 999, t = {:?} s", s::time_s(999))), "{text}");
+}

@@ -15,7 +15,8 @@ pub struct Cli {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 fine · 1 an expectation not met, a case failed or results are incomplete · \
-                          2 the input is wrong · 3 the machine failed · 130/143 interrupted (what was finished is kept)";
+                          2 the input is wrong · 3 the machine failed · 130/143 interrupted (what was finished is \
+                          kept)";
 
 #[derive(Subcommand)]
 enum Command {

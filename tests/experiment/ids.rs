@@ -1,4 +1,5 @@
-//! Ids of cases. Rows in folders of results are found by them, so that a case keeps its id as long as it means the same.
+//! Ids of cases. Rows in folders of results are found by them, so that a case keeps its id as long as it means the
+//! same.
 
 use crate::yaml;
 use gotai::experiment::ExperimentFile;

@@ -230,9 +230,9 @@ fn a_mod_rs_is_a_face() {
     assert!(faces > 15, "{faces} faces");
 }
 
-/// Names that two public types still share: a word of the file and what it becomes in the model (`Body`), the settings of
-/// a method and the method (`Free`), a quantity and its message in a recording (`Energy`), and some that wait for a better
-/// word. The list only shrinks.
+/// Names that two public types still share: a word of the file and what it becomes in the model (`Body`), the settings
+/// of a method and the method (`Free`), a quantity and its message in a recording (`Energy`), and some that wait for a
+/// better word. The list only shrinks.
 const SHARED: &[&str] = &[
     "Axis",
     "Ball",

@@ -18,7 +18,7 @@
 // The kernels read like the papers: R_WB, I_B, A.
 #![allow(non_snake_case)]
 
-// From the ground up: a room imports only from the rooms above it in this list (`tests/tidy.rs`). rustfmt sorts within
+// From the ground up: a room imports only from the rooms above it in this list (`tests/tidy/`). rustfmt sorts within
 // a paragraph only.
 pub mod build_info;
 pub mod clock;

@@ -22,3 +22,19 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FileError> {
     std::fs::write(&partial, content).map_err(|error| FileError::new(&partial, error))?;
     std::fs::rename(&partial, path).map_err(|error| FileError::new(path, error))
 }
+
+/// The folder, made if it is not there.
+///
+/// # Errors
+/// The machine failed.
+pub fn make_folder(dir: &Path) -> Result<(), FileError> {
+    std::fs::create_dir_all(dir).map_err(|error| FileError::new(dir, error))
+}
+
+/// What is in a file.
+///
+/// # Errors
+/// It is not there, or the machine failed.
+pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
+    std::fs::read(path).map_err(|error| FileError::new(path, error))
+}

@@ -8,7 +8,7 @@
 
 use super::forces::{Forces, Held, Mode, NO_SLIP, Rows, Slip, direction, edge, meeting_m_s};
 use super::touch::{Here, Touch};
-use crate::math::full_pivot::Choice;
+use crate::math::full_pivot::Selection;
 use crate::model::Model;
 use crate::solve::problem::Block;
 use crate::solve::{Impulse, newton};
@@ -74,7 +74,7 @@ pub fn decide(
         if let Decision::Holds(held) = &decision
             && !held.is_empty()
         {
-            forces.hold(held, Choice::Any);
+            forces.hold(held, Selection::Any);
         }
         return decision;
     }
@@ -157,7 +157,7 @@ fn set_rows(forces: &mut Forces, modes: &[Mode]) {
 
 fn try_modes(forces: &mut Forces, modes: &[Mode]) -> bool {
     set_rows(forces, modes);
-    forces.solve(Choice::Least)
+    forces.solve(Selection::Least)
 }
 
 /// No contact pulls. Of contacts that share a force evenly, none does unless one has to.
@@ -256,7 +256,7 @@ fn is_stopped(block: &Block, p: &Impulse, a: &Vector3<f64>, slip_W: Vector3<f64>
 /// of them pulls or slips, but could share them otherwise, nothing has.
 pub fn margin(model: &Model, state: &State, held: &[Held], forces: &mut Forces, work: &mut Work) -> f64 {
     forces.gather(model, state, held.iter().map(|held| &held.touch));
-    if !forces.hold(held, Choice::Least) {
+    if !forces.hold(held, Selection::Least) {
         return -1.0;
     }
     let largest = forces.p.iter().map(|p| p.norm()).fold(0.0, f64::max);

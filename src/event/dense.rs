@@ -11,7 +11,7 @@ use crate::integrate::dop853_tableau::{A, B, B3, D, E5, EXTRA};
 use crate::integrate::field::{advanced, sum};
 use crate::integrate::phase::{Phase, phase, state};
 use crate::integrate::rotation::exponential;
-use crate::math::full_pivot::Choice;
+use crate::math::full_pivot::Selection;
 use crate::model::{Body, Model};
 use crate::solve::problem::{Block, Twist};
 use crate::state::{BodyState, State};
@@ -26,7 +26,7 @@ pub struct Field<'a> {
     pub forces: &'a mut Forces,
     /// All bodies; those of the island are written over.
     pub state: &'a mut State,
-    pub choice: Choice,
+    pub choice: Selection,
     pub work: &'a mut Work,
 }
 
@@ -255,7 +255,7 @@ pub fn project(model: &Model, state: &mut State, held: &[Held], forces: &mut For
     if largest <= 2.0 * f64::EPSILON * speed {
         return moved;
     }
-    if forces.solve(Choice::Any) {
+    if forces.solve(Selection::Any) {
         for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
             at.v_WB += forces.added[i].v;
             at.w_WB += forces.added[i].w;
@@ -284,7 +284,7 @@ fn close_gaps(model: &Model, state: &mut State, held: &[Held], forces: &mut Forc
         forces.rows.clear();
         forces.rows.resize(held.len(), Rows::Normal(Vector3::x()));
         forces.rows.resize(forces.problem.blocks.len(), Rows::All);
-        if !forces.solve(Choice::Any) {
+        if !forces.solve(Selection::Any) {
             return true;
         }
         for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {

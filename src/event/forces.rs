@@ -3,14 +3,14 @@
 //! b is J V̇ without contact plus the touches' bias. A contact that sticks has three rows; one that slides has its
 //! normal row, and its force lies on the edge of the cone, n − μ d, so that the system is not symmetric and may have no
 //! solution (Painlevé). Contacts may be redundant (the four corners of a slab): then the forces are not unique and the
-//! motion is, of contacts that stick or all slide the same way. `Choice::Any` finds one solution by elimination,
-//! `Choice::Least` the smallest.
+//! motion is, of contacts that stick or all slide the same way. `Selection::Any` finds one solution by elimination,
+//! `Selection::Least` the smallest.
 
 use super::touch::{Here, Touch};
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
 use crate::integrate::rotation::gyroscopic_torque_B;
-use crate::math::full_pivot::{Choice, Eliminated};
+use crate::math::full_pivot::{Eliminated, Selection};
 use crate::model::pins::Anchor;
 use crate::model::{Body, Model};
 use crate::solve::problem::{ContactProblem, Pin, PinEnd, Twist};
@@ -158,7 +158,7 @@ impl Forces {
     }
 
     /// Solves for what holds, pins with it.
-    pub fn hold(&mut self, held: &[Held], choice: Choice) -> bool {
+    pub fn hold(&mut self, held: &[Held], choice: Selection) -> bool {
         if let ([only], [block]) = (held, &self.problem.blocks[..])
             && only.slip == Slip::Young
             && only.slides().is_some()
@@ -169,7 +169,7 @@ impl Forces {
             return true;
         }
         self.set_rows(held);
-        self.solve(choice) && (choice == Choice::Any || self.push_only(held.len()))
+        self.solve(choice) && (choice == Selection::Any || self.push_only(held.len()))
     }
 
     /// What their forces may be.
@@ -195,7 +195,7 @@ impl Forces {
                 return true;
             }
             self.rows[worst] = Rows::None;
-            let solved = self.solve(Choice::Least);
+            let solved = self.solve(Selection::Least);
             let lifts = |i: usize| self.problem.blocks[i].velocity(&self.added).x.abs() > CONSISTENT * scale;
             if !solved || (0..contacts).any(lifts) {
                 break;
@@ -206,7 +206,7 @@ impl Forces {
     }
 
     /// Solves for the rows set, and works out `added`. False: no solution to rounding.
-    pub fn solve(&mut self, choice: Choice) -> bool {
+    pub fn solve(&mut self, choice: Selection) -> bool {
         self.p.clear();
         self.p.resize(self.problem.blocks.len(), Impulse::zeros());
         let solved = solve(&self.problem, &self.rows, choice, &mut self.p);
@@ -257,7 +257,7 @@ fn free_acceleration(model: &Model, state: &State, index: usize) -> Twist {
     Twist { v, w }
 }
 
-fn solve(problem: &ContactProblem, rows: &[Rows], choice: Choice, p: &mut [Impulse]) -> bool {
+fn solve(problem: &ContactProblem, rows: &[Rows], choice: Selection, p: &mut [Impulse]) -> bool {
     if let ([Rows::Normal(edge)], [block]) = (rows, &problem.blocks[..]) {
         let k = block.A.row(0).transpose().dot(edge);
         p[0] = edge * (-block.b.x / k);
@@ -295,7 +295,7 @@ fn solve(problem: &ContactProblem, rows: &[Rows], choice: Choice, p: &mut [Impul
 const CONSISTENT: f64 = 1e-9;
 
 /// Once more for what rounding has left.
-fn solution(K: &DMatrix<f64>, rhs: &DVector<f64>, choice: Choice) -> Option<DVector<f64>> {
+fn solution(K: &DMatrix<f64>, rhs: &DVector<f64>, choice: Selection) -> Option<DVector<f64>> {
     let eliminated = Eliminated::new(K.clone());
     let x = eliminated.solve(rhs, choice)?;
     let again = eliminated.solve(&(rhs - K * &x), choice)?;

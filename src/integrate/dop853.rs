@@ -4,7 +4,7 @@
 
 use super::dop853_tableau::{A, B, B3, E5};
 use super::field::{Field, advanced, sum};
-use super::island::Island;
+use super::island::Chain;
 use super::phase::{Phase, phase, state};
 use crate::model::Model;
 use crate::work::Work;
@@ -55,13 +55,13 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    pub fn new(island: &Island) -> Self {
+    pub fn new(island: &Chain) -> Self {
         let room = || vec![Phase::zeros(); island.at.len()];
         let node = |i: usize| if i == 0 { 0.0 } else { A[i - 1].iter().sum() };
         Scratch { y: room(), end: room(), k: std::array::from_fn(|_| room()), nodes: std::array::from_fn(node) }
     }
 
-    fn start(&mut self, island: &mut Island, model: &Model, t_s: f64, work: &mut Work) {
+    fn start(&mut self, island: &mut Chain, model: &Model, t_s: f64, work: &mut Work) {
         self.y.iter_mut().zip(&island.at).for_each(|(y, at)| *y = phase(at));
         Field { island, model, work }.at(t_s, &self.y, &mut self.k[0]);
     }
@@ -69,7 +69,7 @@ impl Scratch {
 
 /// One step of the clock. False: no inner step reaches the tolerance, and the island is left on the way.
 pub fn step(
-    island: &mut Island,
+    island: &mut Chain,
     model: &Model,
     [t_s, step_s]: [f64; 2],
     control: &mut Control,

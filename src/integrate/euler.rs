@@ -2,7 +2,7 @@
 //! program with the new one (semi-implicit). Rotation in body axes, with the gyroscopic term.
 
 use super::drive::Drive;
-use super::island::Island;
+use super::island::Chain;
 use super::rotation::{exponential, gyroscopic_torque_B};
 use crate::experiment::types::Update;
 use crate::model::{Body, Model};
@@ -10,7 +10,7 @@ use crate::state::BodyState;
 use crate::work::Work;
 
 /// A step of `h` from `t_s`, by the drives at its start.
-pub fn step(update: Update, island: &mut Island, model: &Model, [t_s, h]: [f64; 2], work: &mut Work) {
+pub fn step(update: Update, island: &mut Chain, model: &Model, [t_s, h]: [f64; 2], work: &mut Work) {
     island.drive(model, t_s, work);
     for (body, at, drive) in island.each(model) {
         advance(body, at, drive, update, h, work);

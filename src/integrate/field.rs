@@ -1,14 +1,14 @@
 //! The equations of motion of an island as ẏ = f(t, y), for the methods that know nothing of rotations.
 
 use super::drive::Drive;
-use super::island::Island;
+use super::island::Chain;
 use super::phase::{Phase, rate, state};
 use crate::model::Model;
 use crate::work::Work;
 
 /// f, with what it needs.
 pub struct Field<'a> {
-    pub island: &'a mut Island,
+    pub island: &'a mut Chain,
     pub model: &'a Model,
     pub work: &'a mut Work,
 }

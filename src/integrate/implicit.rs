@@ -2,7 +2,7 @@
 //! unknown; where it never changes (nothing but gravity) there is nothing to solve.
 
 use super::drive::Drive;
-use super::island::Island;
+use super::island::Chain;
 use crate::math::broyden::Broyden;
 use crate::model::{Body, Model};
 use crate::state::BodyState;
@@ -30,7 +30,7 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    pub fn new(island: &Island) -> Self {
+    pub fn new(island: &Chain) -> Self {
         let unknowns = 6 * island.at.len();
         Scratch {
             start: island.at.clone(),
@@ -47,7 +47,7 @@ impl Scratch {
 pub fn step(
     kernel: Kernel,
     part: f64,
-    island: &mut Island,
+    island: &mut Chain,
     model: &Model,
     [t_s, h]: [f64; 2],
     scratch: &mut Scratch,

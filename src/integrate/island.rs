@@ -7,7 +7,7 @@ use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
 use crate::work::Work;
 
-pub struct Island {
+pub struct Chain {
     /// Indices of its bodies, rising.
     members: Vec<usize>,
     /// Their states, between `take` and `give`.
@@ -19,9 +19,9 @@ pub struct Island {
     loaded: bool,
 }
 
-impl Island {
+impl Chain {
     /// All islands of a model, in the order of their first bodies; bodies that move as they are told are in none.
-    pub fn all(model: &Model, start: &State) -> Vec<Island> {
+    pub fn all(model: &Model, start: &State) -> Vec<Chain> {
         let mut island_of: Vec<usize> = (0..model.bodies.len()).collect();
         for pin in &model.pins {
             if let Anchor::Body(other, _) = pin.anchor
@@ -35,12 +35,12 @@ impl Island {
         let moving = |i: &usize| !model.bodies[*i].driven;
         let members = |first: usize| (0..island_of.len()).filter(|i| island_of[*i] == first).collect();
         let first = (0..island_of.len()).filter(moving).filter(|i| island_of[*i] == *i);
-        first.map(|first| Island::new(members(first), model, start)).collect()
+        first.map(|first| Chain::new(members(first), model, start)).collect()
     }
 
     fn new(members: Vec<usize>, model: &Model, start: &State) -> Self {
         let has_load = |i: &usize| !model.bodies[*i].drag.is_none() || model.forces.iter().any(|f| f.body == *i);
-        Island {
+        Chain {
             at: members.iter().map(|i| start.bodies[*i]).collect(),
             drives: vec![Drive::of_gravity(model); members.len()],
             pins: PinSolver::new(&members, model, start),

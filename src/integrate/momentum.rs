@@ -5,7 +5,7 @@
 //! constant of the world, so that only the attitude can err.
 
 use super::drive::Drive;
-use super::island::Island;
+use super::island::Chain;
 use super::phase::fall;
 use super::rotation::exponential;
 use crate::math::newton;
@@ -18,7 +18,7 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 pub type Equation = fn(&Vector3<f64>, &Matrix3<f64>, &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>);
 
 /// L of every body of an island.
-pub fn momenta(island: &Island, model: &Model) -> Vec<Vector3<f64>> {
+pub fn momenta(island: &Chain, model: &Model) -> Vec<Vector3<f64>> {
     island.bodies(model).zip(&island.at).map(|(body, at)| momentum_W(body, &at.q_WB, &at.w_WB)).collect()
 }
 
@@ -26,7 +26,7 @@ pub fn momenta(island: &Island, model: &Model) -> Vec<Vector3<f64>> {
 /// ω, which would add a rounding a step.
 pub fn step_free(
     equation: Equation,
-    island: &mut Island,
+    island: &mut Chain,
     model: &Model,
     h: f64,
     momenta: &[Vector3<f64>],

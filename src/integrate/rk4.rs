@@ -2,7 +2,7 @@
 //! quaternion; the quaternion is made a unit one after the step. A parabola is exact.
 
 use super::field::{Field, advanced};
-use super::island::Island;
+use super::island::Chain;
 use super::phase::{Phase, phase, state};
 use crate::model::Model;
 use crate::work::Work;
@@ -16,14 +16,14 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    pub fn new(island: &Island) -> Self {
+    pub fn new(island: &Chain) -> Self {
         let room = || vec![Phase::zeros(); island.at.len()];
         Scratch { y: room(), place: room(), k: std::array::from_fn(|_| room()) }
     }
 }
 
 /// A step of `h` from `t_s`.
-pub fn step(island: &mut Island, model: &Model, [t_s, h]: [f64; 2], scratch: &mut Scratch, work: &mut Work) {
+pub fn step(island: &mut Chain, model: &Model, [t_s, h]: [f64; 2], scratch: &mut Scratch, work: &mut Work) {
     let Scratch { y, place, k } = scratch;
     y.iter_mut().zip(&island.at).for_each(|(y, at)| *y = phase(at));
     let mut f = Field { island, model, work };

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Which solution of a system that leaves some of it open.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Choice {
+pub enum Selection {
     /// What the others determine is 0.
     Any,
     /// The smallest.
@@ -54,14 +54,14 @@ impl Eliminated {
     }
 
     /// Unknowns that the others determine are 0, or all are as small as they can be: x = Uᵀ (U Uᵀ)⁻¹ y.
-    pub fn solve(&self, rhs: &DVector<f64>, choice: Choice) -> Option<DVector<f64>> {
+    pub fn solve(&self, rhs: &DVector<f64>, choice: Selection) -> Option<DVector<f64>> {
         let (LU, rank, n) = (&self.LU, self.rank, self.rows.len());
         let mut y = DVector::from_fn(rank, |i, _| rhs[self.rows[i]]);
         for i in 0..rank {
             y[i] -= (0..i).map(|j| LU[(i, j)] * y[j]).sum::<f64>();
         }
         let mut own = DVector::zeros(n);
-        if choice == Choice::Any || rank == n {
+        if choice == Selection::Any || rank == n {
             for i in (0..rank).rev() {
                 let known: f64 = (i + 1..rank).map(|j| LU[(i, j)] * own[j]).sum();
                 own[i] = (y[i] - known) / LU[(i, i)];

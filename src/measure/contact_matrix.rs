@@ -21,7 +21,7 @@ pub struct ContactMatrix {
 
 /// What is measured of A.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
+pub struct Spectrum {
     pub contacts: usize,
     pub rank: usize,
     /// Spectral radius of E − D⁻¹A, D the diagonal of A: by what an error grows in a sweep of Jacobi's iteration (L20).
@@ -36,9 +36,9 @@ impl ContactMatrix {
     }
 
     /// None if nothing has touched.
-    pub fn measured(&self, model: &Model) -> Option<Measured> {
+    pub fn measured(&self, model: &Model) -> Option<Spectrum> {
         let bodies = self.kept.rows(model, 3).iter().map(|rows| measured(rows)).collect::<Option<Vec<_>>>()?;
-        bodies.into_iter().reduce(|a, b| Measured {
+        bodies.into_iter().reduce(|a, b| Spectrum {
             contacts: a.contacts + b.contacts,
             rank: a.rank + b.rank,
             jacobi_radius: a.jacobi_radius.max(b.jacobi_radius),
@@ -53,12 +53,12 @@ impl ContactMatrix {
 
 /// Of one body. E − D⁻¹A is similar to E − D^(−1/2) A D^(−1/2), whose rows are those of J M^(−1/2) made unit: its
 /// eigenvalues are 1 − λ, and 1 where A is singular.
-fn measured(rows: &[Vector6<f64>]) -> Option<Measured> {
+fn measured(rows: &[Vector6<f64>]) -> Option<Spectrum> {
     let values = eigenvalues(rows)?;
     let rank = values.iter().filter(|value| **value > RANK * values[0]).count();
     let unit: Vec<_> = rows.iter().map(Vector6::normalize).collect();
     let scaled = eigenvalues(&unit)?;
     let regular = scaled[..rank].iter().map(|value| (1.0 - value).abs()).fold(0.0, f64::max);
     let jacobi_radius = if rows.len() > rank { regular.max(1.0) } else { regular };
-    Some(Measured { contacts: rows.len() / 3, rank, jacobi_radius })
+    Some(Spectrum { contacts: rows.len() / 3, rank, jacobi_radius })
 }

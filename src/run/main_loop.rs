@@ -1,7 +1,7 @@
 //! THE MAIN LOOP: advance the state, show every step to the judges and the recorders, end in an outcome.
 
 use super::advance::is_used_up;
-use super::ticks::{Due, Shown};
+use super::ticks::{Due, Samples};
 use crate::clock::Clock;
 use crate::collide::SolvedContact;
 use crate::collide::approach::Approach;
@@ -52,7 +52,7 @@ pub fn run(
     if let Some(sampler) = &mut sampler {
         sampler.sample(model, &state, &[], clock.step_s);
     }
-    let mut shown = Shown::new(experiment, &state);
+    let mut shown = Samples::new(experiment, &state);
     let mut against = reference.map(Against::new);
     let mut parts = Due::new(Clock::new(clock.end_s / PARTS as f64, clock.end_s), &state);
     while !stepper.is_done(&state, &clock) && stopped.is_none() {

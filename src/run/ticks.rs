@@ -45,15 +45,15 @@ impl Due {
 }
 
 /// Samples for a recorder.
-pub struct Shown {
+pub struct Samples {
     ticks: Due,
     every_event: bool,
 }
 
-impl Shown {
+impl Samples {
     pub fn new(experiment: &Experiment, start: &State) -> Self {
         let every_event = experiment.record.every_s == 0.0;
-        Shown { ticks: Due::new(ticks(experiment), start), every_event }
+        Samples { ticks: Due::new(ticks(experiment), start), every_event }
     }
 
     /// What is due in the last stretch, and its end if that is wanted.

@@ -8,21 +8,18 @@ use crate::model::surface::Surface;
 use crate::model::{Body, Geometry};
 use crate::shape::area::surface_m2;
 use crate::shape::hull::Hull;
-use crate::shape::mesh::{TetMesh, box_counts, box_mesh, hull_mesh, sphere_mesh};
-use crate::shape::moments::{
-    MassProperties, Moments, box_moments, capsule_moments, cylinder_moments, ellipsoid_moments, exact, lumped,
-    sphere_moments,
-};
+use crate::shape::mesh::{TetMesh, box_counts, box_mesh, sphere_mesh};
+use crate::shape::moments::{MassProperties, Moments, exact, lumped};
 use crate::shape::solid::Solid;
 use nalgebra::{Matrix3, Vector3};
 
 pub(super) fn build_body(described: &file::Body, scene: &file::Scene) -> Result<Body, BuildError> {
     let mesh = described.mesh.as_ref().and_then(|spec| volume_mesh(&described.shape, spec));
-    let hull = build_hull(described)?;
-    let drag = scene.air.map_or_else(Drag::default, |air| build_drag(&air, &described.shape, hull.as_ref()));
-    let mass = mass_properties(described, mesh.as_ref(), hull.as_ref());
+    let solid = build_solid(described)?;
+    let drag = scene.air.map_or_else(Drag::default, |air| build_drag(&air, solid.as_ref()));
+    let mass = mass_properties(described, mesh.as_ref(), solid.as_ref());
     let among_others = scene.bodies.iter().filter(|body| body.shape != file::Shape::None).count() > 1;
-    let geometry = geometry(&described.shape, mesh, hull, &mass.p_BoBcm, among_others);
+    let geometry = geometry(mesh, solid, &mass.p_BoBcm, among_others);
     let bounding_radius_m = match &geometry {
         Geometry::None => 0.0,
         Geometry::Mesh { nodes, .. } => nodes.iter().map(|u| u.norm()).fold(0.0, f64::max),
@@ -50,16 +47,24 @@ pub(super) fn build_body(described: &file::Body, scene: &file::Scene) -> Result<
     })
 }
 
-pub(super) fn build_hull(described: &file::Body) -> Result<Option<Hull>, BuildError> {
-    let file::Shape::Convex(convex) = &described.shape else { return Ok(None) };
-    Hull::new(convex.vertices()).map(Some).map_err(|wrong| BuildError {
-        path: format!("scene.bodies.{}.shape.convex.vertices_m", described_as(&described.name)),
-        expected: "corners of a convex hull".into(),
-        found: wrong.to_string(),
-    })
+/// None: a point.
+fn build_solid(described: &file::Body) -> Result<Option<Solid>, BuildError> {
+    Ok(Some(match &described.shape {
+        file::Shape::Sphere(s) => Solid::Sphere { radius_m: s.radius_m },
+        file::Shape::Box(b) => Solid::Box { half_m: Vector3::from(b.size_m) / 2.0 },
+        file::Shape::Cylinder(c) => Solid::Cylinder { radius_m: c.radius_m, half_height_m: c.height_m / 2.0 },
+        file::Shape::Capsule(c) => Solid::Capsule { radius_m: c.radius_m, half_height_m: c.height_m / 2.0 },
+        file::Shape::Ellipsoid(e) => Solid::Ellipsoid { semi_axes_m: e.semi_axes_m.into() },
+        file::Shape::Convex(convex) => Solid::Convex(Hull::new(convex.vertices()).map_err(|wrong| BuildError {
+            path: format!("scene.bodies.{}.shape.convex.vertices_m", described_as(&described.name)),
+            expected: "corners of a convex hull".into(),
+            found: wrong.to_string(),
+        })?),
+        file::Shape::None => return Ok(None),
+    }))
 }
 
-pub(super) fn volume_mesh(shape: &file::Shape, spec: &file::MeshSpec) -> Option<TetMesh> {
+fn volume_mesh(shape: &file::Shape, spec: &file::MeshSpec) -> Option<TetMesh> {
     match shape {
         file::Shape::Box(b) => spec.nodes_per_edge.map(|nodes| match nodes {
             file::NodesPerEdge::Shortest(n) => box_mesh(b.size_m, box_counts(b.size_m, n)),
@@ -70,40 +75,25 @@ pub(super) fn volume_mesh(shape: &file::Shape, spec: &file::MeshSpec) -> Option<
     }
 }
 
-pub(super) fn geometry(
-    shape: &file::Shape,
-    mesh: Option<TetMesh>,
-    hull: Option<Hull>,
-    p_BoBcm: &Vector3<f64>,
-    among_others: bool,
-) -> Geometry {
-    let about = |solid: Solid| Geometry::Solid { solid, centre: -p_BoBcm };
-    let of_box = |b: &file::BoxShape| Solid::Box { half_m: Vector3::from(b.size_m) / 2.0 };
-    match (shape, mesh) {
-        (_, Some(mesh)) => {
-            let hull = among_others.then(|| match shape {
-                file::Shape::Box(b) => of_box(b),
+/// A mesh touches others with its hull, if there are others.
+fn geometry(mesh: Option<TetMesh>, solid: Option<Solid>, p_BoBcm: &Vector3<f64>, among_others: bool) -> Geometry {
+    let centre = -p_BoBcm;
+    match (mesh, solid) {
+        (Some(mesh), solid) => {
+            let hull = among_others.then(|| match solid {
+                Some(solid @ Solid::Box { .. }) => solid,
                 _ => Solid::Convex(mesh.hull()),
             });
             let nodes = mesh.nodes.iter().map(|u| u - p_BoBcm).collect();
-            Geometry::Mesh { nodes, mesh, hull, centre: -p_BoBcm }
+            Geometry::Mesh { nodes, mesh, hull, centre }
         }
-        (file::Shape::Box(b), None) => about(of_box(b)),
-        (file::Shape::Sphere(s), None) => about(Solid::Sphere { radius_m: s.radius_m }),
-        (file::Shape::Cylinder(c), None) => {
-            about(Solid::Cylinder { radius_m: c.radius_m, half_height_m: c.height_m / 2.0 })
-        }
-        (file::Shape::Capsule(c), None) => {
-            about(Solid::Capsule { radius_m: c.radius_m, half_height_m: c.height_m / 2.0 })
-        }
-        (file::Shape::Ellipsoid(e), None) => about(Solid::Ellipsoid { semi_axes_m: e.semi_axes_m.into() }),
-        (file::Shape::Convex(_), None) => hull.map_or(Geometry::None, |hull| about(Solid::Convex(hull))),
-        (file::Shape::None, None) => Geometry::None,
+        (None, Some(solid)) => Geometry::Solid { solid, centre },
+        (None, None) => Geometry::None,
     }
 }
 
-pub(super) fn mass_properties(described: &file::Body, mesh: Option<&TetMesh>, hull: Option<&Hull>) -> MassProperties {
-    let moments = shape_moments(described, mesh, hull);
+fn mass_properties(described: &file::Body, mesh: Option<&TetMesh>, solid: Option<&Solid>) -> MassProperties {
+    let moments = moments(described, mesh, solid);
     let volume_m3 = moments.as_ref().map_or(0.0, |m| m.volume_m3);
     let mass_kg = described.mass_kg.unwrap_or_else(|| described.density_kg_m3.unwrap_or(0.0) * volume_m3);
     let mut mass = match moments {
@@ -125,34 +115,28 @@ pub(super) fn mass_properties(described: &file::Body, mesh: Option<&TetMesh>, hu
     mass
 }
 
-pub(super) fn shape_moments(described: &file::Body, mesh: Option<&TetMesh>, hull: Option<&Hull>) -> Option<Moments> {
-    match (mesh, &described.shape) {
-        (Some(mesh), _) => Some(match described.inertia_from {
-            file::InertiaFrom::Exact => exact(mesh),
-            file::InertiaFrom::Lumped => lumped(mesh),
-        }),
-        (None, file::Shape::Box(b)) => Some(box_moments(b.size_m)),
-        (None, file::Shape::Sphere(s)) => Some(sphere_moments(s.radius_m)),
-        (None, file::Shape::Cylinder(c)) => Some(cylinder_moments(c.radius_m, c.height_m)),
-        (None, file::Shape::Capsule(c)) => Some(capsule_moments(c.radius_m, c.height_m)),
-        (None, file::Shape::Ellipsoid(e)) => Some(ellipsoid_moments(e.semi_axes_m)),
-        (None, file::Shape::Convex(_)) => hull.map(|hull| exact(&hull_mesh(hull))),
-        (None, file::Shape::None) => None,
+fn moments(described: &file::Body, mesh: Option<&TetMesh>, solid: Option<&Solid>) -> Option<Moments> {
+    match (mesh, described.inertia_from) {
+        (Some(mesh), file::InertiaFrom::Exact) => Some(exact(mesh)),
+        (Some(mesh), file::InertiaFrom::Lumped) => Some(lumped(mesh)),
+        (None, _) => solid.map(Moments::of),
+    }
+}
+
+/// The area is a quarter of the surface.
+fn build_drag(air: &file::Air, solid: Option<&Solid>) -> Drag {
+    let area_m2 = solid.map_or(0.0, surface_m2) / 4.0;
+    Drag {
+        linear_n_s_m: air.linear_drag_n_s_m,
+        quadratic_n_s2_m2: 0.5 * air.density_kg_m3 * air.drag_coefficient * area_m2,
     }
 }
 
 /// An inertia that is a multiple of the identity but for rounding becomes one exactly, so that the gyroscopic term can
 /// be skipped without changing a bit.
-pub(super) fn snapped(I_B: Matrix3<f64>) -> Matrix3<f64> {
+fn snapped(I_B: Matrix3<f64>) -> Matrix3<f64> {
     /// Rounding of sums over some hundred tets, relative.
     const ROUNDING: f64 = 1e-13;
     let mean = Matrix3::identity() * (I_B.trace() / 3.0);
     if (I_B - mean).abs().max() <= ROUNDING * mean[(0, 0)] { mean } else { I_B }
-}
-
-pub(super) fn build_drag(air: &file::Air, shape: &file::Shape, hull: Option<&Hull>) -> Drag {
-    Drag {
-        linear_n_s_m: air.linear_drag_n_s_m,
-        quadratic_n_s2_m2: 0.5 * air.density_kg_m3 * air.drag_coefficient * surface_m2(shape, hull) / 4.0,
-    }
 }

@@ -1,22 +1,20 @@
 //! Surface of a shape: four times the mean of its shadow over all directions, if it is convex (A. Cauchy, 1841).
 
-use super::hull::Hull;
-use crate::experiment::types::Shape;
+use super::solid::Solid;
 use crate::math::elliptic::{carlson_rf, carlson_rj};
 use std::f64::consts::PI;
 
-pub fn surface_m2(shape: &Shape, hull: Option<&Hull>) -> f64 {
-    match shape {
-        Shape::Sphere(s) => 4.0 * PI * s.radius_m * s.radius_m,
-        Shape::Box(b) => {
-            let [x, y, z] = b.size_m;
+pub fn surface_m2(solid: &Solid) -> f64 {
+    match solid {
+        Solid::Sphere { radius_m } => 4.0 * PI * radius_m * radius_m,
+        Solid::Box { half_m } => {
+            let [x, y, z]: [f64; 3] = (half_m * 2.0).into();
             2.0 * (x * y + y * z + z * x)
         }
-        Shape::Cylinder(c) => 2.0 * PI * c.radius_m * (c.radius_m + c.height_m),
-        Shape::Capsule(c) => 2.0 * PI * c.radius_m * (2.0 * c.radius_m + c.height_m),
-        Shape::Ellipsoid(e) => ellipsoid_m2(e.semi_axes_m),
-        Shape::Convex(_) => hull.map_or(0.0, Hull::area_m2),
-        Shape::None => 0.0,
+        Solid::Cylinder { radius_m, half_height_m } => 2.0 * PI * radius_m * (radius_m + 2.0 * half_height_m),
+        Solid::Capsule { radius_m, half_height_m } => 2.0 * PI * radius_m * (2.0 * radius_m + 2.0 * half_height_m),
+        Solid::Ellipsoid { semi_axes_m } => ellipsoid_m2((*semi_axes_m).into()),
+        Solid::Convex(hull) => hull.area_m2(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Volume, mass, centre of mass and inertia (L8, L9), of meshes and of shapes.
 
-use super::mesh::{TetMesh, signed_volume};
+use super::mesh::{TetMesh, hull_mesh, signed_volume};
+use super::solid::Solid;
 use nalgebra::{Matrix3, Vector3};
 
 /// Of the whole body: about its centre of mass, in the axes of the body frame.
@@ -22,6 +23,18 @@ pub struct Moments {
 }
 
 impl Moments {
+    /// Of a solid about its centre: closed forms, and the tets of a hull.
+    pub fn of(solid: &Solid) -> Self {
+        match solid {
+            Solid::Sphere { radius_m } => sphere_moments(*radius_m),
+            Solid::Box { half_m } => box_moments((half_m * 2.0).into()),
+            Solid::Cylinder { radius_m, half_height_m } => cylinder_moments(*radius_m, 2.0 * half_height_m),
+            Solid::Capsule { radius_m, half_height_m } => capsule_moments(*radius_m, 2.0 * half_height_m),
+            Solid::Ellipsoid { semi_axes_m } => ellipsoid_moments((*semi_axes_m).into()),
+            Solid::Convex(hull) => exact(&hull_mesh(hull)),
+        }
+    }
+
     /// Mass properties at uniform density. The slide prints ᴼI = ∫ uᵀu dm; meant is ∫ (|u|² E − u uᵀ) dm.
     pub fn with_mass(&self, mass_kg: f64) -> MassProperties {
         let density = mass_kg / self.volume_m3;

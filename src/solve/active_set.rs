@@ -7,7 +7,7 @@
 //! rounding leaves shrinks from step to step.
 
 use super::Impulse;
-use super::island::{Island, Touch};
+use super::island::{Island, Share};
 use super::law::{self, Law, Place};
 use nalgebra::{Matrix3, RowVector3, Vector3};
 
@@ -73,7 +73,7 @@ pub fn even(island: &Island, p: &mut Vec<Impulse>, rounds: usize, tolerance: f64
 
 /// Whether there may be such a continuum: four normals have three directions to press a body.
 pub fn may_be_shared(island: &Island, p: &[Impulse]) -> bool {
-    let slips = |(touch, p): (&Touch, &Impulse)| {
+    let slips = |(touch, p): (&Share, &Impulse)| {
         let friction = touch.law.friction();
         friction > 0.0 && p.x > 0.0 && p.yz().norm() >= friction * p.x * (1.0 - 1e-9)
     };
@@ -88,7 +88,7 @@ struct Linear {
 }
 
 impl Linear {
-    fn new(touch: &Touch, p: &Impulse, u: &Vector3<f64>) -> Self {
+    fn new(touch: &Share, p: &Impulse, u: &Vector3<f64>) -> Self {
         let friction = touch.law.friction();
         let normal = RowVector3::new(1.0, 0.0, 0.0);
         let stay = |K| Linear { jump: Impulse::zeros(), K, slips: false };
@@ -106,7 +106,7 @@ impl Linear {
     }
 
     /// With impulses measured from zero. `small`: velocities that are rounding.
-    fn even(touch: &Touch, p: &Impulse, u: &Vector3<f64>, eta: f64, small: f64) -> Self {
+    fn even(touch: &Share, p: &Impulse, u: &Vector3<f64>, eta: f64, small: f64) -> Self {
         let friction = touch.law.friction();
         let normal = RowVector3::new(1.0, 0.0, 0.0);
         let slip = (u.y * u.y + u.z * u.z).sqrt();
@@ -136,7 +136,7 @@ fn step(island: &Island, p: &[Impulse], even: bool) -> Option<Vec<Impulse>> {
     let linear: Vec<Linear> = if even {
         let small = ROUNDING.sqrt() * island.scale(p);
         let largest = island.touches.iter().map(|touch| touch.scale).fold(0.0, f64::max);
-        let eta = |touch: &Touch| {
+        let eta = |touch: &Share| {
             let part = touch.scale / largest;
             EVEN_ETA * part * part
         };
@@ -147,7 +147,7 @@ fn step(island: &Island, p: &[Impulse], even: bool) -> Option<Vec<Impulse>> {
     let K: Vec<Matrix3<f64>> = linear.iter().map(|linear| linear.K).collect();
     let at_rest: Vec<Impulse> = linear.iter().zip(&u).map(|(linear, u)| linear.jump - linear.K * u).collect();
     let change = island.system(&K)?.solve(&island.pushed(&at_rest))?;
-    let moved = |(((touch, linear), p), u): (((&Touch, &Linear), &Impulse), &Vector3<f64>)| {
+    let moved = |(((touch, linear), p), u): (((&Share, &Linear), &Impulse), &Vector3<f64>)| {
         let new = p + linear.jump - linear.K * (u + touch.motion(&change));
         if linear.slips { onto_cone(&new, touch.law.friction()) } else { new }
     };

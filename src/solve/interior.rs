@@ -10,7 +10,7 @@
 //! others.
 
 use super::Impulse;
-use super::island::{Island, Touch};
+use super::island::{Island, Share};
 use super::law::{self, Law};
 use crate::math::block_lu::Factors;
 use nalgebra::{DVector, Matrix3, Vector3};
@@ -155,7 +155,7 @@ pub fn solve(island: &Island, steps: &mut u64) -> Option<Vec<Impulse>> {
 impl<'a> Method<'a> {
     fn new(island: &'a Island) -> Self {
         let fastest = island.touches.iter().map(|touch| touch.b.norm()).fold(0.0, f64::max);
-        let begin = |touch: &Touch| match touch.law {
+        let begin = |touch: &Share| match touch.law {
             Law::Pin => Pair { x: Vector3::zeros(), z: Vector3::zeros() },
             Law::Contact { .. } => Pair { x: Vector3::x() * fastest, z: Vector3::x() * fastest },
         };
@@ -182,7 +182,7 @@ impl<'a> Method<'a> {
 
     /// The longest part of a change that stays in the cones.
     fn longest(&self, changes: &[Pair]) -> f64 {
-        let of = |part: f64, ((touch, now), change): ((&Touch, &Pair), &Pair)| match touch.law {
+        let of = |part: f64, ((touch, now), change): ((&Share, &Pair), &Pair)| match touch.law {
             Law::Pin => part,
             Law::Contact { .. } => part_within(&now.z, &change.z, part_within(&now.x, &change.x, part)),
         };
@@ -227,7 +227,7 @@ struct Linear {
 impl Linear {
     fn new(at: &Method) -> Option<Self> {
         let touches = || at.island.touches.iter();
-        let scaling = |(touch, pair): (&Touch, &Pair)| match touch.law {
+        let scaling = |(touch, pair): (&Share, &Pair)| match touch.law {
             Law::Pin => Some(Scaling::of_pin()),
             Law::Contact { .. } => Scaling::new(&pair.x, &pair.z),
         };
@@ -236,9 +236,9 @@ impl Linear {
         let slopes: Vec<_> =
             touches().zip(&u).map(|(touch, u)| scale(touch.law) * law::dual_slope(u, touch.law)).collect();
         let push =
-            |((touch, s), slope): ((&Touch, &Scaling), &Matrix3<f64>)| scale(touch.law) * s.inverse * s.inverse * slope;
+            |((touch, s), slope): ((&Share, &Scaling), &Matrix3<f64>)| scale(touch.law) * s.inverse * s.inverse * slope;
         let D = touches().zip(&scalings).zip(&slopes).map(push).collect();
-        let missing = |((touch, u), pair): ((&Touch, &Vector3<f64>), &Pair)| {
+        let missing = |((touch, u), pair): ((&Share, &Vector3<f64>), &Pair)| {
             let along =
                 if touch.law.friction() > 0.0 || touch.law == Law::Pin { pair.z } else { Vector3::x() * pair.z.x };
             scale(touch.law) * law::dual(u, touch.law) - along
@@ -267,7 +267,7 @@ impl Linear {
         let pushes: Vec<Impulse> =
             touches.iter().enumerate().map(|(i, touch)| scale(touch.law) * x_of(i, &self.r_z[i])).collect();
         let y = factors.solve(&(&self.r_y + at.island.pushed(&pushes)))?;
-        let change = |(i, touch): (usize, &Touch)| {
+        let change = |(i, touch): (usize, &Share)| {
             let z = self.slopes[i] * touch.motion(&y) + self.r_z[i];
             Pair { x: x_of(i, &z), z: if touch.law == Law::Pin { Vector3::zeros() } else { z } }
         };

@@ -20,7 +20,7 @@ struct Side {
 
 /// A contact without units.
 #[derive(Clone, Copy, Debug)]
-pub struct Touch {
+pub struct Share {
     /// Its place in the problem.
     pub index: usize,
     pub law: Law,
@@ -34,7 +34,7 @@ pub struct Touch {
 /// Contacts of one island.
 #[derive(Clone, Debug)]
 pub struct Island {
-    pub touches: Vec<Touch>,
+    pub touches: Vec<Share>,
     /// Of y: six a body.
     pub unknowns: usize,
     pattern: Pattern,
@@ -68,11 +68,11 @@ pub fn islands(problem: &ContactProblem) -> Vec<Island> {
     }
     for (index, block) in problem.blocks.iter().enumerate() {
         if let Some(end) = block.ends().find(moves) {
-            islands[island_of[root(&root_of, end.body)]].touches.push(Touch::new(index, block, &whitened, &at));
+            islands[island_of[root(&root_of, end.body)]].touches.push(Share::new(index, block, &whitened, &at));
         }
     }
     for island in &mut islands {
-        let pairs = island.touches.iter().filter_map(Touch::pair);
+        let pairs = island.touches.iter().filter_map(Share::pair);
         island.pattern = Pattern::new(island.unknowns / 6, pairs);
     }
     islands
@@ -100,7 +100,7 @@ impl Whitened {
     }
 }
 
-impl Touch {
+impl Share {
     fn new(index: usize, block: &Block, whitened: &[Whitened], at: &[usize]) -> Self {
         let scale = 1.0 / block.A.trace().sqrt();
         let side = |end: &End| {
@@ -113,7 +113,7 @@ impl Touch {
             whitened[end.body].moves.then_some(Side { at: at[end.body], rows })
         };
         let sides = [side(&block.end), block.other.as_ref().and_then(side)];
-        Touch { index, law: block.law(), scale, b: block.b * scale, sides }
+        Share { index, law: block.law(), scale, b: block.b * scale, sides }
     }
 
     /// The two bodies that it couples.
@@ -182,7 +182,7 @@ impl Island {
     /// less than 10⁻⁵ of what the velocities amount to, as the judge has it.
     pub fn scale(&self, p: &[Impulse]) -> f64 {
         const SMALL: f64 = 1e-5;
-        let most = |of: &dyn Fn((&Touch, &Impulse)) -> f64| self.touches.iter().zip(p).map(of).fold(0.0, f64::max);
+        let most = |of: &dyn Fn((&Share, &Impulse)) -> f64| self.touches.iter().zip(p).map(of).fold(0.0, f64::max);
         let largest = most(&|(touch, p)| touch.scale * p.norm());
         let stopping =
             most(&|(touch, _)| touch.scale * if touch.law == Law::Pin { touch.b.norm() } else { -touch.b.x });
@@ -203,7 +203,7 @@ impl Island {
     /// How far the worst contact is from the law: the judge's residual.
     pub fn residual(&self, p: &[Impulse]) -> f64 {
         let u = self.velocities(&self.pushed(p));
-        let missed = |((touch, p), u): ((&Touch, &Impulse), &Vector3<f64>)| {
+        let missed = |((touch, p), u): ((&Share, &Impulse), &Vector3<f64>)| {
             let missed = touch.scale * law::missed(p, u, touch.law);
             if missed.is_nan() { f64::INFINITY } else { missed }
         };

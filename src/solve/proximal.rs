@@ -8,7 +8,7 @@
 //! cone).
 
 use super::Impulse;
-use super::island::{Island, Touch};
+use super::island::{Island, Share};
 use super::law;
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -36,7 +36,7 @@ impl At {
     fn new(island: &Island, centre: &[Impulse], eta: f64, y: DVector<f64>) -> Self {
         let u = island.velocities(&y);
         let touches = || island.touches.iter();
-        let point = |((touch, p), u): ((&Touch, &Impulse), &Vector3<f64>)| p - law::dual(u, touch.law) / eta;
+        let point = |((touch, p), u): ((&Share, &Impulse), &Vector3<f64>)| p - law::dual(u, touch.law) / eta;
         let z: Vec<_> = touches().zip(centre).zip(&u).map(point).collect();
         let p: Vec<_> = touches().zip(&z).map(|(touch, z)| law::in_cone(z, touch.law)).collect();
         let missing = &y - island.pushed(&p);
@@ -49,7 +49,7 @@ impl At {
 
     /// What p(y) changes with −u.
     fn slopes(&self, island: &Island, eta: f64) -> Vec<Matrix3<f64>> {
-        let slope = |((touch, z), u): ((&Touch, &Vector3<f64>), &Vector3<f64>)| {
+        let slope = |((touch, z), u): ((&Share, &Vector3<f64>), &Vector3<f64>)| {
             law::in_cone_slope(z, touch.law) / eta * law::dual_slope(u, touch.law)
         };
         island.touches.iter().zip(&self.z).zip(&self.u).map(slope).collect()

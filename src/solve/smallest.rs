@@ -6,7 +6,7 @@
 //! and w is the root of the slope of a convex function, Gᵀ P_F(G w) = y: Newton's method in six numbers a body.
 
 use super::Impulse;
-use super::island::{Island, Touch};
+use super::island::{Island, Share};
 use super::law::{self, Law};
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -29,7 +29,7 @@ enum Face {
 
 impl Face {
     /// `small`: a velocity that is rounding.
-    fn new(touch: &Touch, u: &Vector3<f64>, small: f64) -> Self {
+    fn new(touch: &Share, u: &Vector3<f64>, small: f64) -> Self {
         let slip = (u.y * u.y + u.z * u.z).sqrt();
         if touch.law == Law::Pin {
             Face::Cone
@@ -114,7 +114,7 @@ impl<'a> Faces<'a> {
         let wanted = island.pushed(p);
         let u = island.velocities(&wanted);
         let scale = small * island.scale(p);
-        let face = |(touch, u): (&Touch, &Vector3<f64>)| Face::new(touch, u, scale / touch.scale);
+        let face = |(touch, u): (&Share, &Vector3<f64>)| Face::new(touch, u, scale / touch.scale);
         let faces = island.touches.iter().zip(&u).map(face).collect();
         let smallest = island.touches.iter().map(|touch| touch.scale).fold(f64::INFINITY, f64::min);
         let weights = island.touches.iter().map(|touch| (smallest / touch.scale) * (smallest / touch.scale)).collect();
@@ -122,7 +122,7 @@ impl<'a> Faces<'a> {
     }
 
     fn at(&self, z: Vec<Vector3<f64>>) -> At {
-        let nearest = |((face, touch), z): ((&Face, &Touch), &Vector3<f64>)| face.nearest(z, touch.law);
+        let nearest = |((face, touch), z): ((&Face, &Share), &Vector3<f64>)| face.nearest(z, touch.law);
         let p: Vec<Impulse> = self.faces.iter().zip(&self.island.touches).zip(&z).map(nearest).collect();
         let missing = &self.wanted - self.island.pushed(&p);
         At { z, p, missing }
@@ -131,7 +131,7 @@ impl<'a> Faces<'a> {
     /// `first`: from nothing, where no cone has a slope.
     fn step(&self, at: &At, first: bool) -> Option<At> {
         let touches = || self.island.touches.iter().zip(&self.faces).zip(&self.weights);
-        let slope = |(((touch, face), weight), z): (((&Touch, &Face), &f64), &Vector3<f64>)| {
+        let slope = |(((touch, face), weight), z): (((&Share, &Face), &f64), &Vector3<f64>)| {
             let slope = if first { face.span() } else { face.slope(z, touch.law) };
             slope * *weight
         };
@@ -141,7 +141,7 @@ impl<'a> Faces<'a> {
         let change = H.factors()?.solve(&at.missing)?;
         let mut part = 1.0;
         for _ in 0..HALVINGS {
-            let moved = |(((touch, _), weight), z): (((&Touch, &Face), &f64), &Vector3<f64>)| {
+            let moved = |(((touch, _), weight), z): (((&Share, &Face), &f64), &Vector3<f64>)| {
                 z + touch.motion(&change) * (weight * part)
             };
             let next = self.at(touches().zip(&at.z).map(moved).collect());

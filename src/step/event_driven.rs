@@ -16,7 +16,7 @@ use crate::event::slip::{self, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
 use crate::experiment::types::{EventDriven as Settings, Impact};
-use crate::math::full_pivot::Choice;
+use crate::math::full_pivot::Selection;
 use crate::math::quadrature;
 use crate::model::Model;
 use crate::outcome::Criterion;
@@ -306,7 +306,7 @@ impl EventDriven {
         }
         if project(model, state, &self.held, &mut self.placing) || self.held.len() != self.forces.here.len() {
             self.forces.gather(model, state, self.held.iter().map(|held| &held.touch));
-            self.forces.hold(&self.held, Choice::Least);
+            self.forces.hold(&self.held, Selection::Least);
         }
         self.settle(model, state);
     }
@@ -407,7 +407,7 @@ impl EventDriven {
             held: &self.held,
             forces: &mut self.forces,
             state: &mut self.scratch,
-            choice: if sliding > 2 { Choice::Least } else { Choice::Any },
+            choice: if sliding > 2 { Selection::Least } else { Selection::Any },
             work: &mut self.work,
         }
     }

@@ -4,7 +4,7 @@ use crate::clock::Clock;
 use crate::exact::Closed;
 use crate::experiment::tolerances::DEFAULT_TOLERANCE;
 use crate::experiment::types::{Exact, Free as Settings, Integrator, Update};
-use crate::integrate::island::Island;
+use crate::integrate::island::Chain;
 use crate::integrate::{crank_nicolson, dop853, euler, implicit, implicit_midpoint, momentum};
 use crate::integrate::{moser_veselov, rk4, taylor};
 use crate::model::Model;
@@ -30,7 +30,7 @@ enum Method {
 }
 
 pub struct Free {
-    islands: Vec<(Island, Method)>,
+    islands: Vec<(Chain, Method)>,
     /// From the start, for `exact`.
     motion: Option<Closed>,
     /// A step has no solution, or the tolerance is out of reach.
@@ -42,7 +42,7 @@ impl Free {
     pub fn new(settings: &Settings, model: &Model, start: &State) -> Self {
         let exact = || Closed::new(Exact::FreeMotion, model, start).ok();
         let motion = (settings.integrator == Integrator::Exact).then(exact).flatten();
-        let islands = Island::all(model, start).into_iter();
+        let islands = Chain::all(model, start).into_iter();
         let islands = islands.filter_map(|island| Method::new(settings, &island, model).map(|method| (island, method)));
         Free { islands: islands.collect(), motion, stalled: false, work: Work::default() }
     }
@@ -64,7 +64,7 @@ impl Free {
 
 impl Method {
     /// None: the closed form, which is not a step from the state before.
-    fn new(settings: &Settings, island: &Island, model: &Model) -> Option<Self> {
+    fn new(settings: &Settings, island: &Chain, model: &Model) -> Option<Self> {
         let implicit = || implicit::Scratch::new(island);
         Some(match settings.integrator {
             Integrator::ExplicitEuler => Method::Euler(Update::Explicit),
@@ -98,7 +98,7 @@ impl Method {
     }
 
     /// From the time `span[0]`, `span[1]` long. False: there is no solution.
-    fn step(&mut self, island: &mut Island, model: &Model, span: [f64; 2], work: &mut Work) -> bool {
+    fn step(&mut self, island: &mut Chain, model: &Model, span: [f64; 2], work: &mut Work) -> bool {
         match self {
             Method::Euler(update) => euler::step(*update, island, model, span, work),
             Method::Rk4(scratch) => rk4::step(island, model, span, scratch, work),

@@ -56,7 +56,7 @@ impl Choice {
 pub fn choose(experiment: &Experiment, model: &Model, start: &State) -> Option<Choice> {
     let Method::Auto(Auto { tolerance }) = experiment.method else { return None };
     let started = Instant::now();
-    let scene = Scene { experiment, model, start, tolerance };
+    let scene = Asked { experiment, model, start, tolerance };
     let Candidate { method, step_s, estimate_m } = scene.best();
     let mut chosen = Experiment { method, ..experiment.clone() };
     chosen.time.step_s = step_s.or(chosen.time.step_s);
@@ -69,7 +69,7 @@ pub fn choose(experiment: &Experiment, model: &Model, start: &State) -> Option<C
 }
 
 /// What is asked for.
-pub struct Scene<'a> {
+pub struct Asked<'a> {
     pub experiment: &'a Experiment,
     pub model: &'a Model,
     pub start: &'a State,
@@ -86,7 +86,7 @@ pub struct Candidate {
     pub estimate_m: f64,
 }
 
-impl Scene<'_> {
+impl Asked<'_> {
     fn best(&self) -> Candidate {
         let (by_events, is_whole) = self.by_events();
         if is_whole {

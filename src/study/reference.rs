@@ -8,7 +8,7 @@ use crate::case;
 use crate::clock::Clock;
 use crate::experiment::tolerances::SMALLEST_GLOBAL;
 use crate::experiment::types::{EventDriven, Experiment, Limits, Method, Record, ReferenceRun, Time};
-use crate::files::{FileError, write_whole};
+use crate::files::{self, FileError, make_folder, write_whole};
 use crate::measure::error::Errors;
 use crate::measure::reference::{PARTS, Reference, Sample};
 use crate::model::Model;
@@ -68,7 +68,7 @@ pub fn of(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> 
     if let Some(reference) = &made {
         // The name says of what it is: whoever writes last writes the same.
         let _one = WRITING.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        std::fs::create_dir_all(dir).map_err(|error| FileError::new(dir, error))?;
+        make_folder(dir)?;
         write_whole(&path, &serde_json::to_vec(reference).unwrap_or_default())?;
     }
     Ok(made)
@@ -81,7 +81,7 @@ pub fn of_or_made(dir: &Path, experiment: &Experiment, model: &Model, start: &St
 
 /// A file that is torn counts as missing.
 fn read(path: &Path) -> Option<Reference> {
-    serde_json::from_slice(&std::fs::read(path).ok()?).ok()
+    serde_json::from_slice(&files::read(path).ok()?).ok()
 }
 
 /// Runs a reference; none: the experiment asks for none.

@@ -5,7 +5,7 @@
 //! grown finds its old rows again.
 
 use crate::build_info::BUILD;
-use crate::files::{FileError, write_whole};
+use crate::files::{self, FileError, write_whole};
 use crate::rows::plan_file::{PlanCase, PlanFile};
 use crate::rows::table;
 use crate::rows::{Measured, Row};
@@ -38,7 +38,7 @@ pub struct Store {
 impl Store {
     /// Opens or makes the folder and writes the plan. Rows of another build count as missing, unless `keep`.
     pub fn open(dir: &Path, plan: PlanFile, keep: bool) -> Result<Self, FileError> {
-        std::fs::create_dir_all(dir).map_err(|error| FileError::new(dir, error))?;
+        files::make_folder(dir)?;
         let mut done = read_journal(dir)?;
         if !keep {
             done.retain(|_, entry| entry.build == BUILD);
@@ -59,7 +59,7 @@ impl Store {
     /// Opens a folder for reading its rows, of whatever build.
     pub fn read(dir: &Path) -> Result<(PlanFile, Done), FileError> {
         let path = dir.join("plan.json");
-        let text = std::fs::read(&path).map_err(|error| FileError::new(&path, error))?;
+        let text = files::read(&path)?;
         let plan = serde_json::from_slice(&text).map_err(|error| FileError::new(&path, error))?;
         Ok((plan, read_journal(dir)?))
     }
@@ -99,7 +99,7 @@ impl Store {
     /// A killed run may have left half a line: end it, so that the next one starts at its beginning.
     fn end_torn_line(&mut self) -> Result<(), FileError> {
         let path = journal_path(&self.dir);
-        let text = std::fs::read(&path).map_err(|error| FileError::new(&path, error))?;
+        let text = files::read(&path)?;
         if text.last().is_some_and(|last| *last != b'\n') {
             self.journal.write_all(b"\n").map_err(|error| FileError::new(&path, error))?;
         }

@@ -8,7 +8,7 @@ use gotai::outcome::Outcome;
 use gotai::plan::Plan;
 use gotai::record::writer::Target;
 use gotai::rows::Measured;
-use gotai::study::choose::{HALVINGS, Scene};
+use gotai::study::choose::{Asked, HALVINGS};
 
 /// Nothing to hit: one closed form from start to end.
 const THROWN: &str = "
@@ -71,7 +71,7 @@ exact: sliding
 fn a_step_is_halved_until_two_runs_agree() {
     let mut experiment = experiment(SLIDING, &[]);
     let (model, start) = gotai::scene::build(&experiment).unwrap();
-    let scene = Scene { experiment: &experiment.clone(), model: &model, start: &start, tolerance: 1e-4 };
+    let scene = Asked { experiment: &experiment.clone(), model: &model, start: &start, tolerance: 1e-4 };
     let found = scene.by_steps();
     (experiment.method, experiment.time.step_s) = (found.method.clone(), found.step_s);
     let error_m = run(&experiment).measured.error_position_m.unwrap();
@@ -86,7 +86,7 @@ fn a_step_is_halved_until_two_runs_agree() {
 fn a_limit_ends_the_search_as_it_ends_a_run() {
     let experiment = experiment(SLIDING, &["limits.steps=150"]);
     let (model, start) = gotai::scene::build(&experiment).unwrap();
-    let scene = Scene { experiment: &experiment, model: &model, start: &start, tolerance: 1e-4 };
+    let scene = Asked { experiment: &experiment, model: &model, start: &start, tolerance: 1e-4 };
     // 100 steps arrive, 200 do not: nothing to compare.
     assert_eq!(scene.by_steps().estimate_m, f64::INFINITY);
 }

@@ -7,7 +7,7 @@
 use super::invariants::Invariants;
 use super::tape::{Id, Tape};
 use crate::experiment::types::Frame;
-use crate::integrate::island::Island;
+use crate::integrate::island::Chain;
 use crate::integrate::phase::to_world;
 use crate::integrate::pin_solver::PinSolver;
 use crate::integrate::rotation::exponential;
@@ -55,7 +55,7 @@ pub struct Equations {
 }
 
 impl Equations {
-    pub fn new(island: &Island, model: &Model) -> Self {
+    pub fn new(island: &Chain, model: &Model) -> Self {
         let mut tape = Tape::default();
         let bodies: Vec<Moving> = {
             let gravity = island.is_free().then_some(model.gravity_m_s2);
@@ -74,7 +74,7 @@ impl Equations {
     }
 
     /// Adds the pins' forces to the drives.
-    fn pin(&mut self, island: &Island, model: &Model, drives: &mut [Driven]) {
+    fn pin(&mut self, island: &Chain, model: &Model, drives: &mut [Driven]) {
         let tape = &mut self.tape;
         let Some(solver) = island.pins() else {
             self.pinned_from = tape.operations();
@@ -120,7 +120,7 @@ impl Equations {
     }
 
     /// Starts at the island's states.
-    pub fn start(&mut self, island: &Island) {
+    pub fn start(&mut self, island: &Chain) {
         for (moving, at) in self.bodies.iter_mut().zip(&island.at) {
             moving.start(at, &mut self.tape);
         }
@@ -135,7 +135,7 @@ impl Equations {
     }
 
     /// All coefficients up to `order`, from the start, at `t_s`.
-    pub fn expand(&mut self, island: &mut Island, model: &Model, t_s: f64, order: usize, work: &mut Work) {
+    pub fn expand(&mut self, island: &mut Chain, model: &Model, t_s: f64, order: usize, work: &mut Work) {
         work.gyroscopic += (self.bodies.iter().filter(|moving| moving.gyroscopic).count() * order) as u64;
         let (all, from) = (self.tape.operations(), self.pinned_from);
         let Some(solver) = island.gathered_pins(model) else {
@@ -169,7 +169,7 @@ impl Equations {
     }
 
     /// Puts the states `h` after the expansion into the island.
-    pub fn write(&self, order: usize, h: f64, island: &mut Island) {
+    pub fn write(&self, order: usize, h: f64, island: &mut Chain) {
         for (moving, at) in self.bodies.iter().zip(&mut island.at) {
             *at = moving.at(&self.tape, order, h);
         }

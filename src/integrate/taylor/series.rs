@@ -1,6 +1,6 @@
 //! The series of the motion: how many terms, and how far they reach.
 
-use super::super::island::Island;
+use super::super::island::Chain;
 use super::equations::Equations;
 use crate::model::Model;
 use crate::work::Work;
@@ -20,7 +20,7 @@ pub struct Taylor {
 impl Taylor {
     /// At the step that costs least terms shrink by e² from one to the next, whatever the tolerance, which asks for
     /// 1 − ½ log ε of them (Jorba & Zou, 3.1); as many more as pay for what every expansion costs once.
-    pub fn new(tolerance: f64, island: &Island, model: &Model) -> Self {
+    pub fn new(tolerance: f64, island: &Chain, model: &Model) -> Self {
         /// Measured on a free top at 1e-12: 0 more take 1.3 times as long, 8 more 1.03 times.
         const MORE: f64 = 5.0;
         let order = (1.0 - libm::log(tolerance) / 2.0 + MORE).ceil().clamp(4.0, super::tape::HIGHEST as f64) as usize;
@@ -28,7 +28,7 @@ impl Taylor {
     }
 
     /// One step of the clock. False: no expansion reaches far enough to get on.
-    pub fn step(&mut self, island: &mut Island, model: &Model, [t_s, step_s]: [f64; 2], work: &mut Work) -> bool {
+    pub fn step(&mut self, island: &mut Chain, model: &Model, [t_s, step_s]: [f64; 2], work: &mut Work) -> bool {
         let end_s = t_s + step_s;
         for _ in 0..MOST {
             let [start_s, reached_s] = match self.reach_s {
@@ -57,7 +57,7 @@ impl Taylor {
         false
     }
 
-    fn expand(&mut self, island: &mut Island, model: &Model, t_s: f64, work: &mut Work) -> [f64; 2] {
+    fn expand(&mut self, island: &mut Chain, model: &Model, t_s: f64, work: &mut Work) -> [f64; 2] {
         self.equations.expand(island, model, t_s, self.order, work);
         work.inner_steps += 1;
         *self.reach_s.insert([t_s, t_s + self.reach(self.order).min(self.reach(self.order - 1))])

@@ -6,12 +6,13 @@ use super::output::{print, print_json};
 use super::table::table;
 use crate::experiment::about::About;
 use crate::experiment::types::{Accuracy, Exact, Integrator, Measure, Method, Shape};
-use crate::experiment::vocabulary::{Initial, Setting, Takes, Word, shown, words};
+use crate::experiment::vocabulary::{Initial, Key, Takes, Word, shown, words};
 use crate::heading::Heading;
 use crate::integrate::claims::{Kept, claim};
 use crate::measure::more;
 use crate::rows::columns;
 use clap::{Args, ValueEnum};
+use comfy_table::TableComponent;
 use serde_json::{Map, Value, json};
 use std::process::ExitCode;
 
@@ -151,6 +152,9 @@ fn plain(Section { title, lead, head, rows }: &Section) -> String {
         [title, lead].into_iter().filter(|text| !text.is_empty()).map(|text| without_marks(text)).collect();
     if !rows.is_empty() {
         let mut table = table(head);
+        for lines in [TableComponent::HorizontalLines, TableComponent::MiddleIntersections] {
+            table.remove_style(lines);
+        }
         table.add_rows(rows.iter().map(|cells| cells.iter().map(|cell| without_marks(cell)).collect::<Vec<_>>()));
         parts.push(table.to_string());
     }
@@ -194,7 +198,7 @@ fn methods() -> Vec<Section> {
     sections
 }
 
-fn setting_row(method: &Method, Setting { name, takes, initial }: &Setting) -> Vec<String> {
+fn setting_row(method: &Method, Key { name, takes, initial }: &Key) -> Vec<String> {
     let takes = match takes {
         Takes::Words(words) => codes(words),
         other => other.to_string(),

@@ -88,10 +88,12 @@ impl Crate {
     /// The file that defines what an absolute path leads to; none: it leads out of the crate.
     fn file_of(&self, path: &[String]) -> Option<usize> {
         let len = (1..=path.len()).rev().find(|len| self.modules.contains_key(&path[..*len]))?;
-        if let Some(name) = path.get(len) {
-            let handed = self.handed_on.get(&(path[..len].to_vec(), name.clone()));
-            if let Some(target) = handed.filter(|target| target.as_slice() != path) {
-                let target: Vec<String> = target.iter().chain(&path[len + 1..]).cloned().collect();
+        if let Some(name) = path.get(len)
+            && let Some(target) = self.handed_on.get(&(path[..len].to_vec(), name.clone()))
+        {
+            let target: Vec<String> = target.iter().chain(&path[len + 1..]).cloned().collect();
+            // A macro is handed on under its own name.
+            if target != path {
                 return self.file_of(&target);
             }
         }

@@ -3,9 +3,6 @@
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
 
-/// What contacts name the container.
-pub(super) const CONTAINER: &str = "container";
-
 pub(super) type Result<T> = std::result::Result<T, ExperimentError>;
 
 pub(super) fn unexpected(at: Path, expected: &str, found: &str) -> ExperimentError {

@@ -91,6 +91,9 @@ fn default_gravity() -> [f64; 3] {
     [0.0, -9.8, 0.0]
 }
 
+/// How pairs and contacts call the container.
+pub const CONTAINER: &str = "container";
+
 /// What bodies hit. All faces look inward.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]

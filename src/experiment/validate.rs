@@ -1,15 +1,14 @@
 //! What the types cannot say: bounds, and words that must fit together. The body's part is `validate_body.rs`.
 
 use super::checks::{
-    CONTAINER, Result, a_part, at_least_one, direction, holds_a_face, not_negative, positive, relaxation, sizes,
-    unexpected,
+    Result, a_part, at_least_one, direction, holds_a_face, not_negative, positive, relaxation, sizes, unexpected,
 };
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::tolerances::{SMALLEST_GLOBAL, SMALLEST_TOLERANCE};
 use super::types::{
-    Accuracy, Container, Diverge, EventDriven, Experiment, Free, Impact, Limits, Measure, Method, Pair, Penalty, Plane,
-    Random, Record, RecordCases, Scene, Shape, Solver, Time, TimeStepping,
+    Accuracy, CONTAINER, Container, Diverge, EventDriven, Experiment, Free, Impact, Limits, Measure, Method, Pair,
+    Penalty, Plane, Random, Record, RecordCases, Scene, Shape, Solver, Time, TimeStepping,
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;

@@ -1,10 +1,12 @@
 //! What must be true of one body, whatever else is in the scene.
 
-use super::checks::{CONTAINER, Result, a_part, direction, not_negative, positive, sizes, unexpected};
+use super::checks::{Result, a_part, direction, not_negative, positive, sizes, unexpected};
 use super::copies::validate_copies;
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
-use super::types::{Body, BoxShape, Convex, Inertia, InertiaFrom, MeshSpec, NodesPerEdge, Orientation, Shape};
+use super::types::{
+    Body, BoxShape, CONTAINER, Convex, Inertia, InertiaFrom, MeshSpec, NodesPerEdge, Orientation, Shape,
+};
 use super::validate_loads::validate_driven;
 use crate::shape::hull::{Hull, HullError, MOST_VERTICES};
 use nalgebra::Matrix3;

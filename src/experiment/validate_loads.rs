@@ -12,26 +12,23 @@ pub fn validate_loads(experiment: &Experiment, at: Path) -> Result<()> {
     scene.forces.iter().enumerate().try_for_each(|(i, force)| validate_force(force, scene, forces.item(i, None)))?;
     scene.air.as_ref().map_or(Ok(()), |air| validate_air(air, scene, at.key("air")))?;
     scene.pins.iter().enumerate().try_for_each(|(i, pin)| validate_pin(pin, scene, pins.item(i, None)))?;
-    match &experiment.method {
+    validate_pins_of(&experiment.method, scene, at)
+}
+
+fn validate_pins_of(method: &Method, scene: &Scene, at: Path) -> Result<()> {
+    let refused = |feature: &str| Err(ExperimentError::feature_not_available(at.key("pins").to_key_path(), feature));
+    match method {
         Method::Free(free) if free.integrator == Integrator::Taylor => no_quadratic_drag(scene, at.key("air")),
-        Method::Free(_) => Ok(()),
         _ if scene.pins.is_empty() => Ok(()),
-        Method::TimeStepping(stepping) if stepping.impact == Impact::Newton => Ok(()),
-        Method::EventDriven(settings) if settings.impact == Impact::Newton => Ok(()),
-        Method::Auto(_) => Ok(()),
-        Method::EventDriven(settings) => {
-            let feature = format!("a pin with the law of impact `{}` (`newton` has pins)", settings.impact.word());
-            Err(ExperimentError::feature_not_available(pins.to_key_path(), &feature))
-        }
-        Method::TimeStepping(stepping) => {
-            let feature = format!("a pin with the law of impact `{}` (`newton` has pins)", stepping.impact.word());
-            Err(ExperimentError::feature_not_available(pins.to_key_path(), &feature))
-        }
-        method => {
-            let feature =
-                format!("a pin with the method `{}` (the methods `free` and `time-stepping` have pins)", method.word());
-            Err(ExperimentError::feature_not_available(pins.to_key_path(), &feature))
-        }
+        Method::Free(_) | Method::Auto(_) => Ok(()),
+        Method::TimeStepping(_) | Method::EventDriven(_) => match method.impact() {
+            Impact::Newton => Ok(()),
+            law => refused(&format!("a pin with the law of impact `{}` (`newton` has pins)", law.word())),
+        },
+        Method::Lecture(_) | Method::Penalty(_) => refused(&format!(
+            "a pin with the method `{}` (`free`, `time-stepping`, `event-driven` and `auto` have pins)",
+            method.word()
+        )),
     }
 }
 

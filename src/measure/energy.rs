@@ -72,8 +72,8 @@ impl EnergyLedger {
         self.end = now;
     }
 
-    /// Energy that the contacts of one step took, and their gain. Before them the velocity is V[n] + M⁻¹ F_E Δt, after
-    /// them that plus M⁻¹ times the impulses; both at the attitude before the step.
+    /// Energy that the contacts of one step took, and their gain. Before them the velocity is V + M⁻¹ F_E Δt, V that of
+    /// the state; after them that plus M⁻¹ times the impulses; both at the attitude before the step.
     pub fn observe_contacts(&mut self, model: &Model, before: &State, pushes: &[Push], step_s: f64) {
         let (mut kinetic_j, mut added_j) = (0.0, 0.0);
         for (i, ((body, at), push)) in model.bodies.iter().zip(&before.bodies).zip(pushes).enumerate() {

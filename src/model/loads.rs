@@ -1,6 +1,5 @@
 //! What acts on bodies beside gravity, contact and pins: applied forces and the resistance of the air.
 
-use super::Model;
 use crate::experiment::types::Frame;
 use crate::state::BodyState;
 use nalgebra::Vector3;
@@ -66,55 +65,5 @@ impl Drag {
 
     pub fn force(&self, v: &Vector3<f64>) -> Vector3<f64> {
         -v * (self.linear_n_s_m + self.quadratic_n_s2_m2 * v.norm())
-    }
-}
-
-impl Model {
-    /// Whether anything but gravity, contact and pins acts on a body.
-    pub fn has_loads(&self) -> bool {
-        !self.forces.is_empty() || self.bodies.iter().any(|body| !body.drag.is_none())
-    }
-
-    /// The acceleration of the centre of mass, if nothing acts on the body but gravity and constant forces that do not
-    /// turn it.
-    pub fn constant_pull(&self, index: usize) -> Option<Vector3<f64>> {
-        let body = &self.bodies[index];
-        let mut pull = self.gravity_m_s2;
-        for force in self.forces.iter().filter(|force| force.body == index) {
-            if !force.is_weight_like() || force.r_B != Vector3::zeros() {
-                return None;
-            }
-            pull += force.force_n / body.mass_kg;
-        }
-        body.drag.is_none().then_some(pull)
-    }
-
-    /// All that acts on one body beside gravity, contact and pins.
-    pub fn load(&self, index: usize, t_s: f64, at: &BodyState) -> Wrench {
-        let drag = &self.bodies[index].drag;
-        let mut sum = Wrench::ZERO;
-        if !drag.is_none() {
-            sum.force = drag.force(&at.v_WB);
-        }
-        for applied in self.forces.iter().filter(|applied| applied.body == index) {
-            let wrench = applied.wrench(t_s, at);
-            sum.force += wrench.force;
-            sum.torque += wrench.torque;
-        }
-        sum
-    }
-
-    /// M⁻¹ F_E h of one body (L14): what gravity and loads add to v and ω in a step, at the state before it.
-    pub fn gained(&self, index: usize, t_s: f64, at: &BodyState, step_s: f64) -> (Vector3<f64>, Vector3<f64>) {
-        let body = &self.bodies[index];
-        if body.driven {
-            return (Vector3::zeros(), Vector3::zeros());
-        }
-        let gravity = self.gravity_m_s2 * step_s;
-        if self.forces.is_empty() && body.drag.is_none() {
-            return (gravity, Vector3::zeros());
-        }
-        let load = self.load(index, t_s, at);
-        (gravity + load.force * (step_s / body.mass_kg), body.I_W_inverse(at) * load.torque * step_s)
     }
 }

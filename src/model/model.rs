@@ -1,10 +1,11 @@
 //! The model: all that is constant during a run.
 
-use super::body::Body;
+use super::body::{Body, Geometry};
 use super::container::Container;
-use super::loads::AppliedForce;
+use super::loads::{AppliedForce, Wrench};
 use super::pins::{self, Pin};
 use super::surface::{Pair, Surface};
+use crate::state::BodyState;
 use nalgebra::Vector3;
 
 #[derive(Clone, Debug)]
@@ -39,4 +40,85 @@ impl Model {
     pub fn potential_j(&self, body: &Body, p_WB: &Vector3<f64>) -> f64 {
         -body.mass_kg * self.gravity_m_s2.dot(&(p_WB - self.potential_zero_m))
     }
+
+    /// Whether anything but gravity, contact and pins acts on a body.
+    pub fn has_loads(&self) -> bool {
+        !self.forces.is_empty() || self.bodies.iter().any(|body| !body.drag.is_none())
+    }
+
+    /// The acceleration of the centre of mass, if nothing acts on the body but gravity and constant forces that do not
+    /// turn it.
+    pub fn constant_pull(&self, index: usize) -> Option<Vector3<f64>> {
+        let body = &self.bodies[index];
+        let mut pull = self.gravity_m_s2;
+        for force in self.forces.iter().filter(|force| force.body == index) {
+            if !force.is_weight_like() || force.r_B != Vector3::zeros() {
+                return None;
+            }
+            pull += force.force_n / body.mass_kg;
+        }
+        body.drag.is_none().then_some(pull)
+    }
+
+    /// All that acts on one body beside gravity, contact and pins.
+    pub fn load(&self, index: usize, t_s: f64, at: &BodyState) -> Wrench {
+        let drag = &self.bodies[index].drag;
+        let mut sum = Wrench::ZERO;
+        if !drag.is_none() {
+            sum.force = drag.force(&at.v_WB);
+        }
+        for applied in self.forces.iter().filter(|applied| applied.body == index) {
+            let wrench = applied.wrench(t_s, at);
+            sum.force += wrench.force;
+            sum.torque += wrench.torque;
+        }
+        sum
+    }
+
+    /// M⁻¹ F_E h of one body (L14): what gravity and loads add to v and ω in a step, at the state before it.
+    pub fn gained(&self, index: usize, t_s: f64, at: &BodyState, step_s: f64) -> (Vector3<f64>, Vector3<f64>) {
+        let body = &self.bodies[index];
+        if body.driven {
+            return (Vector3::zeros(), Vector3::zeros());
+        }
+        let gravity = self.gravity_m_s2 * step_s;
+        if self.forces.is_empty() && body.drag.is_none() {
+            return (gravity, Vector3::zeros());
+        }
+        let load = self.load(index, t_s, at);
+        (gravity + load.force * (step_s / body.mass_kg), body.I_W_inverse(at) * load.torque * step_s)
+    }
+
+    /// Largest gap of all pins; none without a pin.
+    pub fn pin_gap_m(&self, bodies: &[BodyState]) -> Option<f64> {
+        self.pins.iter().map(|pin| pin.gap_m(bodies)).reduce(f64::max)
+    }
+
+    /// Of two bodies, or a body and the container.
+    pub fn pair(&self, body: usize, other: Option<usize>) -> Surface {
+        let own = self.bodies[body].surface;
+        let others = other.map_or(self.container_surface, |other| self.bodies[other].surface);
+        let given = self.pairs.iter().find(|pair| {
+            let [a, b] = pair.between;
+            (a, b) == (Some(body), other) || (b, a) == (Some(body), other)
+        });
+        Surface {
+            friction: given.and_then(|pair| pair.friction).unwrap_or_else(|| mean(own.friction, others.friction)),
+            restitution: given
+                .and_then(|pair| pair.restitution)
+                .unwrap_or_else(|| mean(own.restitution, others.restitution)),
+            tangential_restitution: given.and_then(|pair| pair.tangential_restitution).unwrap_or(0.0),
+        }
+    }
+
+    /// Some contact that can be has friction.
+    pub fn is_rough(&self) -> bool {
+        let touching = |body: &Body| !matches!(body.geometry, Geometry::None) && body.surface.friction > 0.0;
+        self.bodies.iter().any(touching) || self.pairs.iter().any(|pair| pair.friction.is_some_and(|f| f > 0.0))
+    }
+}
+
+/// Geometric; of equal values the value itself, to the last bit.
+fn mean(a: f64, b: f64) -> f64 {
+    if a == b { a } else { (a * b).sqrt() }
 }

@@ -1,6 +1,5 @@
 //! Ball joints (L17): a point of a body is held where it was at the start, in the world or on another body.
 
-use super::Model;
 use crate::state::BodyState;
 use nalgebra::Vector3;
 
@@ -40,12 +39,5 @@ impl Pin {
             Anchor::Body(other, r_B) => point(*other, r_B),
         };
         point(self.body, &self.r_B) - anchor
-    }
-}
-
-impl Model {
-    /// Largest gap of all pins; none without a pin.
-    pub fn pin_gap_m(&self, bodies: &[BodyState]) -> Option<f64> {
-        self.pins.iter().map(|pin| pin.gap_m(bodies)).reduce(f64::max)
     }
 }

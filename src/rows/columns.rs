@@ -16,8 +16,8 @@ pub const SEARCH: [Heading; 4] = [
     count("search_runs", "Number of runs that the search took."),
     text(
         "search_verdict",
-        "`found`, or, where both ends of `between` are of one kind, the side on which the critical value is: `below` or \
-         `above`.",
+        "`found`, or, where both ends of `between` are of one kind, the side on which the critical value is: `below` \
+         or `above`.",
     ),
 ];
 

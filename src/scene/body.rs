@@ -47,6 +47,15 @@ pub(super) fn build_body(described: &file::Body, scene: &file::Scene) -> Result<
     })
 }
 
+/// The place of a body among the model's.
+///
+/// # Panics
+/// No body is called so: a fault of the program, as validation refuses such a name, that must not look like a scene.
+pub(super) fn index_of(name: &str, bodies: &[Body]) -> usize {
+    let at = bodies.iter().position(|body| body.name == name);
+    at.unwrap_or_else(|| panic!("validated: no body is called `{name}`"))
+}
+
 /// None: a point.
 fn build_solid(described: &file::Body) -> Result<Option<Solid>, BuildError> {
     Ok(Some(match &described.shape {

@@ -1,6 +1,6 @@
 //! From one resolved experiment to its constant `Model` and first `State`.
 
-use super::body::build_body;
+use super::body::{build_body, index_of};
 use super::error::BuildError;
 use super::first::{first_state, potential_zero};
 use super::overlap::refuse_overlap;
@@ -69,8 +69,7 @@ fn build_container(container: &file::Container) -> Container {
 }
 
 fn build_pair(pair: &file::Pair, bodies: &[Body]) -> Pair {
-    // Validation has seen to it that a name is a body's or the container.
-    let index = |name: &String| bodies.iter().position(|body| body.name == *name);
+    let index = |name: &String| (name != file::CONTAINER).then(|| index_of(name, bodies));
     Pair {
         between: pair.between.each_ref().map(index),
         friction: pair.friction,
@@ -80,7 +79,7 @@ fn build_pair(pair: &file::Pair, bodies: &[Body]) -> Pair {
 }
 
 fn build_force(force: &file::Force, bodies: &[Body]) -> AppliedForce {
-    let body = bodies.iter().position(|body| body.name == force.body).unwrap_or_default();
+    let body = index_of(&force.body, bodies);
     let vector = |given: Option<[f64; 3]>| given.map_or_else(Vector3::zeros, Vector3::from);
     AppliedForce {
         body,

@@ -1,5 +1,6 @@
 //! Pins of a scene, and velocities that agree with them.
 
+use super::body::index_of;
 use super::error::BuildError;
 use crate::experiment::types as file;
 use crate::model::Body;
@@ -9,7 +10,7 @@ use nalgebra::Vector3;
 
 /// Pins of a scene, and velocities that agree with them: one that the file does not give follows from the pin.
 pub fn build_pins(scene: &file::Scene, bodies: &[Body], states: &mut [BodyState]) -> Result<Vec<Pin>, BuildError> {
-    let index = |name: &String| scene.bodies.iter().position(|body| body.name == *name).unwrap_or_default();
+    let index = |name: &String| index_of(name, bodies);
     let pins: Vec<Pin> = scene
         .pins
         .iter()

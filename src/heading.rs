@@ -154,25 +154,22 @@ macro_rules! columns {
 
         impl $crate::heading::Headings for $row {
             fn headings() -> Vec<$crate::heading::Heading> {
-                let mut headings = Vec::new();
-                $($crate::heading::columns!(
-                    @add headings, $field, $type, concat!($($meaning),+), [$($($how)+)?]
-                );)+
-                headings
+                [$($crate::heading::columns!(@of $field, $type, concat!($($meaning),+), [$($($how)+)?])),+].concat()
             }
         }
     };
-    (@add $headings:ident, $field:ident, $type:ty, $meaning:expr, [flatten]) => {
-        $headings.extend(<$type as $crate::heading::Headings>::headings());
+    (@of $field:ident, $type:ty, $meaning:expr, [flatten]) => {
+        <$type as $crate::heading::Headings>::headings()
     };
-    (@add $headings:ident, $field:ident, $type:ty, $meaning:expr, [rename = $name:literal]) => {
-        $crate::heading::columns!(@one $headings, $name, $type, $meaning);
+    (@of $field:ident, $type:ty, $meaning:expr, [rename = $name:literal]) => {
+        $crate::heading::columns!(@one $name, $type, $meaning)
     };
-    (@add $headings:ident, $field:ident, $type:ty, $meaning:expr, []) => {
-        $crate::heading::columns!(@one $headings, stringify!($field), $type, $meaning);
+    (@of $field:ident, $type:ty, $meaning:expr, []) => {
+        $crate::heading::columns!(@one stringify!($field), $type, $meaning)
     };
-    (@one $headings:ident, $name:expr, $type:ty, $meaning:expr) => {
-        $headings.push($crate::heading::Heading::new($name, <$type as $crate::heading::InCell>::KIND, $meaning));
+    (@one $name:expr, $type:ty, $meaning:expr) => {
+        vec![$crate::heading::Heading::new($name, <$type as $crate::heading::InCell>::KIND, $meaning)]
     };
 }
+
 pub(crate) use columns;

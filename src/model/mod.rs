@@ -7,6 +7,8 @@
 mod body;
 pub mod container;
 pub mod loads;
+// The noun of the room has the room's name.
+#[allow(clippy::module_inception)]
 mod model;
 pub mod pins;
 pub mod surface;

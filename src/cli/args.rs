@@ -1,11 +1,13 @@
 //! Flags that commands share.
 
 use super::error::CliError;
+use crate::case::hex;
 use crate::experiment::ExperimentFile;
 use crate::experiment::types::RecordTo;
 use crate::record::writer::Target;
 use crate::sweep::runner::targets;
 use clap::{Args, ValueEnum};
+use sha2::{Digest, Sha256};
 use std::path::{Component, Path, PathBuf};
 
 /// Of every command that reads an experiment.
@@ -33,7 +35,7 @@ pub(super) struct OutputArgs {
 /// Of every command that runs cases.
 #[derive(Args, Clone, Debug)]
 pub(super) struct RunArgs {
-    /// Folder for the results [default: recordings/<path of the config below configs/, without .yaml>]
+    /// Folder for the results [default: recordings/<path of the config below configs/, without .yaml>+<what is set>]
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// What to record into; overrides record.to
@@ -64,10 +66,6 @@ impl From<RecordFlag> for RecordTo {
 }
 
 impl RunArgs {
-    pub(super) fn out(&self, config: &Path) -> PathBuf {
-        self.out.clone().unwrap_or_else(|| default_out(config))
-    }
-
     /// The flag wins over the file.
     pub(super) fn targets(&self, in_file: Option<RecordTo>) -> Result<Vec<Target>, CliError> {
         let targets = targets(self.record.map(RecordTo::from).or(in_file));
@@ -93,11 +91,32 @@ impl ExperimentArgs {
     pub(super) fn load(&self, config: &Path) -> Result<ExperimentFile, CliError> {
         Ok(ExperimentFile::load(config, &self.sets)?)
     }
+
+    /// recordings/<path of the config below configs/, without .yaml>, and what was set, so that no run overwrites the
+    /// table of another one.
+    pub(super) fn default_out(&self, config: &Path) -> PathBuf {
+        let mut folder = Path::new("recordings").join(below_configs(config)).into_os_string();
+        folder.push(suffix(&self.sets));
+        folder.into()
+    }
 }
 
-/// recordings/<path of the config below configs/, without .yaml>.
-pub(super) fn default_out(config: &Path) -> PathBuf {
-    Path::new("recordings").join(below_configs(config))
+/// Keys that change neither the motion nor the columns.
+const BESIDE: [&str; 4] = ["record", "question", "expect", "bench"];
+
+/// `+path=value` for every `--set` in the order given, in characters that every shell and file system takes.
+fn suffix(sets: &[String]) -> String {
+    const LONGEST: usize = 80;
+    const KEPT: usize = 60;
+    let decides = |set: &&String| !BESIDE.contains(&set.split(['.', '=']).next().unwrap_or_default().trim());
+    let given: String = sets.iter().filter(decides).map(|set| format!("+{set}")).collect();
+    let is_safe = |c: char| c.is_ascii_alphanumeric() || ".+-=".contains(c);
+    let name: String = given.chars().map(|c| if is_safe(c) { c } else { '-' }).collect();
+    if name.len() <= LONGEST {
+        return name;
+    }
+    // Of what was given: two that begin alike, or differ in what is replaced, are two.
+    format!("{}~{}", &name[..KEPT], hex(&Sha256::digest(given)[..4]))
 }
 
 /// Path below configs/, without .yaml; a config elsewhere goes by its own name.

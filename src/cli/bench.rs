@@ -21,7 +21,7 @@ use std::process::ExitCode;
 pub struct Command {
     /// An experiment file (YAML), or a folder of them; in a folder, files without `bench:` are left out
     config: PathBuf,
-    /// Folder for the results [default: recordings/<path of the config below configs/, without .yaml>]
+    /// Folder for the results [default: recordings/<path of the config below configs/, without .yaml>+<what is set>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -44,7 +44,7 @@ impl Command {
         let mut planned = self.planned()?;
         let mut all = Vec::new();
         for planned in &mut planned {
-            let dir = planned.config.out(self.out.as_deref());
+            let dir = planned.config.out(self.out.as_deref(), &self.experiment);
             self.make_references(&mut planned.trials, &dir)?;
             let rows = self.on_one_core(planned)?;
             write(&dir, &title(planned), &rows)?;

@@ -40,7 +40,7 @@ impl Command {
         let file = self.experiment.load(&self.config)?;
         let case = single_case(&file)?;
         let targets = self.run.targets(case.experiment.record.to)?;
-        let dir = self.run.out(&self.config);
+        let dir = self.run.out.clone().unwrap_or_else(|| self.experiment.default_out(&self.config));
         if !targets.is_empty() {
             std::fs::create_dir_all(&dir).map_err(|error| CliError::Machine(format!("{}: {error}", dir.display())))?;
         }

@@ -6,6 +6,7 @@ use super::output::{print, print_json};
 use crate::build_info::BUILD;
 use crate::outcome::Outcome;
 use crate::rows::count;
+use crate::rows::table::Table;
 use crate::sweep::store::{Store, rows};
 use clap::Args;
 use serde_json::json;
@@ -44,6 +45,7 @@ impl Command {
                 "dir": self.dir, "cases": total, "done": rows.len(), "missing": missing, "failed": failed,
                 "finished": count(&rows, Outcome::Finished), "diverged": count(&rows, Outcome::Diverged),
                 "stalled": count(&rows, Outcome::Stalled), "of_another_build": other_build,
+                "rows_hash": Table::new(&plan.axes, &rows).hash(),
             }));
         } else {
             print(format!("{} of {total} done, {missing} missing, {failed} failed", rows.len()));

@@ -1,6 +1,6 @@
 //! What `sweep` and `check` share: files of a folder, their cases, running what is missing.
 
-use super::args::{ExperimentArgs, OutputArgs, RunArgs, below_configs, default_out};
+use super::args::{ExperimentArgs, OutputArgs, RunArgs, below_configs};
 use super::error::CliError;
 use super::progress::Bar;
 use crate::experiment::ExperimentFile;
@@ -83,7 +83,7 @@ impl SweepArgs {
 
     pub fn sweep(&self, planned: &PlannedSweep) -> Result<Swept, CliError> {
         let PlannedSweep { config, cases, targets, .. } = planned;
-        let dir = config.out(self.run.out.as_deref());
+        let dir = config.out(self.run.out.as_deref(), &self.experiment);
         let store = Arc::new(Mutex::new(Store::open(&dir, plan_file(cases), self.keep)?));
         keep_rows_when_interrupted(&store, &dir)?;
         if self.output.verbose {
@@ -100,10 +100,10 @@ impl SweepArgs {
 
 impl Config {
     /// Of several files every one has a folder of its own, also below `--out`.
-    pub fn out(&self, given: Option<&Path>) -> PathBuf {
+    pub fn out(&self, given: Option<&Path>, experiment: &ExperimentArgs) -> PathBuf {
         match given {
             Some(out) => out.join(&self.below),
-            None => default_out(&self.path),
+            None => experiment.default_out(&self.path),
         }
     }
 }

@@ -180,7 +180,10 @@ impl ExperimentFile {
         if left.is_empty() {
             return Ok(());
         }
-        let message = format!("axes are left: {}; fix each of them with --set PATH=VALUE", left.join(", "));
+        let message = format!(
+            "axes are left: {}; fix each of them with --set PATH=VALUE, or run all cases with `gotai sweep`",
+            left.join(", ")
+        );
         let mut error = ExperimentError::new(Kind::AxesLeft, KeyPath::of_keys(&["sweep", "axes"]), message);
         error.details_mut().known = left.iter().map(|path| path.to_string()).collect();
         Err(self.placed(error))

@@ -23,6 +23,7 @@ pub mod nearest;
 pub mod overrides;
 pub mod positions;
 pub mod predicate;
+mod scene;
 pub mod search;
 mod source;
 pub mod tolerances;

@@ -18,7 +18,11 @@ pub fn read(path: &Path) -> Result<String> {
             ErrorKind::InvalidInput | ErrorKind::InvalidFilename => Kind::File,
             _ => Kind::Unreadable,
         };
-        ExperimentError::new(kind, KeyPath::default(), format!("cannot read the file: {error}"))
+        let message = match error.kind() {
+            ErrorKind::IsADirectory => "expected an experiment file, found a folder".to_string(),
+            _ => format!("cannot read the file: {error}"),
+        };
+        ExperimentError::new(kind, KeyPath::default(), message)
     })?;
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];

@@ -7,8 +7,10 @@ use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use serde_json::{Map, Value};
+use sha2::{Digest, Sha256};
 use std::sync::Arc;
 
 /// Columns by name, and every row's cells in their order.
@@ -37,6 +39,17 @@ impl Table {
         Table { columns, rows: rows.iter().map(cells).collect() }
     }
 
+    /// SHA-256 of all columns but those of a clock, by name, row by row: the same of the same rows.
+    pub fn hash(&self) -> String {
+        let mut hash = Sha256::new();
+        for row in &self.rows {
+            for (name, _) in self.columns.iter().filter(|(name, _)| !columns::OF_A_CLOCK.contains(&name.as_str())) {
+                hash.update(format!("{name}={}\n", text(row.get(name)).unwrap_or_default()));
+            }
+        }
+        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
     pub fn to_csv(&self) -> Result<Vec<u8>, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(self.columns.iter().map(|(name, _)| name))?;
@@ -50,7 +63,10 @@ impl Table {
         let columns = self.columns.iter().map(|(name, kind)| (name.as_str(), self.column(name, *kind), true));
         let batch = RecordBatch::try_from_iter_with_nullable(columns)?;
         let compression = Compression::ZSTD(ZstdLevel::default());
-        let properties = WriterProperties::builder().set_compression(compression).build();
+        let hash = KeyValue::new("rows_hash".to_string(), self.hash());
+        let properties =
+            WriterProperties::builder().set_compression(compression).set_key_value_metadata(Some(vec![hash]));
+        let properties = properties.build();
         let mut file = Vec::new();
         let mut writer = ArrowWriter::try_new(&mut file, batch.schema(), Some(properties))?;
         writer.write(&batch)?;

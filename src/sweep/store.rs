@@ -3,16 +3,22 @@
 //! A row goes to the journal as soon as its case ends, so that nothing computed is lost; the tables are written from it
 //! in plan order. The journal holds what was measured by case id, the plan holds the axes: a sweep whose axes have
 //! grown finds its old rows again.
+//!
+//! Every line of the journal carries a checksum of the rest of it, so that a line that is torn or changed counts for
+//! nothing and its case is run again. The journal is locked while a sweep adds to it: two at once would write over each
+//! other's files.
 
 use crate::build_info::BUILD;
+use crate::case::hex;
 use crate::files::{self, FileError, write_whole};
 use crate::rows::plan_file::{PlanCase, PlanFile};
 use crate::rows::table;
 use crate::rows::{Measured, Row};
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 use std::collections::HashMap;
-use std::fs::{File, OpenOptions};
-use std::io::{BufRead, BufReader, Write};
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{BufRead, BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// One line of the journal.
@@ -37,21 +43,18 @@ pub struct Store {
 
 impl Store {
     /// Opens or makes the folder and writes the plan. Rows of another build count as missing, unless `keep`.
+    ///
+    /// # Errors
+    /// The machine failed, or another program has the folder open.
     pub fn open(dir: &Path, plan: PlanFile, keep: bool) -> Result<Self, FileError> {
         files::make_folder(dir)?;
+        let journal = open_alone(dir)?;
         let mut done = read_journal(dir)?;
         if !keep {
             done.retain(|_, entry| entry.build == BUILD);
         }
         write_whole(&dir.join("plan.json"), serde_json::to_string(&plan).unwrap_or_default().as_bytes())?;
-        let path = journal_path(dir);
-        let journal = OpenOptions::new().create(true).append(true).open(&path);
-        let mut store = Store {
-            dir: dir.to_path_buf(),
-            plan,
-            journal: journal.map_err(|error| FileError::new(&path, error))?,
-            done,
-        };
+        let mut store = Store { dir: dir.to_path_buf(), plan, journal, done };
         store.end_torn_line()?;
         Ok(store)
     }
@@ -76,8 +79,7 @@ impl Store {
     /// Appends to the journal at once.
     pub fn add(&mut self, case: &str, measured: Measured) -> Result<(), FileError> {
         let entry = Entry { case: case.to_string(), build: BUILD.to_string(), measured };
-        let mut line = serde_json::to_string(&entry).unwrap_or_default();
-        line.push('\n');
+        let line = line(&entry);
         self.journal.write_all(line.as_bytes()).map_err(|error| FileError::new(&journal_path(&self.dir), error))?;
         self.done.insert(entry.case.clone(), entry);
         Ok(())
@@ -116,22 +118,56 @@ pub fn rows(plan: &PlanFile, done: &Done) -> Vec<Row> {
     plan.cases.iter().filter_map(row).collect()
 }
 
+/// The journal for appending, locked until it is closed, by a kill too.
+fn open_alone(dir: &Path) -> Result<File, FileError> {
+    let path = journal_path(dir);
+    let opened = OpenOptions::new().create(true).append(true).open(&path);
+    let journal = opened.map_err(|error| FileError::new(&path, error))?;
+    match journal.try_lock() {
+        Ok(()) => Ok(journal),
+        Err(TryLockError::WouldBlock) => Err(FileError::new(dir, "another gotai is at work here")),
+        // A file system without locks, over a network for instance, has to be trusted.
+        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(journal),
+        Err(TryLockError::Error(error)) => Err(FileError::new(&path, error)),
+    }
+}
+
+/// What the journal says of a row: JSON, whose last member is 64 bits of the SHA-256 of all before it.
+pub fn line(entry: &Entry) -> String {
+    sealed(&serde_json::to_string(entry).unwrap_or_default())
+}
+
+fn sealed(text: &str) -> String {
+    let open = text.strip_suffix('}').unwrap_or(text);
+    format!("{open}{SEAL}{}\"}}\n", hex(&Sha256::digest(open)[..8]))
+}
+
+const SEAL: &str = ",\"sum\":\"";
+
+/// None: the line is not what was written.
+fn unsealed(line: &[u8]) -> Option<String> {
+    let line = std::str::from_utf8(line).ok()?;
+    let text = format!("{}}}", line.rsplit_once(SEAL)?.0);
+    (sealed(&text).trim_end() == line).then_some(text)
+}
+
 fn journal_path(dir: &Path) -> PathBuf {
     dir.join("journal.jsonl")
 }
 
-/// Later lines win; half a line, left by a kill, counts for nothing.
+/// Later lines win; a line that does not fit its checksum counts for nothing.
 fn read_journal(dir: &Path) -> Result<Done, FileError> {
     let path = journal_path(dir);
     let file = match File::open(&path) {
         Ok(file) => file,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Done::new()),
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Done::new()),
         Err(error) => return Err(FileError::new(&path, error)),
     };
     let mut done = Done::new();
     for line in BufReader::new(file).split(b'\n') {
         let line = line.map_err(|error| FileError::new(&path, error))?;
-        if let Ok(entry) = serde_json::from_slice::<Entry>(&line) {
+        let entry = unsealed(&line).and_then(|text| serde_json::from_str::<Entry>(&text).ok());
+        if let Some(entry) = entry {
             done.insert(entry.case.clone(), entry);
         }
     }

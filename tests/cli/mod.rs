@@ -112,13 +112,53 @@ fn a_sweep_writes_rows_and_recordings_and_status_counts_them() {
         assert!(folder.path().join(name).exists(), "{name}");
     }
     assert_eq!(json(&args)["ran"], 0);
-    assert_eq!(json(&["status", out, "--json"])["missing"], 0);
+    let status = json(&["status", out, "--json"]);
+    assert_eq!(status["missing"], 0);
+    // The same rows somewhere else, another time; and other rows.
+    let again = scratch::folder();
+    let hash = |sets: &[&str]| {
+        let out = again.path().join(sets.len().to_string());
+        let out = out.to_str().unwrap();
+        let args: Vec<_> = [&args[..3], &[out, "--set", "time.end_s=0.2"], sets].concat();
+        assert_eq!(run(&args).0, 0);
+        json(&["status", out, "--json"])["rows_hash"].clone()
+    };
+    assert_eq!(hash(&[]), status["rows_hash"]);
+    assert_ne!(hash(&["--set", "scene.friction=0.31"]), status["rows_hash"]);
     // A row taken away is missing: exit code 1.
     let journal = folder.path().join("journal.jsonl");
     let text = std::fs::read_to_string(&journal).unwrap();
     std::fs::write(&journal, text.lines().skip(1).map(|line| format!("{line}\n")).collect::<String>()).unwrap();
     let (code, said, _) = run(&["status", out]);
     assert_eq!((code, said.trim()), (1, "3 of 4 done, 1 missing, 0 failed"));
+}
+
+/// Two methods, say, leave two tables.
+#[test]
+fn what_is_set_is_in_the_name_of_the_folder() {
+    let folder = scratch::folder();
+    let config = format!("{ROOT}/configs/smoke.yaml");
+    let long = format!("time.end_s=0.1{}", "0".repeat(90));
+    for sets in [
+        &[][..],
+        &["time.end_s=0.1"],
+        &["time.end_s=0.1", "question=why?", "record.every_s=0", "method={lecture: {sweeps: 9}}"],
+        &[&long],
+    ] {
+        let mut command = gotai(&["sweep", &config, "--record", "none", "--quiet"]);
+        for set in sets {
+            command.args(["--set", set]);
+        }
+        let output = command.current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{sets:?}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+    let made = std::fs::read_dir(folder.path().join("recordings")).unwrap();
+    let mut made: Vec<_> = made.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    made.sort();
+    let long = made.pop().unwrap();
+    assert_eq!(made, ["smoke", "smoke+time.end-s=0.1", "smoke+time.end-s=0.1+method=-lecture---sweeps--9--"]);
+    let (kept, hash) = long.split_once('~').unwrap();
+    assert!(kept.starts_with("smoke+time.end-s=0.1000") && (kept.len(), hash.len()) == (65, 8), "{long}");
 }
 
 #[test]
@@ -132,8 +172,9 @@ fn a_folder_of_configs_is_swept_file_by_file() {
     let mut command = gotai(&["sweep", "configs", "--record", "none", "--set", "time.end_s=0.1"]);
     let output = command.current_dir(folder.path()).output().unwrap();
     assert_eq!(output.status.code(), Some(0));
-    for name in ["recordings/deep/a/rows.csv", "recordings/deep/b/rows.csv"] {
-        assert!(folder.path().join(name).exists(), "{name}");
+    for name in ["a", "b"] {
+        let rows = format!("recordings/deep/{name}+time.end-s=0.1/rows.csv");
+        assert!(folder.path().join(&rows).exists(), "{rows}");
     }
 }
 

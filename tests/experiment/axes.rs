@@ -127,7 +127,8 @@ fn a_single_run_names_the_axes_that_are_left() {
     let error = experiment(&swept("    seed: [1]\n    scene.friction: [0]\n"), &[]).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "a.yaml:21: sweep.axes: axes are left: seed, scene.friction; fix each of them with --set PATH=VALUE"
+        "a.yaml:21: sweep.axes: axes are left: seed, scene.friction; fix each of them with --set PATH=VALUE, or run \
+         all cases with `gotai sweep`"
     );
     assert_eq!(error.details().kind, Kind::AxesLeft);
     assert_eq!(error.details().known, ["seed", "scene.friction"]);

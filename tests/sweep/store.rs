@@ -3,12 +3,12 @@ use crate::scratch;
 use gotai::experiment::types::RecordCases;
 use gotai::outcome::Outcome;
 use gotai::record::writer::Target;
-use gotai::rows::Measured;
+use gotai::rows::{Measured, Row};
 use gotai::sweep::plan::plan_file;
 use gotai::sweep::planned::Planned;
 use gotai::sweep::recordings::known_after;
 use gotai::sweep::runner::build_and_run;
-use gotai::sweep::store::Store;
+use gotai::sweep::store::{Entry, Store, line};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
 use std::fs::File;
@@ -43,17 +43,52 @@ fn a_journal_torn_by_a_kill_costs_one_row() {
     assert_eq!(sweep(&cases, folder.path(), &[]).0, 0);
 }
 
+/// Wherever it is: in a number, a name, a checksum, the end of a line.
+#[test]
+fn a_flipped_bit_in_the_journal_costs_its_rows_and_changes_none() {
+    let folder = scratch::folder();
+    let cases = planned(SWEEP, &["sweep.axes.seed=[0, 1]", "time.end_s=0.2"]);
+    let blank = |rows: Vec<Row>| rows.iter().map(|row| row.measured.without_wall_time()).collect::<Vec<_>>();
+    let whole = blank(sweep(&cases, folder.path(), &[]).1);
+    let journal = folder.path().join("journal.jsonl");
+    let text = std::fs::read(&journal).unwrap();
+    for i in 0..60 {
+        let mut flipped = text.clone();
+        let at = (i * 7919 + 13) % text.len();
+        flipped[at] ^= 1 << (i % 8);
+        std::fs::write(&journal, &flipped).unwrap();
+        let (ran, rows) = sweep(&cases, folder.path(), &[]);
+        // The end of a line stands between two of them.
+        assert!((1..=2).contains(&ran), "bit {} of byte {at}: {ran} rows made again", i % 8);
+        assert_eq!(blank(rows), whole, "bit {} of byte {at}", i % 8);
+    }
+}
+
+#[test]
+fn two_sweeps_at_once_are_refused() {
+    let folder = scratch::folder();
+    let cases = planned(SWEEP, &["sweep.axes.seed=[0]", "time.end_s=0.2"]);
+    let one = Store::open(folder.path(), plan_file(&cases), false).unwrap();
+    let Err(error) = Store::open(folder.path(), plan_file(&cases), false) else { panic!("opened twice") };
+    assert!(error.to_string().contains("another gotai is at work here"), "{error}");
+    // Reading does not wait for it.
+    assert!(Store::read(folder.path()).unwrap().1.is_empty());
+    drop(one);
+    assert_eq!(sweep(&cases, folder.path(), &[]).0, 4);
+}
+
 #[test]
 fn rows_of_another_build_count_as_missing() {
     let folder = scratch::folder();
     let cases = planned(SWEEP, &["sweep.axes.seed=[0]"]);
     sweep(&cases, folder.path(), &[]);
-    let journal = folder.path().join("journal.jsonl");
-    let text = std::fs::read_to_string(&journal).unwrap();
-    std::fs::write(&journal, text.replace(gotai::build_info::BUILD, "another")).unwrap();
+    let (_, done) = Store::read(folder.path()).unwrap();
+    let others = done.into_values().map(|entry| line(&Entry { build: "another".into(), ..entry }));
+    std::fs::write(folder.path().join("journal.jsonl"), others.collect::<String>()).unwrap();
     let kept = Store::open(folder.path(), plan_file(&cases), true).unwrap();
     assert!(cases.iter().all(|planned| kept.measured(&planned.case.id).is_some()));
     assert!(cases.iter().all(|planned| kept.measured_by_this_build(&planned.case.id).is_none()));
+    drop(kept);
     assert_eq!(sweep(&cases, folder.path(), &[]).0, 4);
 }
 

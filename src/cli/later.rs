@@ -3,8 +3,33 @@
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
-const COMMANDS: [&str; 6] = ["merge", "submit", "report", "view", "schema", "completions"];
-const FLAGS: [&str; 1] = ["--shard"];
+const COMMANDS: [&str; 13] = [
+    "merge",
+    "submit",
+    "report",
+    "view",
+    "schema",
+    "completions",
+    "rows",
+    "clean",
+    "new",
+    "compare",
+    "export",
+    "repair",
+    "doctor",
+];
+const FLAGS: [&str; 10] = [
+    "--shard",
+    "--axis",
+    "--case",
+    "--live",
+    "--progress",
+    "--color",
+    "--fail-fast",
+    "--no-report",
+    "--csv",
+    "--fail-on-regression",
+];
 
 /// Prints a parser's message (or help) and gives the exit code.
 pub fn explain_usage(error: &clap::Error) -> ExitCode {

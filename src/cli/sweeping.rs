@@ -24,6 +24,9 @@ pub struct SweepArgs {
     /// Take rows of another build as they are
     #[arg(long)]
     keep: bool,
+    /// Run the cases again that have failed
+    #[arg(long)]
+    retry_failed: bool,
     #[command(flatten)]
     experiment: ExperimentArgs,
     #[command(flatten)]
@@ -84,7 +87,14 @@ impl SweepArgs {
     pub fn sweep(&self, planned: &PlannedSweep) -> Result<Swept, CliError> {
         let PlannedSweep { config, cases, targets, .. } = planned;
         let dir = config.out(self.run.out.as_deref(), &self.experiment);
-        let store = Arc::new(Mutex::new(Store::open(&dir, plan_file(cases), self.keep)?));
+        let mut store = Store::open(&dir, plan_file(cases), self.keep)?;
+        if self.retry_failed {
+            store.forget_failed();
+        }
+        if let Some([held, all]) = store.still_hold().filter(|_| !self.output.quiet) {
+            eprintln!("{}: the plan has changed; {held} of {all} rows still hold", dir.display());
+        }
+        let store = Arc::new(Mutex::new(store));
         keep_rows_when_interrupted(&store, &dir)?;
         if self.output.verbose {
             eprintln!("{}: {} cases into {}", config.path.display(), cases.len(), dir.display());

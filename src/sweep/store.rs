@@ -11,6 +11,7 @@
 use crate::build_info::BUILD;
 use crate::case::hex;
 use crate::files::{self, FileError, write_whole};
+use crate::outcome::Outcome;
 use crate::rows::plan_file::{PlanCase, PlanFile};
 use crate::rows::table;
 use crate::rows::{Measured, Row};
@@ -37,6 +38,8 @@ pub type Done = HashMap<String, Entry>;
 pub struct Store {
     dir: PathBuf,
     plan: PlanFile,
+    /// Another one was here before.
+    is_changed: bool,
     journal: File,
     done: Done,
 }
@@ -53,18 +56,28 @@ impl Store {
         if !keep {
             done.retain(|_, entry| entry.build == BUILD);
         }
-        write_whole(&dir.join("plan.json"), serde_json::to_string(&plan).unwrap_or_default().as_bytes())?;
-        let mut store = Store { dir: dir.to_path_buf(), plan, journal, done };
+        let before = read_plan(dir).ok().map(|before| before.hash);
+        let is_changed = before.is_some_and(|hash| hash != plan.hash);
+        write_whole(&plan_path(dir), serde_json::to_string(&plan).unwrap_or_default().as_bytes())?;
+        let mut store = Store { dir: dir.to_path_buf(), plan, is_changed, journal, done };
         store.end_torn_line()?;
         Ok(store)
     }
 
     /// Opens a folder for reading its rows, of whatever build.
     pub fn read(dir: &Path) -> Result<(PlanFile, Done), FileError> {
-        let path = dir.join("plan.json");
-        let text = files::read(&path)?;
-        let plan = serde_json::from_slice(&text).map_err(|error| FileError::new(&path, error))?;
-        Ok((plan, read_journal(dir)?))
+        Ok((read_plan(dir)?, read_journal(dir)?))
+    }
+
+    /// Of an edited plan that goes on in its folder: how many of its rows are there already, and how many it has.
+    pub fn still_hold(&self) -> Option<[usize; 2]> {
+        let held = self.plan.cases.iter().filter(|planned| self.done.contains_key(&planned.case)).count();
+        self.is_changed.then_some([held, self.plan.cases.len()])
+    }
+
+    /// Cases that have failed count as missing.
+    pub fn forget_failed(&mut self) {
+        self.done.retain(|_, entry| entry.measured.outcome != Outcome::Failed);
     }
 
     pub fn measured(&self, case: &str) -> Option<&Measured> {
@@ -149,6 +162,15 @@ fn unsealed(line: &[u8]) -> Option<String> {
     let line = std::str::from_utf8(line).ok()?;
     let text = format!("{}}}", line.rsplit_once(SEAL)?.0);
     (sealed(&text).trim_end() == line).then_some(text)
+}
+
+fn plan_path(dir: &Path) -> PathBuf {
+    dir.join("plan.json")
+}
+
+fn read_plan(dir: &Path) -> Result<PlanFile, FileError> {
+    let path = plan_path(dir);
+    serde_json::from_slice(&files::read(&path)?).map_err(|error| FileError::new(&path, error))
 }
 
 fn journal_path(dir: &Path) -> PathBuf {

@@ -65,6 +65,22 @@ fn a_flipped_bit_in_the_journal_costs_its_rows_and_changes_none() {
 }
 
 #[test]
+fn an_edited_plan_goes_on_and_what_failed_can_be_tried_again() {
+    let folder = scratch::folder();
+    let few = planned(SWEEP, &["sweep.axes.seed=[0, 1]", "time.end_s=0.2"]);
+    sweep_with(&few, folder.path(), &[], &|planned, targets| {
+        assert!(planned.case.experiment.seed != 1, "seed 1 is not liked here");
+        build_and_run(planned, folder.path(), targets)
+    });
+    assert_eq!(Store::open(folder.path(), plan_file(&few), false).unwrap().still_hold(), None);
+    let more = planned(SWEEP, &["sweep.axes.seed=[0, 1, 2]", "time.end_s=0.2"]);
+    let mut store = Store::open(folder.path(), plan_file(&more), false).unwrap();
+    assert_eq!(store.still_hold(), Some([8, 12]));
+    store.forget_failed();
+    assert_eq!(store.still_hold(), Some([4, 12]));
+}
+
+#[test]
 fn two_sweeps_at_once_are_refused() {
     let folder = scratch::folder();
     let cases = planned(SWEEP, &["sweep.axes.seed=[0]", "time.end_s=0.2"]);

@@ -1,6 +1,6 @@
-//! An `Experiment` (YAML) expands into `Case`s; each Case builds a constant `Model` and a first `State`; `run` advances
-//! the State with a `Stepper`, shows every step to the judges and the recorders, ends in an `Outcome` and writes one
-//! `Row`; `report` and `check` read only files.
+//! An `Experiment` expands into `Case`s; a scene is built: a constant `Model` and a first `State`; `run` advances the
+//! State with a `Stepper` and shows every step to the judges and the recorders; a study says which method runs, against
+//! what, and how far to trust it; sweeps gather `Row`s; `check` and `report` know rows alone.
 //!
 //! Words have their unit last in files and public fields, SI and f64 inside. In kernels a name is quantity, target,
 //! frame; W is the world, B the body's axes at its centre of mass, Bo the origin of the body frame:
@@ -18,8 +18,8 @@
 // The kernels read like the papers: R_WB, I_B, A.
 #![allow(non_snake_case)]
 
-// From the ground up: a room imports only from the rooms above it in this list (`tests/tidy/`). rustfmt sorts within
-// a paragraph only.
+// From the ground up: a room imports only from the paragraphs above its own (`tests/tidy/`; on the ground floor `clock`
+// knows `state`, and `work` its `heading`). rustfmt sorts within a paragraph only.
 pub mod build_info;
 pub mod clock;
 pub mod files;

@@ -153,7 +153,8 @@ fn choice(method: &Method) -> Option<Stage> {
     let Method::Auto(Auto { tolerance }) = method else { return None };
     let why = format!(
         "event-driven at {tolerance:e} and finer, until two runs agree to {tolerance:e} m; where all stall or fall \
-         back, time-stepping (moreau, newton), its step halved a dozen times at most"
+         back, time-stepping (moreau, newton), its step halved until two runs agree or a \
+         budget is used up"
     );
     Some(stage("choice of method", true, why))
 }

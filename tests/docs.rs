@@ -144,8 +144,11 @@ fn every_row_of_the_lecture_leads_to_files_that_are_there() {
 /// Brackets and braces are patterns to a shell: zsh refuses what they match nothing with.
 #[test]
 fn examples_of_commands_are_quoted() {
-    for page in pages() {
-        for line in std::fs::read_to_string(&page).unwrap().lines() {
+    for page in pages().into_iter().chain(files("configs", "yaml")) {
+        // Of an experiment, what its comments say.
+        let is_page = page.extension().is_some_and(|ending| ending == "md");
+        let text = std::fs::read_to_string(&page).unwrap();
+        for line in text.lines().filter(|line| is_page || line.starts_with('#')) {
             let first = line.split_whitespace().next().unwrap_or_default();
             let whole = ["gotai", "cargo", "pip", "rerun"].contains(&first) && line.trim_start() != line;
             let parts = if whole { vec![line] } else { line.split('`').skip(1).step_by(2).collect() };

@@ -6,7 +6,7 @@ use super::output::{print, print_json};
 use super::table::table;
 use crate::experiment::about::About;
 use crate::experiment::types::{Accuracy, Exact, Integrator, Measure, Method, Shape};
-use crate::experiment::vocabulary::{Initial, Key, Takes, Word, shown, words};
+use crate::experiment::vocabulary::{Initial, SettingKey, Takes, Word, shown, words};
 use crate::heading::Heading;
 use crate::integrate::claims::{Kept, claim};
 use crate::measure::more;
@@ -198,7 +198,7 @@ fn methods() -> Vec<Section> {
     sections
 }
 
-fn setting_row(method: &Method, Key { name, takes, initial }: &Key) -> Vec<String> {
+fn setting_row(method: &Method, SettingKey { name, takes, initial }: &SettingKey) -> Vec<String> {
     let takes = match takes {
         Takes::Words(words) => codes(words),
         other => other.to_string(),
@@ -328,6 +328,9 @@ fn word_json<T>(Word { name, settings, .. }: &Word<T>, About { what, source }: &
 
 fn method_json(method: &Word<Method>) -> Value {
     let mut line = word_json(method, &method.value.about());
+    for (i, setting) in method.settings.iter().enumerate().filter(|(_, setting)| setting.initial == Initial::Absent) {
+        line["settings"][i]["default"] = json!({ "is": method.value.unless_set(setting.name) });
+    }
     if let Method::Free(_) = method.value {
         let named = |word: Word<Integrator>| json!({ "name": word.name, "claim": claim(word.value) });
         line["integrators"] = words::<Integrator>().into_iter().map(named).collect();

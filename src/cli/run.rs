@@ -164,7 +164,7 @@ fn say_where(case: &Case, dir: &Path, targets: &[Target]) {
     for target in targets {
         let path = dir.join(format!("{}.{}", case.id, target.extension()));
         match target {
-            Target::Rerun => eprintln!("wrote {}   (open: rerun {0})", path.display()),
+            Target::Rerun => eprintln!("wrote {}   (open: rerun {0}, of rerun-sdk==0.36.3)", path.display()),
             Target::Mcap => eprintln!("wrote {}", path.display()),
         }
     }

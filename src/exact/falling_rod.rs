@@ -1,7 +1,7 @@
 //! A thin rod that falls over on a smooth floor (Routh, Elementary Rigid Dynamics, § 136): its centre falls straight
 //! down, θ̇² = 2 (g/l)(cos θ₀ − cos θ)/(κ + sin² θ), θ from the vertical, l half its length, κ = I/(m l²), 1/3 if
-//! homogeneous. The floor presses all the way, as κ + sin² θ₀ + (cos θ − cos θ₀)² > 0, and flat it stays at rest if κ ≤
-//! 1. SI units.
+//! homogeneous. The floor presses all the way, as κ + sin² θ₀ + (cos θ − cos θ₀)² > 0, and flat it stays at rest if
+//! κ ≤ 1. SI units.
 //!
 //! With sin(θ/2) = sin(θ₀/2) cosh u the time is √(l/g) ∫ √(κ + sin² θ)/cos(θ/2) du, whose integrand is smooth: Gauss
 //! and Legendre's rule on short panels, inverted by Newton's method.

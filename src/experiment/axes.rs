@@ -2,6 +2,7 @@
 
 use super::error::{self, ExperimentError, Kind, describe};
 use super::key_path::{KeyPath, Path, Segment};
+use super::later::BESIDE_EXPERIMENT;
 use super::overrides::split;
 use super::value_de::from_value;
 use serde::Deserialize;
@@ -135,12 +136,20 @@ fn read_axes(axes: &Mapping) -> Result<Vec<Axis>> {
     axes.iter().map(|(key, spec)| read_axis(key.as_str().unwrap_or_default(), spec)).collect()
 }
 
+/// Refuses what a file holds beside its experiment.
+pub(super) fn of_the_experiment(first: &str, key: &str, at: &KeyPath) -> Result<()> {
+    if !BESIDE_EXPERIMENT.contains(&first) {
+        return Ok(());
+    }
+    let expected =
+        format!("a key of the experiment, outside of {}", BESIDE_EXPERIMENT.map(|key| format!("`{key}`")).join(", "));
+    Err(ExperimentError::unexpected(at.clone(), &expected, &format!("`{key}`")))
+}
+
 fn read_axis(key: &str, spec: &Value) -> Result<Axis> {
     let at = axis_path(key);
     let segments = split(key).map_err(|error| error.at(at.clone()))?;
-    if segments[0] == "sweep" {
-        return Err(ExperimentError::unexpected(at, "a key of the experiment outside `sweep`", &format!("`{key}`")));
-    }
+    of_the_experiment(&segments[0], key, &at)?;
     let values = match spec {
         Value::Sequence(items) => read_list(items, &at)?,
         Value::Mapping(_) => from_value::<Form>(spec, &at)?.values(&at)?,

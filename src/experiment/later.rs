@@ -11,7 +11,10 @@ pub fn is_later(type_name: &str, word: &str) -> bool {
 }
 
 /// Keys that a file has beside those of a type; they are taken out before the type is read.
-const BESIDES: &[(&str, &[&str])] = &[("Experiment", &["sweep", "expect", "bench"])];
+const BESIDES: &[(&str, &[&str])] = &[("Experiment", &BESIDE_EXPERIMENT)];
+
+/// Keys of a file that no case has.
+pub const BESIDE_EXPERIMENT: [&str; 3] = ["sweep", "expect", "bench"];
 
 /// All keys that may be written where this type stands.
 pub fn all_keys<'a>(type_name: &str, fields: &[&'a str]) -> Vec<&'a str> {

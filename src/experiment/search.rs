@@ -1,7 +1,7 @@
 //! `sweep.search`: the critical value of one key in every cell of the other axes. How it is found is in
 //! `sweep/search.rs`.
 
-use super::axes::{Axes, find_axis, float};
+use super::axes::{Axes, find_axis, float, of_the_experiment};
 use super::checks::Result;
 use super::error::{ExperimentError, Kind, number};
 use super::key_path::{KeyPath, Path};
@@ -53,6 +53,7 @@ impl SearchText {
         let at = Path::Base(&base);
         let critical = at.key("critical").to_key_path();
         let segments = split(&self.critical).map_err(|error| error.at(critical.clone()))?;
+        of_the_experiment(&segments[0], &self.critical, &critical)?;
         if axes.axes.iter().any(|axis| axis.path == self.critical) {
             let message = format!("`{}` is searched and an axis: expected one of them", self.critical);
             return Err(ExperimentError::new(Kind::Path, critical, message));

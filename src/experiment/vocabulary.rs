@@ -16,12 +16,12 @@ pub struct Word<T> {
     pub name: &'static str,
     /// What it is read as, with settings that mean nothing.
     pub value: T,
-    pub settings: Vec<Key>,
+    pub settings: Vec<SettingKey>,
 }
 
 /// A key below a word.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Key {
+pub struct SettingKey {
     pub name: &'static str,
     pub takes: Takes,
     #[serde(rename = "default")]
@@ -87,7 +87,7 @@ pub fn words<T: DeserializeOwned + Serialize + PartialEq>() -> Vec<Word<T>> {
 /// Numbers that defaults are among, where serde leaves them out: found by reading them.
 const PLAIN: [f64; 2] = [0.0, 1.0];
 
-fn settings<T>(word: &'static str, taken: Vec<(&'static str, Takes)>) -> Vec<Key>
+fn settings<T>(word: &'static str, taken: Vec<(&'static str, Takes)>) -> Vec<SettingKey>
 where
     T: DeserializeOwned + Serialize + PartialEq,
 {
@@ -121,7 +121,7 @@ where
         };
         candidates.into_iter().find(changes_nothing).map_or(Initial::Absent, Initial::Is)
     };
-    taken.iter().map(|(name, takes)| Key { name, takes: takes.clone(), initial: initial(name, takes) }).collect()
+    taken.iter().map(|(name, takes)| SettingKey { name, takes: takes.clone(), initial: initial(name, takes) }).collect()
 }
 
 /// Something that it takes.

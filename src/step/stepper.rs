@@ -78,14 +78,16 @@ impl Stepper {
         match &self.method {
             Method::Free(method) => method.stalled.then_some(Criterion::NotConverged),
             Method::EventDriven(method) => method.stalled,
-            _ => None,
+            Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => None,
         }
     }
 
     pub fn is_done(&self, state: &State, clock: &Clock) -> bool {
         match &self.method {
             Method::EventDriven(_) => state.time_s >= clock.end_s,
-            _ => state.step >= clock.steps,
+            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => {
+                state.step >= clock.steps
+            }
         }
     }
 
@@ -93,21 +95,22 @@ impl Stepper {
     pub fn step_used_s(&self, state: &State, clock: &Clock) -> f64 {
         match &self.method {
             Method::EventDriven(_) => state.time_s / state.step.max(1) as f64,
-            _ => clock.step_s,
+            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => clock.step_s,
         }
     }
 
     pub fn span(&self) -> Span {
         match &self.method {
             Method::EventDriven(method) => method.span,
-            _ => Span::Step,
+            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => Span::Step,
         }
     }
 
     /// Puts the bodies where they were at the state's time, within the last step of a method that follows events.
     pub fn state_at(&mut self, model: &Model, state: &mut State) {
-        if let Method::EventDriven(method) = &mut self.method {
-            method.state_at(model, state);
+        match &mut self.method {
+            Method::EventDriven(method) => method.state_at(model, state),
+            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => {}
         }
     }
 
@@ -115,7 +118,7 @@ impl Stepper {
     pub fn forces_at(&mut self, model: &Model, state: &State) -> Vec<SolvedContact> {
         match &mut self.method {
             Method::EventDriven(method) => method.forces_at(model, state),
-            _ => Vec::new(),
+            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => Vec::new(),
         }
     }
 
@@ -123,7 +126,7 @@ impl Stepper {
     pub fn moments(&mut self, model: &Model, span: [&State; 2]) -> Vec<Moment> {
         match &mut self.method {
             Method::EventDriven(method) => method.moments(model, span),
-            _ => Vec::new(),
+            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => Vec::new(),
         }
     }
 
@@ -132,7 +135,7 @@ impl Stepper {
         match &self.method {
             Method::TimeStepping(method) => method.kicked.as_ref(),
             Method::EventDriven(method) => method.kicked(),
-            _ => None,
+            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) => None,
         }
     }
 

@@ -1,4 +1,4 @@
-//! One door: a case from its start to what was measured.
+//! A case from its start to what was measured.
 
 use super::choose::{self, Choice};
 use super::{reference, sensitivity};

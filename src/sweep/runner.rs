@@ -49,11 +49,11 @@ pub struct Job<'a> {
     /// What the chosen cases are recorded into; empty: nothing is.
     pub targets: &'a [Target],
     /// Runs a case and records it into the targets.
-    pub work: &'a Work<'a>,
+    pub work: &'a Make<'a>,
     pub progress: &'a dyn Progress,
 }
 
-pub type Work<'a> = dyn Fn(&Planned, &[Target]) -> (Measured, Written) + Sync + 'a;
+pub type Make<'a> = dyn Fn(&Planned, &[Target]) -> (Measured, Written) + Sync + 'a;
 
 /// Whether the recordings of a run were written. A run that cannot be recorded still has its result.
 pub type Written = Result<(), RecordError>;
@@ -167,7 +167,7 @@ fn missing(cases: &[Planned], store: &Store) -> Vec<usize> {
     (0..cases.len()).filter(|&i| seen.insert(&cases[i].case.id) && is_missing(&cases[i])).collect()
 }
 
-/// Builds a case's model and runs it, recording it into `dir`: the usual `Work`.
+/// Builds a case's model and runs it, recording it into `dir`: the usual `Make`.
 pub fn build_and_run(Planned { case, search }: &Planned, dir: &Path, targets: &[Target]) -> (Measured, Written) {
     if let Some(cell) = search {
         return (cell.bisect(dir), Ok(()));

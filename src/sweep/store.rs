@@ -32,7 +32,7 @@ pub struct Entry {
 }
 
 /// The last entry of every case, by its id.
-pub type Done = HashMap<String, Entry>;
+pub type Entries = HashMap<String, Entry>;
 
 /// A folder of results, open for adding rows.
 pub struct Store {
@@ -41,7 +41,7 @@ pub struct Store {
     /// Another one was here before.
     is_changed: bool,
     journal: File,
-    done: Done,
+    done: Entries,
 }
 
 impl Store {
@@ -65,7 +65,7 @@ impl Store {
     }
 
     /// Opens a folder for reading its rows, of whatever build.
-    pub fn read(dir: &Path) -> Result<(PlanFile, Done), FileError> {
+    pub fn read(dir: &Path) -> Result<(PlanFile, Entries), FileError> {
         Ok((read_plan(dir)?, read_journal(dir)?))
     }
 
@@ -123,7 +123,7 @@ impl Store {
 }
 
 /// Rows of a plan that there are, in its order.
-pub fn rows(plan: &PlanFile, done: &Done) -> Vec<Row> {
+pub fn rows(plan: &PlanFile, done: &Entries) -> Vec<Row> {
     let row = |planned: &PlanCase| {
         let Entry { case, build, measured } = done.get(&planned.case)?.clone();
         Some(Row { case, axes: planned.at.clone(), measured, build })
@@ -178,14 +178,14 @@ fn journal_path(dir: &Path) -> PathBuf {
 }
 
 /// Later lines win; a line that does not fit its checksum counts for nothing.
-fn read_journal(dir: &Path) -> Result<Done, FileError> {
+fn read_journal(dir: &Path) -> Result<Entries, FileError> {
     let path = journal_path(dir);
     let file = match File::open(&path) {
         Ok(file) => file,
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Done::new()),
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Entries::new()),
         Err(error) => return Err(FileError::new(&path, error)),
     };
-    let mut done = Done::new();
+    let mut done = Entries::new();
     for line in BufReader::new(file).split(b'\n') {
         let line = line.map_err(|error| FileError::new(&path, error))?;
         let entry = unsealed(&line).and_then(|text| serde_json::from_str::<Entry>(&text).ok());

@@ -259,7 +259,7 @@ fn listed_settings_and_defaults_are_those_of_the_method() {
     assert_eq!(setting("penalty", "stiffness_n_m")["default"], "needed");
     assert_eq!(setting("penalty", "slip_speed_m_s")["default"]["is"], 0.01);
     assert_eq!(setting("time-stepping", "relaxation")["default"]["is"], 1.0);
-    assert_eq!(setting("time-stepping", "sweeps")["default"], "absent");
+    assert_eq!(setting("time-stepping", "sweeps")["default"]["is"], "50 (newton: 500)");
 }
 
 #[test]

@@ -6,7 +6,7 @@ mod threads;
 use gotai::record::writer::Target;
 use gotai::sweep::plan::{cases, plan_file};
 use gotai::sweep::planned::Planned;
-use gotai::sweep::runner::{Job, Progress, Work, build_and_run, lock};
+use gotai::sweep::runner::{Job, Make, Progress, build_and_run, lock};
 use gotai::sweep::store::Store;
 use std::path::Path;
 use std::sync::Mutex;
@@ -51,7 +51,7 @@ pub fn sweep(cases: &[Planned], dir: &Path, targets: &[Target]) -> (usize, Vec<g
     sweep_with(cases, dir, targets, &|case, targets| build_and_run(case, dir, targets))
 }
 
-pub fn sweep_with(cases: &[Planned], dir: &Path, targets: &[Target], work: &Work) -> (usize, Vec<gotai::rows::Row>) {
+pub fn sweep_with(cases: &[Planned], dir: &Path, targets: &[Target], work: &Make) -> (usize, Vec<gotai::rows::Row>) {
     let store = Mutex::new(Store::open(dir, plan_file(cases), false).unwrap());
     let job = Job { dir, targets, work, progress: &Silent };
     let ran = job.sweep(cases, &store).unwrap();

@@ -1,6 +1,7 @@
 //! The floors: who may import whom, no circles, faces that define nothing, one type a name, and where the edges are.
 
 use super::sources::{Source, arrows, circle, sources};
+use quote::ToTokens;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Room → rooms that it may import, from the ground up. A room stands above all that it imports, so that this list
@@ -221,7 +222,12 @@ fn a_mod_rs_is_a_face() {
         for item in &source.syntax.items {
             let hands_on = match item {
                 syn::Item::Mod(module) => module.content.is_none(),
-                syn::Item::Use(item) => !matches!(item.vis, syn::Visibility::Inherited),
+                // Its own children, and names of libraries.
+                syn::Item::Use(item) => {
+                    let path = item.tree.to_token_stream().to_string();
+                    let is_own = !path.starts_with("crate") && !path.starts_with("super") && !path.contains('*');
+                    is_own && !matches!(item.vis, syn::Visibility::Inherited)
+                }
                 _ => false,
             };
             assert!(hands_on, "{} defines something", source.name);
@@ -278,6 +284,16 @@ fn a_name_has_one_type() {
                 syn::Item::Struct(item) => (&item.vis, &item.ident),
                 syn::Item::Enum(item) => (&item.vis, &item.ident),
                 syn::Item::Trait(item) => (&item.vis, &item.ident),
+                syn::Item::Type(item) => (&item.vis, &item.ident),
+                // `columns!` declares a struct.
+                syn::Item::Macro(item) if item.mac.path.is_ident("columns") => {
+                    let tokens = item.mac.tokens.to_string();
+                    for part in tokens.split("pub struct ").skip(1) {
+                        let name = part.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
+                        places.entry(name.to_string()).or_default().push(source.name.clone());
+                    }
+                    continue;
+                }
                 _ => continue,
             };
             if matches!(vis, syn::Visibility::Public(_)) {
@@ -299,7 +315,12 @@ const PLACES: &[(&str, &[&str])] = &[
     ("serde_yaml", &["experiment"]),
     ("std::fs", &["files", "experiment", "record", "sweep", "cli"]),
     ("Instant", &["run", "study", "bench", "cli"]),
+    ("std::{", &[]),
+    ("SystemTime", &[]),
+    ("std::thread", &["record", "cli"]),
+    ("print!", &["cli"]),
     ("println!", &["cli"]),
+    ("dbg!", &[]),
 ];
 
 #[test]
@@ -309,5 +330,37 @@ fn files_clocks_and_printing_stay_at_the_edges() {
             let is_named = source.text.lines().any(|line| !line.trim_start().starts_with("//") && line.contains(name));
             assert!(!is_named || rooms.contains(&source.room()), "{} names {name}", source.name);
         }
+    }
+}
+
+/// The drawing is of the rooms that there are.
+#[test]
+fn every_room_is_in_the_drawing_of_the_house() {
+    let page = std::fs::read_to_string(super::root().join("docs/house.md")).unwrap();
+    let drawing = page.split("```").nth(1).unwrap();
+    for (room, _) in ROOMS {
+        let drawn = [format!("{room}/"), format!("{room}.rs")].iter().any(|name| drawing.contains(name.as_str()));
+        assert!(drawn, "docs/house.md draws no {room}");
+    }
+}
+
+/// A method, a shape or a closed form whose arm is forgotten would be taken for another: wrong physics without a word.
+#[test]
+fn steps_and_closed_forms_have_no_wildcard_over_methods_or_closed_forms() {
+    struct Wild<'a>(&'a str);
+    impl<'ast> syn::visit::Visit<'ast> for Wild<'_> {
+        fn visit_expr_match(&mut self, found: &'ast syn::ExprMatch) {
+            let patterns: Vec<String> = found.arms.iter().map(|arm| arm.pat.to_token_stream().to_string()).collect();
+            let of_ours = |pattern: &String| {
+                ["Method ::", "Exact ::", "Motion ::", "Touching ::"].iter().any(|word| pattern.contains(word))
+            };
+            let is_wild = |arm: &&syn::Arm| matches!(arm.pat, syn::Pat::Wild(_)) && arm.guard.is_none();
+            let wild = found.arms.iter().any(|arm| is_wild(&arm));
+            assert!(!(wild && patterns.iter().any(of_ours)), "{}: `_` beside {}", self.0, patterns.join(", "));
+            syn::visit::visit_expr_match(self, found);
+        }
+    }
+    for source in sources().iter().filter(|source| ["step", "exact"].contains(&source.room())) {
+        syn::visit::Visit::visit_file(&mut Wild(&source.name), &source.syntax);
     }
 }

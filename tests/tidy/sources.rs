@@ -47,6 +47,13 @@ pub fn arrows(sources: &[Source]) -> Vec<(usize, usize)> {
     let mut arrows = Vec::new();
     for (i, source) in sources.iter().enumerate().filter(|(_, source)| !source.is_face() && source.name != "lib.rs") {
         let mut paths = Paths { module: &source.module, found: Vec::new(), aliases: HashMap::new() };
+        // A module that is declared here is a name here.
+        for item in &source.syntax.items {
+            if let syn::Item::Mod(child) = item {
+                let path = source.module.iter().cloned().chain([child.ident.to_string()]).collect();
+                paths.aliases.insert(child.ident.to_string(), path);
+            }
+        }
         paths.visit_file(&source.syntax);
         for path in paths.found {
             match crate_.file_of(&path) {

@@ -1,8 +1,8 @@
 //! One point of a sweep: a resolved experiment and its id.
 
+use crate::digest::sha256;
 use crate::experiment::types::{Experiment, Record};
 use serde_json::{Map, Value};
-use sha2::{Digest, Sha256};
 
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -41,10 +41,5 @@ pub fn canonical(experiment: &Experiment) -> Vec<u8> {
 
 /// 64 bits of a hash.
 pub fn id(parts: &[Vec<u8>]) -> String {
-    hex(&Sha256::digest(parts.concat())[..8])
-}
-
-/// Lower-case hexadecimal.
-pub fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|b| format!("{b:02x}")).collect()
+    sha256(parts.concat(), 8)
 }

@@ -1,13 +1,12 @@
 //! Flags that commands share.
 
 use super::error::CliError;
-use crate::case::hex;
+use crate::digest::sha256;
 use crate::experiment::ExperimentFile;
 use crate::experiment::types::RecordTo;
 use crate::record::writer::Target;
 use crate::sweep::runner::targets;
 use clap::{Args, ValueEnum};
-use sha2::{Digest, Sha256};
 use std::path::{Component, Path, PathBuf};
 
 /// Of every command that reads an experiment.
@@ -116,7 +115,7 @@ fn suffix(sets: &[String]) -> String {
         return name;
     }
     // Of what was given: two that begin alike, or differ in what is replaced, are two.
-    format!("{}~{}", &name[..KEPT], hex(&Sha256::digest(given)[..4]))
+    format!("{}~{}", &name[..KEPT], sha256(given, 4))
 }
 
 /// Path below configs/, without .yaml; a config elsewhere goes by its own name.

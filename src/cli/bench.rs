@@ -9,6 +9,7 @@ use super::table::table;
 use crate::bench::{self, Contender, timing};
 use crate::experiment::ExperimentFile;
 use crate::experiment::bench::Bench;
+use crate::files::make_folder;
 use crate::report;
 use crate::rows::trials::{Trial, methods, order, pareto, to_csv};
 use crate::sweep::runner::Progress;
@@ -134,7 +135,7 @@ fn write(dir: &Path, title: &str, rows: &[Trial]) -> Result<(), CliError> {
         ("bench.svg", diagram.svg().map_err(|error| failed(&error))?.into_bytes()),
         ("bench.png", diagram.png().map_err(|error| failed(&error))?),
     ];
-    std::fs::create_dir_all(dir).map_err(|error| failed(&error))?;
+    make_folder(dir)?;
     files.iter().try_for_each(|(name, content)| std::fs::write(dir.join(name), content)).map_err(|error| failed(&error))
 }
 

@@ -7,6 +7,7 @@ use super::progress::Bar;
 use crate::build_info::BUILD;
 use crate::case::Case;
 use crate::collide::SolvedContact;
+use crate::files::make_folder;
 use crate::model::{self, Model};
 use crate::outcome::Outcome;
 use crate::plan::Plan;
@@ -42,7 +43,7 @@ impl Command {
         let targets = self.run.targets(case.experiment.record.to)?;
         let dir = self.run.out.clone().unwrap_or_else(|| self.experiment.default_out(&self.config));
         if !targets.is_empty() {
-            std::fs::create_dir_all(&dir).map_err(|error| CliError::Machine(format!("{}: {error}", dir.display())))?;
+            make_folder(&dir)?;
         }
         let (model, start) = build(&file, &[], &case.experiment)?;
         if self.output.verbose {

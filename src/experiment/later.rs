@@ -10,14 +10,11 @@ pub fn is_later(type_name: &str, word: &str) -> bool {
     LATER.iter().any(|(name, words)| *name == type_name && words.contains(&word))
 }
 
-/// Keys that a file has beside those of a type; they are taken out before the type is read.
-const BESIDES: &[(&str, &[&str])] = &[("Experiment", &BESIDE_EXPERIMENT)];
-
-/// Keys of a file that no case has.
+/// Keys that a file has beside those of its experiment; they are taken out before it is read, and no case has them.
 pub const BESIDE_EXPERIMENT: [&str; 3] = ["sweep", "expect", "bench"];
 
 /// All keys that may be written where this type stands.
 pub fn all_keys<'a>(type_name: &str, fields: &[&'a str]) -> Vec<&'a str> {
-    let besides = BESIDES.iter().filter(|(name, _)| *name == type_name).flat_map(|(_, keys)| *keys);
+    let besides: &[&str] = if type_name == "Experiment" { &BESIDE_EXPERIMENT } else { &[] };
     fields.iter().chain(besides).copied().collect()
 }

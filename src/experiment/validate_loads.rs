@@ -12,10 +12,10 @@ pub fn validate_loads(experiment: &Experiment, at: Path) -> Result<()> {
     scene.forces.iter().enumerate().try_for_each(|(i, force)| validate_force(force, scene, forces.item(i, None)))?;
     scene.air.as_ref().map_or(Ok(()), |air| validate_air(air, scene, at.key("air")))?;
     scene.pins.iter().enumerate().try_for_each(|(i, pin)| validate_pin(pin, scene, pins.item(i, None)))?;
-    validate_pins_of(&experiment.method, scene, at)
+    fits_the_method(&experiment.method, scene, at)
 }
 
-fn validate_pins_of(method: &Method, scene: &Scene, at: Path) -> Result<()> {
+fn fits_the_method(method: &Method, scene: &Scene, at: Path) -> Result<()> {
     let refused = |feature: &str| Err(ExperimentError::feature_not_available(at.key("pins").to_key_path(), feature));
     match method {
         Method::Free(free) if free.integrator == Integrator::Taylor => no_quadratic_drag(scene, at.key("air")),

@@ -2,6 +2,7 @@
 
 use super::plan_file::PlanAxis;
 use super::{Row, cells, columns};
+use crate::digest::hex;
 use crate::heading::CellKind;
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use parquet::arrow::ArrowWriter;
@@ -34,20 +35,24 @@ impl Table {
             let own = || listed.iter().find(|heading| heading.name == name).map(|heading| heading.kind);
             axis.or_else(own).unwrap_or_else(|| kind_of(rows.iter().filter_map(|row| row.measured.more.get(name))))
         };
-        let columns = cells(&blank).into_iter().map(|(name, _)| (kind(&name), name));
-        let columns = columns.map(|(kind, name)| (name, kind)).collect();
-        Table { columns, rows: rows.iter().map(cells).collect() }
+        let column = |(name, _): (String, Value)| {
+            let kind = kind(&name);
+            (name, kind)
+        };
+        Table { columns: cells(&blank).into_iter().map(column).collect(), rows: rows.iter().map(cells).collect() }
     }
 
     /// SHA-256 of all columns but those of a clock, by name, row by row: the same of the same rows.
     pub fn hash(&self) -> String {
+        let names = self.columns.iter().map(|(name, _)| name.as_str());
+        let hashed: Vec<&str> = names.filter(|name| !columns::OF_A_CLOCK.contains(name)).collect();
         let mut hash = Sha256::new();
-        for row in &self.rows {
-            for (name, _) in self.columns.iter().filter(|(name, _)| !columns::OF_A_CLOCK.contains(&name.as_str())) {
-                hash.update(format!("{name}={}\n", text(row.get(name)).unwrap_or_default()));
+        for (row, name) in self.rows.iter().flat_map(|row| hashed.iter().map(move |name| (row, name))) {
+            for part in [name, "=", text(row.get(*name)).unwrap_or_default().as_str(), "\n"] {
+                hash.update(part);
             }
         }
-        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+        hex(&hash.finalize())
     }
 
     pub fn to_csv(&self) -> Result<Vec<u8>, csv::Error> {
@@ -64,9 +69,8 @@ impl Table {
         let batch = RecordBatch::try_from_iter_with_nullable(columns)?;
         let compression = Compression::ZSTD(ZstdLevel::default());
         let hash = KeyValue::new("rows_hash".to_string(), self.hash());
-        let properties =
-            WriterProperties::builder().set_compression(compression).set_key_value_metadata(Some(vec![hash]));
-        let properties = properties.build();
+        let properties = WriterProperties::builder().set_compression(compression);
+        let properties = properties.set_key_value_metadata(Some(vec![hash])).build();
         let mut file = Vec::new();
         let mut writer = ArrowWriter::try_new(&mut file, batch.schema(), Some(properties))?;
         writer.write(&batch)?;

@@ -4,12 +4,12 @@ use super::build::{build, columns};
 use super::planned::Planned;
 use super::search;
 use crate::build_info::{BUILD, PROGRAM};
-use crate::case::{Case, hex};
+use crate::case::Case;
+use crate::digest::sha256;
 use crate::experiment::{ExperimentError, ExperimentFile};
 use crate::rows::plan_file::{PlanAxis, PlanCase, PlanFile};
 use rayon::prelude::*;
 use serde_json::{Map, json};
-use sha2::{Digest, Sha256};
 
 /// Resolves every point of the grid, and builds its model once to find what only geometry shows (overlap).
 ///
@@ -53,6 +53,6 @@ pub fn plan_file(cases: &[Planned]) -> PlanFile {
     }
     let cases: Vec<_> =
         cases.iter().map(|Planned { case, .. }| PlanCase { case: case.id.clone(), at: case.axes.clone() }).collect();
-    let digest = Sha256::digest(json!([&axes, &cases]).to_string());
-    PlanFile { program: PROGRAM.to_string(), build: BUILD.to_string(), hash: hex(&digest[..8]), axes, cases }
+    let hash = sha256(json!([&axes, &cases]).to_string(), 8);
+    PlanFile { program: PROGRAM.to_string(), build: BUILD.to_string(), hash, axes, cases }
 }

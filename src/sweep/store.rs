@@ -9,17 +9,16 @@
 //! other's files.
 
 use crate::build_info::BUILD;
-use crate::case::hex;
+use crate::digest::sha256;
 use crate::files::{self, FileError, write_whole};
 use crate::outcome::Outcome;
 use crate::rows::plan_file::{PlanCase, PlanFile};
 use crate::rows::table;
 use crate::rows::{Measured, Row};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{BufRead, BufReader, ErrorKind, Write};
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// One line of the journal.
@@ -51,22 +50,25 @@ impl Store {
     /// The machine failed, or another program has the folder open.
     pub fn open(dir: &Path, plan: PlanFile, keep: bool) -> Result<Self, FileError> {
         files::make_folder(dir)?;
-        let journal = open_alone(dir)?;
-        let mut done = read_journal(dir)?;
+        let mut journal = open_alone(dir)?;
+        let text = read_journal(dir)?;
+        // A killed run may have left half a line: end it, so that the next one starts at its beginning.
+        if text.last().is_some_and(|last| *last != b'\n') {
+            journal.write_all(b"\n").map_err(|error| FileError::new(&journal_path(dir), error))?;
+        }
+        let mut done = entries(&text);
         if !keep {
             done.retain(|_, entry| entry.build == BUILD);
         }
         let before = read_plan(dir).ok().map(|before| before.hash);
         let is_changed = before.is_some_and(|hash| hash != plan.hash);
         write_whole(&plan_path(dir), serde_json::to_string(&plan).unwrap_or_default().as_bytes())?;
-        let mut store = Store { dir: dir.to_path_buf(), plan, is_changed, journal, done };
-        store.end_torn_line()?;
-        Ok(store)
+        Ok(Store { dir: dir.to_path_buf(), plan, is_changed, journal, done })
     }
 
     /// Opens a folder for reading its rows, of whatever build.
     pub fn read(dir: &Path) -> Result<(PlanFile, Entries), FileError> {
-        Ok((read_plan(dir)?, read_journal(dir)?))
+        Ok((read_plan(dir)?, entries(&read_journal(dir)?)))
     }
 
     /// Of an edited plan that goes on in its folder: how many of its rows are there already, and how many it has.
@@ -110,16 +112,6 @@ impl Store {
         let parquet = self.dir.join("rows.parquet");
         write_whole(&parquet, &table.to_parquet().map_err(|error| FileError::new(&parquet, error))?)
     }
-
-    /// A killed run may have left half a line: end it, so that the next one starts at its beginning.
-    fn end_torn_line(&mut self) -> Result<(), FileError> {
-        let path = journal_path(&self.dir);
-        let text = files::read(&path)?;
-        if text.last().is_some_and(|last| *last != b'\n') {
-            self.journal.write_all(b"\n").map_err(|error| FileError::new(&path, error))?;
-        }
-        Ok(())
-    }
 }
 
 /// Rows of a plan that there are, in its order.
@@ -145,23 +137,21 @@ fn open_alone(dir: &Path) -> Result<File, FileError> {
     }
 }
 
-/// What the journal says of a row: JSON, whose last member is 64 bits of the SHA-256 of all before it.
-pub fn line(entry: &Entry) -> String {
-    sealed(&serde_json::to_string(entry).unwrap_or_default())
-}
-
-fn sealed(text: &str) -> String {
-    let open = text.strip_suffix('}').unwrap_or(text);
-    format!("{open}{SEAL}{}\"}}\n", hex(&Sha256::digest(open)[..8]))
-}
-
+/// Between what a line of the journal says and its checksum.
 const SEAL: &str = ",\"sum\":\"";
 
+/// What the journal says of a row: JSON, whose last member is 64 bits of the SHA-256 of all before it.
+pub fn line(entry: &Entry) -> String {
+    let text = serde_json::to_string(entry).unwrap_or_default();
+    let said = text.strip_suffix('}').unwrap_or_default();
+    format!("{said}{SEAL}{}\"}}\n", sha256(said, 8))
+}
+
 /// None: the line is not what was written.
-fn unsealed(line: &[u8]) -> Option<String> {
-    let line = std::str::from_utf8(line).ok()?;
-    let text = format!("{}}}", line.rsplit_once(SEAL)?.0);
-    (sealed(&text).trim_end() == line).then_some(text)
+fn entry(line: &[u8]) -> Option<Entry> {
+    let (said, sum) = std::str::from_utf8(line).ok()?.rsplit_once(SEAL)?;
+    let is_whole = sum.strip_suffix("\"}")? == sha256(said, 8);
+    is_whole.then(|| serde_json::from_str(&format!("{said}}}")).ok())?
 }
 
 fn plan_path(dir: &Path) -> PathBuf {
@@ -177,21 +167,16 @@ fn journal_path(dir: &Path) -> PathBuf {
     dir.join("journal.jsonl")
 }
 
-/// Later lines win; a line that does not fit its checksum counts for nothing.
-fn read_journal(dir: &Path) -> Result<Entries, FileError> {
+/// Nothing: there is none yet.
+fn read_journal(dir: &Path) -> Result<Vec<u8>, FileError> {
     let path = journal_path(dir);
-    let file = match File::open(&path) {
-        Ok(file) => file,
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Entries::new()),
-        Err(error) => return Err(FileError::new(&path, error)),
-    };
-    let mut done = Entries::new();
-    for line in BufReader::new(file).split(b'\n') {
-        let line = line.map_err(|error| FileError::new(&path, error))?;
-        let entry = unsealed(&line).and_then(|text| serde_json::from_str::<Entry>(&text).ok());
-        if let Some(entry) = entry {
-            done.insert(entry.case.clone(), entry);
-        }
+    match std::fs::read(&path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Vec::new()),
+        read => read.map_err(|error| FileError::new(&path, error)),
     }
-    Ok(done)
+}
+
+/// Later lines win; a line that does not fit its checksum counts for nothing.
+fn entries(journal: &[u8]) -> Entries {
+    journal.split(|byte| *byte == b'\n').filter_map(entry).map(|entry| (entry.case.clone(), entry)).collect()
 }

@@ -3,7 +3,8 @@ use crate::scratch;
 use gotai::experiment::types::RecordCases;
 use gotai::outcome::Outcome;
 use gotai::record::writer::Target;
-use gotai::rows::{Measured, Row};
+use gotai::rows::columns::OF_A_CLOCK;
+use gotai::rows::{Measured, Row, cells};
 use gotai::sweep::plan::plan_file;
 use gotai::sweep::planned::Planned;
 use gotai::sweep::recordings::known_after;
@@ -78,6 +79,16 @@ fn an_edited_plan_goes_on_and_what_failed_can_be_tried_again() {
     assert_eq!(store.still_hold(), Some([8, 12]));
     store.forget_failed();
     assert_eq!(store.still_hold(), Some([4, 12]));
+}
+
+/// What is left out of a row's hash is what two runs of one case may differ in.
+#[test]
+fn columns_of_a_clock_are_those_that_are_taken_off() {
+    let timed = Measured { wall_s: Some(1.0), wall_search_s: Some(1.0), ..Measured::default() };
+    let (with, without) = (cells(&timed), cells(&timed.without_wall_time()));
+    let differing: Vec<&String> = with.keys().filter(|name| with[*name] != without[*name]).collect();
+    assert_eq!(differing, OF_A_CLOCK);
+    assert!(with.iter().all(|(name, value)| !name.starts_with("wall_") || !value.is_null()), "every clock is set here");
 }
 
 #[test]

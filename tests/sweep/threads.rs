@@ -2,15 +2,14 @@
 
 use super::{SWEEP, planned, sweep};
 use crate::scratch;
-use gotai::case::hex;
+use gotai::digest::sha256;
 use gotai::record::writer::Target;
 use gotai::rows::Row;
-use sha2::{Digest, Sha256};
 
 fn hash(rows: &[Row]) -> String {
     let bits: Vec<Row> =
         rows.iter().map(|row| Row { measured: row.measured.without_wall_time(), ..row.clone() }).collect();
-    hex(&Sha256::digest(serde_json::to_vec(&bits).unwrap()))
+    sha256(serde_json::to_vec(&bits).unwrap(), 32)
 }
 
 fn rows(threads: usize, targets: &[Target], sets: &[&str]) -> Vec<Row> {

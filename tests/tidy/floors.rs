@@ -10,6 +10,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("math", &[]),
     ("state", &[]),
     ("outcome", &[]),
+    ("digest", &[]),
     ("heading", &[]),
     ("work", &["heading"]),
     ("files", &[]),
@@ -17,11 +18,11 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("panics", &[]),
     ("clock", &["state"]),
     ("shape", &["math"]),
-    ("rows", &["math", "heading", "outcome", "work"]),
+    ("rows", &["digest", "math", "heading", "outcome", "work"]),
     ("experiment", &["shape", "clock", "outcome"]),
     ("report", &["rows"]),
     ("model", &["experiment", "shape", "state"]),
-    ("case", &["experiment"]),
+    ("case", &["digest", "experiment"]),
     ("check", &["experiment", "rows", "heading", "outcome", "math"]),
     ("collide", &["model", "shape", "state", "work"]),
     ("integrate", &["model", "experiment", "math", "state", "work"]),
@@ -110,6 +111,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "sweep",
         &[
+            "digest",
             "study",
             "run",
             "record",
@@ -148,6 +150,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
+            "digest",
             "heading",
             "bench",
             "sweep",

@@ -1,25 +1,23 @@
 //! One method at one step or tolerance: what is planned, and the row that it makes.
 
 use crate::check::{Schema, refuse_no_numbers};
-use crate::experiment::Value;
 use crate::experiment::bench::{Bench, Listed, bench_path};
 use crate::experiment::file::Change;
 use crate::experiment::key_path::{self, KeyPath, Segment};
 use crate::experiment::predicate::Column;
 use crate::experiment::types::{Accuracy, Experiment};
-use crate::experiment::{ExperimentError, ExperimentFile};
+use crate::experiment::{ExperimentError, ExperimentFile, Value};
 use crate::files::FileError;
 use crate::measure::more;
 use crate::measure::reference::Reference;
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::panics;
 use crate::rows::trials::Trial;
 use crate::rows::{Measured, cells, finite};
 use crate::state::State;
-use crate::study;
 use crate::study::{choose, reference};
 use crate::sweep::build::build;
+use crate::{panics, study};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 

@@ -3,8 +3,7 @@
 
 use super::ball::{Ball, Setting};
 use super::dome_scene::{self, OnDome};
-use super::facts::point;
-use super::facts::{Lacks, SAME};
+use super::facts::{Lacks, SAME, point};
 use super::sliding::Sliding;
 use super::stick_slip::StickSlip;
 use super::toppling_scene::{self, Block, LadderAt, Rod};

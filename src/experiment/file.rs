@@ -2,17 +2,16 @@
 
 use super::axes::{Axes, axis_path, value_path};
 use super::bench::{self, Bench};
-use super::copies;
 use super::error::{ExperimentError, Kind};
 use super::expect::{self, Expectation};
 use super::key_path::KeyPath;
 use super::overrides::{Override, assign, resolve, split};
-use super::positions;
 use super::search::{Search, SearchText, search_path};
 use super::source::{parse, read};
 use super::types::Experiment;
 use super::validate::{normalise_quaternions, validate};
 use super::value_de::from_value;
+use super::{copies, positions};
 use serde::Deserialize;
 use serde_yaml::{Mapping, Number, Value};
 use std::path::{Path, PathBuf};

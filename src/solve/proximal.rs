@@ -7,9 +7,8 @@
 //! augmented Lagrangian of P. Alart, A. Curnier, Comput. Methods Appl. Mech. Engrg. 92 (1991) 353 with De Saxcé's
 //! cone).
 
-use super::Impulse;
 use super::island::{Island, Share};
-use super::law;
+use super::{Impulse, law};
 use nalgebra::{DVector, Matrix3, Vector3};
 
 /// Newton steps after which the problem is given up: with a larger η it is easier.

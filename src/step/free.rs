@@ -5,8 +5,9 @@ use crate::exact::Closed;
 use crate::experiment::tolerances::DEFAULT_TOLERANCE;
 use crate::experiment::types::{Exact, Free as Settings, Integrator, Update};
 use crate::integrate::chain::Chain;
-use crate::integrate::{crank_nicolson, dop853, euler, implicit, implicit_midpoint, momentum};
-use crate::integrate::{moser_veselov, rk4, taylor};
+use crate::integrate::{
+    crank_nicolson, dop853, euler, implicit, implicit_midpoint, momentum, moser_veselov, rk4, taylor,
+};
 use crate::model::Model;
 use crate::state::State;
 use crate::work::Work;

@@ -9,8 +9,7 @@ use crate::integrate::rotation::exponential;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::plan::Plan;
-use crate::shown::Moment;
-use crate::shown::Span;
+use crate::shown::{Moment, Span};
 use crate::state::{BodyState, State};
 use crate::work::Work;
 

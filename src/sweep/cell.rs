@@ -1,12 +1,11 @@
 //! The critical value of a key in one cell of the axes, by bisection.
 
 use super::build::build;
-use crate::experiment::Number;
 use crate::experiment::axes::{decimal, float};
 use crate::experiment::predicate::Predicate;
 use crate::experiment::search::Search;
 use crate::experiment::types::Experiment;
-use crate::experiment::{ExperimentError, ExperimentFile};
+use crate::experiment::{ExperimentError, ExperimentFile, Number};
 use crate::outcome::Outcome;
 use crate::rows::Measured;
 use crate::rows::columns::{self, SEARCH};

@@ -5,8 +5,7 @@ mod diagram;
 mod peer;
 
 use crate::cli::run;
-use crate::scratch;
-use crate::yaml;
+use crate::{scratch, yaml};
 use gotai::bench::{self, timing};
 use gotai::rows::trials::{Trial, order, pareto};
 use serde_json::Value;

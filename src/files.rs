@@ -1,5 +1,6 @@
 //! Whole files or none, and what is said when the machine fails.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// The machine failed: disk full, no permission.
@@ -29,6 +30,30 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FileError> {
 /// The machine failed.
 pub fn make_folder(dir: &Path) -> Result<(), FileError> {
     std::fs::create_dir_all(dir).map_err(|error| FileError::new(dir, error))
+}
+
+/// Takes a file away; that it is not there is no error.
+///
+/// # Errors
+/// The machine failed.
+pub fn remove(path: &Path) -> Result<(), FileError> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(FileError::new(path, error)),
+        _ => Ok(()),
+    }
+}
+
+/// Takes a folder away in which nothing is left; one that holds something, or is not there, is left alone.
+///
+/// # Errors
+/// The machine failed.
+pub fn remove_empty_folder(path: &Path) -> Result<(), FileError> {
+    match std::fs::remove_dir(path) {
+        Err(error) if ![ErrorKind::NotFound, ErrorKind::DirectoryNotEmpty].contains(&error.kind()) => {
+            Err(FileError::new(path, error))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What is in a file.

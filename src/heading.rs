@@ -69,13 +69,27 @@ impl Heading {
 
     /// The unit that its name ends with; empty for texts, counts and ratios.
     pub fn unit(&self) -> &'static str {
-        let unit = UNITS.iter().find(|(ending, _)| self.name.ends_with(ending));
-        unit.map_or("", |(_, unit)| unit)
+        unit_of(self.name)
     }
 }
 
+/// The unit that the name of a column, or the path of an axis, ends with, whatever component stands behind it; empty for
+/// texts, counts and ratios.
+pub fn unit_of(name: &str) -> &'static str {
+    let ends = |name: &str| UNITS.iter().find(|(ending, _)| name.ends_with(ending)).map(|(_, unit)| *unit);
+    ends(name).or_else(|| ends(name.rsplit_once('.')?.0)).unwrap_or_default()
+}
+
 /// What stands last in a name, the longer before its own ending.
-const UNITS: [(&str, &str); 9] = [
+const UNITS: [(&str, &str); 17] = [
+    ("_m_s2", "m/s²"),
+    ("_kg_m3", "kg/m³"),
+    ("stiffness_n_m", "N/m"),
+    ("torque_n_m", "N m"),
+    ("_n_s_m", "N s/m"),
+    ("_n", "N"),
+    ("_deg", "°"),
+    ("_mb", "MB"),
     ("_rad_s", "rad/s"),
     ("_m_s", "m/s"),
     ("_kg_m2", "kg m²"),

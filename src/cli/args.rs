@@ -91,6 +91,16 @@ impl ExperimentArgs {
         Ok(ExperimentFile::load(config, &self.sets)?)
     }
 
+    /// The same of a text that stands in a file of another kind.
+    pub(super) fn read(&self, path: &Path, text: &str) -> Result<ExperimentFile, CliError> {
+        Ok(ExperimentFile::from_text(path, text, &self.sets)?)
+    }
+
+    /// Nothing is changed.
+    pub(super) fn is_empty(&self) -> bool {
+        self.sets.is_empty()
+    }
+
     /// recordings/<path of the config below configs/, without .yaml>, and what was set, so that no run overwrites the
     /// table of another one.
     pub(super) fn default_out(&self, config: &Path) -> PathBuf {

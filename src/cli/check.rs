@@ -85,7 +85,7 @@ impl Command {
 /// The columns that the rows of a plan have.
 fn schema(planned: &PlannedSweep) -> Schema {
     let mut names: Vec<String> = Vec::new();
-    for name in planned.cases.iter().flat_map(|planned| more::names(&planned.case.experiment)) {
+    for name in planned.plan.cases.iter().flat_map(|planned| more::names(&planned.case.experiment)) {
         if !names.contains(&name) {
             names.push(name);
         }

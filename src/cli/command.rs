@@ -1,7 +1,7 @@
 //! The commands, one file each.
 
 use super::error::CliError;
-use super::{bench, check, explain, list, run, status, sweep};
+use super::{bench, check, clean, explain, list, rows, run, status, sweep};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -20,7 +20,8 @@ const EXIT_CODES: &str = "Exit codes: 0 fine · 1 an expectation not met, a case
 
 #[derive(Subcommand)]
 enum Command {
-    /// Run one experiment (no axes left: fix them with --set), write its recordings, print a summary
+    /// Run one experiment (no axes left: fix them with --set), write its row and recordings, print a summary; or run a
+    /// row of a folder of results again (--case)
     Run(run::Command),
     /// Expand the axes into cases and run them on all cores; run again, it does only what is missing
     Sweep(sweep::Command),
@@ -30,6 +31,10 @@ enum Command {
     Bench(bench::Command),
     /// How much of a sweep is done, missing, failed
     Status(status::Command),
+    /// The rows of a folder of results, chosen, sorted, as a table
+    Rows(rows::Command),
+    /// Drop replays, half-written files, and what other builds have left in a folder of results
+    Clean(clean::Command),
     /// What this scene needs, what is skipped and why; number of cases, steps, estimated time and bytes
     Explain(explain::Command),
     /// What can be written in an experiment file
@@ -44,6 +49,8 @@ impl Cli {
             Command::Check(command) => command.run(),
             Command::Bench(command) => command.run(),
             Command::Status(command) => command.run(),
+            Command::Rows(command) => command.run(),
+            Command::Clean(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::List(command) => command.run(),
         }

@@ -3,6 +3,7 @@
 use crate::experiment::ExperimentError;
 use crate::files::FileError;
 use crate::record::RecordError;
+use crate::sweep::folder::FolderError;
 use crate::sweep::runner::SweepError;
 use std::process::ExitCode;
 
@@ -18,6 +19,8 @@ pub enum CliError {
     #[error(transparent)]
     Store(#[from] FileError),
     #[error(transparent)]
+    Folder(#[from] FolderError),
+    #[error(transparent)]
     Sweep(#[from] SweepError),
     #[error("{0}")]
     Machine(String),
@@ -28,6 +31,7 @@ impl CliError {
         let input_is_wrong = match self {
             CliError::Experiment(error) => !error.is_machine(),
             CliError::Input(_) => true,
+            CliError::Folder(error) => !matches!(error, FolderError::Experiment(error) if error.is_machine()),
             _ => false,
         };
         ExitCode::from(if input_is_wrong { 2 } else { 3 })

@@ -158,7 +158,7 @@ fn bytes(cases: &[Planned]) -> u64 {
     const OF_A_BODY: u64 = 150;
     const OF_A_CONTACT: u64 = 60;
     const LIKELY_CONTACTS: u64 = 3;
-    let Some(Planned { case: first, search: None }) = cases.first() else { return 0 };
+    let Some(Planned { case: first, search: None, .. }) = cases.first() else { return 0 };
     let files = targets(first.experiment.record.to).len() as u64;
     let rule = first.experiment.record.cases;
     let recorded = known_before(rule, cases.len()).map_or(FEW.min(cases.len()), |known| known.len());

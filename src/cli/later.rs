@@ -3,31 +3,27 @@
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 11] = [
     "merge",
     "submit",
     "report",
     "view",
     "schema",
     "completions",
-    "rows",
-    "clean",
     "new",
     "compare",
     "export",
     "repair",
     "doctor",
 ];
-const FLAGS: [&str; 10] = [
+const FLAGS: [&str; 8] = [
     "--shard",
     "--axis",
-    "--case",
     "--live",
     "--progress",
     "--color",
     "--fail-fast",
     "--no-report",
-    "--csv",
     "--fail-on-regression",
 ];
 

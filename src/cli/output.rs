@@ -10,3 +10,8 @@ pub(super) fn print(text: impl std::fmt::Display) {
 pub(super) fn print_json(value: &impl serde::Serialize) {
     print(serde_json::to_string(value).unwrap_or_default());
 }
+
+/// To a tenth of a megabyte.
+pub(super) fn megabytes(bytes: u64) -> String {
+    format!("{:.1} MB", bytes as f64 / 1e6)
+}

@@ -1,13 +1,14 @@
-//! `gotai status`: how much of a sweep is done.
+//! `gotai status`: how much of a sweep is done, and what its folder takes.
 
 use super::args::OutputArgs;
 use super::error::CliError;
-use super::output::{print, print_json};
+use super::output::{megabytes, print, print_json};
 use crate::build_info::BUILD;
 use crate::outcome::Outcome;
 use crate::rows::count;
 use crate::rows::table::Table;
-use crate::sweep::store::{Store, rows};
+use crate::sweep::folder::Folder;
+use crate::sweep::unneeded::Bytes;
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
@@ -27,31 +28,38 @@ pub struct Command {
 impl Command {
     /// Exit code 1 while incomplete.
     pub fn run(self) -> Result<ExitCode, CliError> {
-        if !self.dir.join("plan.json").is_file() {
-            let dir = self.dir.display();
-            return Err(CliError::Input(format!("{dir}: expected a folder of results, found no plan.json in it")));
-        }
-        let (plan, mut done) = Store::read(&self.dir)?;
-        let all = done.len();
+        let mut folder = Folder::read(&self.dir)?;
+        let bytes = Bytes::of(&folder)?;
+        let other_build = folder.journal.rows.values().filter(|entry| entry.build != BUILD).count();
         if !self.keep {
-            done.retain(|_, entry| entry.build == BUILD);
+            folder.journal.retain_build();
         }
-        let other_build = all - done.len();
-        let rows = rows(&plan, &done);
-        let (total, failed) = (plan.cases.len(), count(&rows, Outcome::Failed));
+        let rows = folder.rows();
+        let (total, failed) = (folder.cases.len(), count(&rows, Outcome::Failed));
         let missing = total - rows.len();
         if self.output.json {
             print_json(&json!({
-                "dir": self.dir, "cases": total, "done": rows.len(), "missing": missing, "failed": failed,
-                "finished": count(&rows, Outcome::Finished), "diverged": count(&rows, Outcome::Diverged),
-                "stalled": count(&rows, Outcome::Stalled), "of_another_build": other_build,
-                "rows_hash": Table::new(&plan.axes, &rows).hash(),
+                "dir": self.dir, "question": folder.plan.question, "cases": total, "done": rows.len(),
+                "missing": missing, "failed": failed, "finished": count(&rows, Outcome::Finished),
+                "diverged": count(&rows, Outcome::Diverged), "stalled": count(&rows, Outcome::Stalled),
+                "of_another_build": other_build, "recordings": rows.iter().filter(|row| row.recording.is_some()).count(),
+                "bytes": bytes, "plan_hash": folder.plan.hash, "rows_hash": Table::new(&folder.plan.axes, &rows).hash(),
             }));
         } else {
-            print(format!("{} of {total} done, {missing} missing, {failed} failed", rows.len()));
-            if other_build > 0 && missing > 0 {
-                print(format!("{other_build} rows are of another build (--keep takes them)"));
+            if let Some(question) = &folder.plan.question {
+                print(question.trim());
             }
+            print(format!("{} of {total} done, {missing} missing, {failed} failed", rows.len()));
+            if other_build > 0 && !self.keep {
+                print(format!("{other_build} rows are of another build (--keep takes them, `gotai clean` drops them)"));
+            }
+            print(format!(
+                "{} in all: recordings {}, replays {}, unneeded {}",
+                megabytes(bytes.total),
+                megabytes(bytes.recordings),
+                megabytes(bytes.replays),
+                megabytes(bytes.unneeded)
+            ));
         }
         Ok(ExitCode::from(u8::from(missing > 0 || failed > 0)))
     }

@@ -8,7 +8,7 @@ use crate::experiment::types::RecordTo;
 use crate::outcome::Outcome;
 use crate::record::writer::Target;
 use crate::rows::{Row, count};
-use crate::sweep::plan::{cases, plan_file};
+use crate::sweep::plan::SweepPlan;
 use crate::sweep::planned::Planned;
 use crate::sweep::runner::{Job, build_and_run, lock};
 use crate::sweep::store::Store;
@@ -27,6 +27,9 @@ pub struct SweepArgs {
     /// Run the cases again that have failed
     #[arg(long)]
     retry_failed: bool,
+    /// Write rows.csv for more than 100,000 rows too
+    #[arg(long)]
+    csv: bool,
     #[command(flatten)]
     experiment: ExperimentArgs,
     #[command(flatten)]
@@ -47,7 +50,7 @@ pub struct Config {
 pub struct PlannedSweep {
     pub config: Config,
     pub file: ExperimentFile,
-    pub cases: Vec<Planned>,
+    pub plan: SweepPlan,
     targets: Vec<Target>,
 }
 
@@ -78,33 +81,33 @@ impl SweepArgs {
         file: ExperimentFile,
         instead: Option<RecordTo>,
     ) -> Result<PlannedSweep, CliError> {
-        let cases = cases(&file)?;
-        let said = cases.first().and_then(|first| first.case.experiment.record.to);
+        let plan = SweepPlan::new(&file)?;
+        let said = plan.cases.first().and_then(|first| first.case.experiment.record.to);
         let targets = self.run.targets(instead.or(said))?;
-        Ok(PlannedSweep { config, file, cases, targets })
+        Ok(PlannedSweep { config, file, plan, targets })
     }
 
     pub fn sweep(&self, planned: &PlannedSweep) -> Result<Swept, CliError> {
-        let PlannedSweep { config, cases, targets, .. } = planned;
+        let PlannedSweep { config, plan, targets, .. } = planned;
         let dir = config.out(self.run.out.as_deref(), &self.experiment);
-        let mut store = Store::open(&dir, plan_file(cases), self.keep)?;
+        let mut store = Store::open(&dir, plan, self.keep)?;
         if self.retry_failed {
             store.forget_failed();
         }
-        if let Some([held, all]) = store.still_hold().filter(|_| !self.output.quiet) {
-            eprintln!("{}: the plan has changed; {held} of {all} rows still hold", dir.display());
+        if let Some(edited) = store.edited().filter(|_| !self.output.quiet) {
+            eprintln!("{}: {edited}", dir.display());
         }
         let store = Arc::new(Mutex::new(store));
         keep_rows_when_interrupted(&store, &dir)?;
         if self.output.verbose {
-            eprintln!("{}: {} cases into {}", config.path.display(), cases.len(), dir.display());
+            eprintln!("{}: {} cases into {}", config.path.display(), plan.cases.len(), dir.display());
         }
         let work = |planned: &Planned, targets: &[Target]| build_and_run(planned, &dir, targets);
         let bar = Bar::new(self.output.quiet);
-        let job = Job { dir: &dir, targets, work: &work, progress: &bar };
-        let ran = quietly(|| job.sweep(cases, &store))?;
+        let job = Job { dir: &dir, targets, csv: self.csv, work: &work, progress: &bar };
+        let ran = quietly(|| job.sweep(&plan.cases, &store))?;
         let rows = lock(&store).rows();
-        Ok(Swept { config: config.path.clone(), dir, ran, planned: cases.len(), rows })
+        Ok(Swept { config: config.path.clone(), dir, ran, planned: plan.cases.len(), rows })
     }
 }
 
@@ -169,7 +172,7 @@ fn keep_rows_when_interrupted(store: &Arc<Mutex<Store>>, dir: &Path) -> Result<(
         // A sweep that has ended has dropped its store; the next one of the folder listens for itself.
         if let (Some(signal), Some(store)) = (signals.forever().next(), store.upgrade()) {
             let store = lock(&store);
-            if let Err(error) = store.write_tables() {
+            if let Err(error) = store.write_tables(false) {
                 eprintln!("gotai: {error}");
             }
             // Below the bar, which is left as it stands.

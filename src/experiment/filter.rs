@@ -3,7 +3,7 @@
 use super::axes::AxisValue;
 use super::checks::Result;
 use super::error::{ExperimentError, describe};
-use super::key_path::Path;
+use super::key_path::{KeyPath, Path};
 use super::predicate::Bounds;
 use super::value_de::from_value;
 use serde_json::Value as Cell;
@@ -43,6 +43,14 @@ impl Filter {
             }
             Some(item) => filter.add(item, at)?,
         }
+        Ok(filter)
+    }
+
+    /// Texts like `time.step_s <= 0.01`.
+    pub fn of_texts(texts: &[String]) -> Result<Filter> {
+        let base = KeyPath::of_keys(&["where"]);
+        let mut filter = Filter::default();
+        texts.iter().try_for_each(|text| filter.add(&Value::String(text.clone()), Path::Base(&base)))?;
         Ok(filter)
     }
 

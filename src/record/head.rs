@@ -1,5 +1,6 @@
 //! The head of a recording: the case, the whole configuration, what the bodies and the container look like.
 
+use super::name::RecordingName;
 use super::sample::{BodyHeader, Header};
 use super::sampler::{steps_between, streams};
 use crate::build_info::{BUILD, PROGRAM};
@@ -10,11 +11,13 @@ use crate::experiment::types::{Container, ContainerBox, Plane};
 use crate::model::{Body, Model};
 use nalgebra::Vector3;
 
-pub fn header(case: &Case, model: &Model, clock: &Clock) -> Header {
+pub fn header(case: &Case, name: &RecordingName, model: &Model, clock: &Clock) -> Header {
     let record = &case.experiment.record;
     Header {
         case: case.id.clone(),
+        name: name.clone(),
         title: title(case),
+        axes: case.axes.iter().map(|(path, value)| (path.clone(), value.clone())).collect(),
         program: PROGRAM.to_string(),
         build: BUILD.to_string(),
         config_yaml: to_yaml(&case.experiment),

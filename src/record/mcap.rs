@@ -2,7 +2,8 @@
 //!
 //! Every batch ends with a complete chunk on disk, so that a kill loses no batch that was written.
 
-use super::sample::{Batch, BodyHeader, EnergySample, Event, Header, Sample, Streams};
+use super::name::RecordingName;
+use super::sample::{Batch, BodyHeader, Ending, EnergySample, Event, Header, Sample, Streams};
 use super::scene::{Scene, log, surfaces};
 use super::{RecordError, Recorder, schema};
 use foxglove::Encode;
@@ -28,6 +29,9 @@ const DISPLAY_HZ: f64 = 60.0;
 pub struct McapRecorder {
     path: PathBuf,
     streams: Streams,
+    /// What the head says, for the end to say again.
+    said: BTreeMap<String, String>,
+    name: RecordingName,
     out: Out,
     channels: Channels,
     messages: Messages,
@@ -48,6 +52,8 @@ impl McapRecorder {
         Ok(McapRecorder {
             path: path.to_path_buf(),
             streams: header.streams,
+            said: said(header),
+            name: header.name.clone(),
             out,
             channels,
             messages: Messages::new(&header.bodies),
@@ -109,9 +115,12 @@ impl Recorder for McapRecorder {
             .map_err(|error| RecordError::caused(&self.path, &error))
     }
 
-    fn finish(self: Box<Self>) -> Result<(), RecordError> {
-        let McapRecorder { path, out, .. } = *self;
-        close(out.writer).map_err(|error| RecordError::caused(&path, &error))
+    fn finish(self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {
+        let McapRecorder { path, mut out, mut said, name, .. } = *self;
+        said.extend(ended(&name, ending));
+        let end = Metadata { name: schema::METADATA.to_owned(), metadata: said };
+        let closed = out.writer.write_metadata(&end).and_then(|()| close(out.writer));
+        closed.map_err(|error| RecordError::caused(&path, &error))
     }
 }
 
@@ -161,7 +170,8 @@ impl Out {
             media_type: "application/yaml".to_owned(),
             data: Cow::Borrowed(header.config_yaml.as_bytes()),
         })?;
-        self.writer.write_metadata(&metadata(header))?;
+        let start = Metadata { name: schema::METADATA_START.to_owned(), metadata: said(header) };
+        self.writer.write_metadata(&start)?;
 
         let streams = header.streams;
         let own = schema::descriptor_set();
@@ -206,8 +216,10 @@ impl Out {
     }
 }
 
-fn metadata(header: &Header) -> Metadata {
-    let entries = [
+/// What is known from the start: case, axes by their paths, program.
+fn said(header: &Header) -> BTreeMap<String, String> {
+    let axes = header.axes.iter().map(|(path, value)| (path.as_str(), schema::text(value)));
+    let known = [
         ("case", header.case.clone()),
         ("title", header.title.clone()),
         ("program", header.program.clone()),
@@ -215,8 +227,19 @@ fn metadata(header: &Header) -> Metadata {
         ("step_s", header.step_s.to_string()),
         ("sample_every_s", header.sample_every_s.to_string()),
     ];
-    let metadata = entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
-    Metadata { name: schema::METADATA.to_owned(), metadata }
+    axes.chain(known).map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+/// What the end adds.
+fn ended(name: &RecordingName, ending: &Ending) -> impl Iterator<Item = (String, String)> {
+    let criterion = ending.criterion.clone().map(|criterion| ("criterion", criterion));
+    let known = [
+        ("name", name.ended(ending.outcome)),
+        ("outcome", ending.outcome.name().to_owned()),
+        ("end_time_s", ending.end_time_s.to_string()),
+        ("steps", ending.steps.to_string()),
+    ];
+    known.into_iter().chain(criterion).map(|(key, value)| (key.to_owned(), value))
 }
 
 /// Messages that are filled again for every sample; their memory and the bodies' names stay.

@@ -5,6 +5,8 @@
 
 pub mod head;
 pub mod mcap;
+pub mod name;
+pub mod read;
 mod recorder;
 #[cfg(feature = "rerun")]
 pub mod rerun;

@@ -1,6 +1,6 @@
 //! A file format, and what is said when the machine fails.
 
-use super::sample::{Batch, Event};
+use super::sample::{Batch, Ending, Event};
 use std::error::Error;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -11,8 +11,8 @@ pub trait Recorder: Send {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError>;
     /// Writes an event; it comes after every sample written before.
     fn event(&mut self, event: &Event) -> Result<(), RecordError>;
-    /// Closes the file; without it a file is incomplete.
-    fn finish(self: Box<Self>) -> Result<(), RecordError>;
+    /// Says how the run ended and closes the file; without it a file is incomplete.
+    fn finish(self: Box<Self>, ending: &Ending) -> Result<(), RecordError>;
 }
 
 /// The machine failed: disk full, no permission.

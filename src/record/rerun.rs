@@ -11,7 +11,8 @@ mod layout;
 mod names;
 
 use self::names::{BODIES, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, LOG, SIM_TIME, STEP, energy_path};
-use super::sample::{Batch, Event, ForceArrows, Header, Severity, Streams, norm};
+use super::name::RecordingName;
+use super::sample::{Batch, Ending, Event, ForceArrows, Header, Severity, Streams, norm};
 use super::schema::{self};
 use super::{RecordError, Recorder};
 use ::rerun::external::re_build_info::CrateVersion;
@@ -35,6 +36,8 @@ pub struct RerunRecorder {
     streams: Streams,
     arrows: ForceArrows,
     bodies: Vec<EntityPath>,
+    recording_id: String,
+    name: RecordingName,
     out: Out,
 }
 
@@ -53,8 +56,15 @@ impl RerunRecorder {
             out.encoder.append(message)?;
         }
         out.encoder.flush_blocking()?;
-        let path = path.to_path_buf();
-        Ok(RerunRecorder { path, streams: header.streams, arrows: header.force_arrows(), bodies, out })
+        Ok(RerunRecorder {
+            path: path.to_path_buf(),
+            streams: header.streams,
+            arrows: header.force_arrows(),
+            bodies,
+            recording_id: head::recording_id(header),
+            name: header.name.clone(),
+            out,
+        })
     }
 
     fn batch(&mut self, batch: &Batch) -> Written {
@@ -79,6 +89,15 @@ impl RerunRecorder {
             }
         }
         Ok(self.out.encoder.flush_blocking()?)
+    }
+
+    fn close(&mut self, ending: &Ending) -> Written {
+        let encoder = &mut self.out.encoder;
+        for message in head::ending(&self.recording_id, &self.name, ending)? {
+            encoder.append(&message)?;
+        }
+        encoder.finish()?;
+        Ok(encoder.flush_blocking()?)
     }
 
     fn poses(&mut self, batch: &Batch, times: &Times) -> Written {
@@ -117,10 +136,8 @@ impl Recorder for RerunRecorder {
         self.out.event(event).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
-    fn finish(mut self: Box<Self>) -> Result<(), RecordError> {
-        let encoder = &mut self.out.encoder;
-        let finished = encoder.finish().and_then(|()| encoder.flush_blocking());
-        finished.map_err(|error| RecordError::caused(&self.path, &error))
+    fn finish(mut self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {
+        self.close(ending).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 }
 

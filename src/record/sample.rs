@@ -4,7 +4,10 @@
 //! simulating thread, sent to the recording thread and comes back empty to be filled again. Columns of a stream that is
 //! off stay empty. Nothing here knows a file format or a method.
 
+use super::name::RecordingName;
+use crate::outcome::Outcome;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// Which streams are recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,10 +28,14 @@ impl Streams {
 /// Constant during a run; written once, at the head of a recording.
 #[derive(Clone, Debug)]
 pub struct Header {
-    /// Id of the case; also the name of the file, without its ending.
+    /// Id of the case.
     pub case: String,
+    /// Of the file, and inside it.
+    pub name: RecordingName,
     /// One line for people: the experiment's question or name, and the values on the axes.
     pub title: String,
+    /// Axes of the sweep by their paths, with this case's values.
+    pub axes: Vec<(String, Value)>,
     /// Program and version, e.g. `gotai 0.1.0`.
     pub program: String,
     /// Hash of the build.
@@ -215,6 +222,16 @@ pub struct EnergySample {
     pub potential_j: f64,
     pub total_j: f64,
     pub penetration_m: f64,
+}
+
+/// How a run ended; written once, at the end of a recording.
+#[derive(Clone, Debug)]
+pub struct Ending {
+    pub outcome: Outcome,
+    /// What stopped the run; none: its end.
+    pub criterion: Option<String>,
+    pub end_time_s: f64,
+    pub steps: u64,
 }
 
 /// Something that happened at a time, in words: a divergence, the end of the run.

@@ -3,7 +3,7 @@
 //! A recorded run is the same run: the sampler only looks. What no stream asks for is not computed.
 
 use super::RecordError;
-use super::sample::{BodySample, ContactSample, EnergySample, Event, Severity, Streams};
+use super::sample::{BodySample, ContactSample, EnergySample, Ending, Event, Severity, Streams};
 use super::writer::Writer;
 use crate::clock::Clock;
 use crate::collide::SolvedContact;
@@ -21,11 +21,12 @@ pub struct Sampler {
     streams: Streams,
     /// A sample every so many steps.
     every: u64,
+    ending: Option<Ending>,
 }
 
 impl Sampler {
     pub fn new(writer: Writer, record: &Record, clock: &Clock) -> Self {
-        Sampler { writer, streams: streams(record), every: steps_between(record, clock) }
+        Sampler { writer, streams: streams(record), every: steps_between(record, clock), ending: None }
     }
 
     pub fn is_due(&self, step: u64) -> bool {
@@ -65,11 +66,17 @@ impl Sampler {
         };
         let text = format!("{text} at t = {} s, step {}", state.time_s, state.step);
         self.writer.event(Event { step: state.step, time_s: state.time_s, severity, text });
+        self.ending = Some(Ending {
+            outcome: measured.outcome,
+            criterion: measured.criterion.clone(),
+            end_time_s: state.time_s,
+            steps: measured.steps,
+        });
     }
 
-    /// Writes the rest and closes the files.
+    /// Writes the rest and closes the files; those of a run that has not ended stay incomplete.
     pub fn finish(self) -> Result<(), RecordError> {
-        self.writer.finish()
+        self.ending.map_or(Ok(()), |ending| self.writer.finish(ending))
     }
 }
 

@@ -8,6 +8,7 @@ use super::sample::EnergySample;
 use prost::Message;
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet};
+use serde_json::Value;
 
 /// Every sample: `gotai.Bodies`, `gotai.Contacts`, `gotai.Energy`.
 pub const BODIES: &str = "/bodies";
@@ -27,8 +28,14 @@ pub const LOG: &str = "/log";
 
 /// Name of the configuration attached to a recording.
 pub const CONFIG_FILE: &str = "experiment.yaml";
-/// Name of the record of case, title, program, build and step.
+/// Name of the record of case, axes, program and step, at the start; and of the same with name and outcome, at the end.
+pub const METADATA_START: &str = "gotai.start";
 pub const METADATA: &str = "gotai";
+
+/// A value on an axis: text as it is, everything else as JSON.
+pub fn text(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
 
 /// The frame that everything is in, and what `other` says for a contact with the container.
 pub const WORLD: &str = "world";

@@ -4,7 +4,8 @@
 //! simulation, the simulation waits; memory stays bounded. A write that fails does not stop the simulation: the first
 //! error is remembered and `finish` returns it.
 
-use super::sample::{Batch, Event, Header};
+use super::name::RecordingName;
+use super::sample::{Batch, Ending, Event, Header};
 use super::{RecordError, Recorder};
 use crate::panics;
 use std::path::{Path, PathBuf};
@@ -27,7 +28,7 @@ const QUEUE: usize = 16;
 enum Message {
     Batch(Batch),
     Event(Event),
-    Finish,
+    Finish(Ending),
 }
 
 /// Hands batches and events, in order, to recorders on a thread of its own.
@@ -74,9 +75,9 @@ impl Writer {
     }
 
     /// Writes the rest and closes the files. The first error wins, also over the success of other files.
-    pub fn finish(mut self) -> Result<(), RecordError> {
+    pub fn finish(mut self, ending: Ending) -> Result<(), RecordError> {
         self.send_batch();
-        let _ = self.full.send(Message::Finish);
+        let _ = self.full.send(Message::Finish(ending));
         self.join()
     }
 
@@ -138,9 +139,9 @@ fn record(
                 let _ = outbox.try_send(batch);
             }
             Message::Event(event) => each(&mut sinks, &mut first, |sink| sink.event(&event)),
-            Message::Finish => {
+            Message::Finish(ending) => {
                 for sink in sinks {
-                    let result = sink.finish();
+                    let result = sink.finish(&ending);
                     first = first.and(result);
                 }
                 return first;
@@ -166,6 +167,9 @@ fn each(
     });
 }
 
+/// Between the id and the ending of a file that is being written.
+pub const PARTIAL: &str = ".partial.";
+
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
@@ -174,6 +178,8 @@ pub enum Target {
 }
 
 impl Target {
+    pub const ALL: [Target; 2] = [Target::Rerun, Target::Mcap];
+
     /// Every kind that this build can write.
     pub const AVAILABLE: &[Target] =
         if cfg!(feature = "rerun") { &[Target::Rerun, Target::Mcap] } else { &[Target::Mcap] };
@@ -185,17 +191,22 @@ impl Target {
             Target::Mcap => "mcap",
         }
     }
+
+    /// Where a recording of this name is. (A name holds dots of its own.)
+    pub fn path(self, dir: &Path, name: &str) -> PathBuf {
+        dir.join(format!("{name}.{}", self.extension()))
+    }
 }
 
-/// Starts the recordings of a case: `<dir>/<case>.rrd`, `<dir>/<case>.mcap`. The directory must exist. Until `finish`
-/// a file is called `<case>.partial.rrd`, so that a file with the final name is complete.
+/// Starts the recordings of a case in a directory that must exist. Until `finish` a file is called
+/// `<case>.partial.<ending>`, so that a file with the name that the header gives is complete.
 pub fn open(targets: &[Target], dir: &Path, header: &Header) -> Result<Writer, RecordError> {
     let mut sinks: Vec<Box<dyn Recorder>> = Vec::new();
     for &target in targets {
-        let partial = dir.join(format!("{}.partial.{}", header.case, target.extension()));
-        let complete = dir.join(format!("{}.{}", header.case, target.extension()));
+        let partial = dir.join(format!("{}{PARTIAL}{}", header.case, target.extension()));
         let file = create(target, &partial, header)?;
-        sinks.push(Box::new(Renamed { file, partial, complete }));
+        let (dir, name) = (dir.to_path_buf(), header.name.clone());
+        sinks.push(Box::new(Renamed { file, target, partial, dir, name }));
     }
     Writer::start(sinks)
 }
@@ -210,11 +221,13 @@ fn create(target: Target, path: &Path, header: &Header) -> Result<Box<dyn Record
     }
 }
 
-/// Gives a file its final name when it is complete.
+/// Gives a file its name when it is complete and the outcome is known.
 struct Renamed {
     file: Box<dyn Recorder>,
+    target: Target,
     partial: PathBuf,
-    complete: PathBuf,
+    dir: PathBuf,
+    name: RecordingName,
 }
 
 impl Recorder for Renamed {
@@ -226,8 +239,9 @@ impl Recorder for Renamed {
         self.file.event(event)
     }
 
-    fn finish(self: Box<Self>) -> Result<(), RecordError> {
-        self.file.finish()?;
-        std::fs::rename(&self.partial, &self.complete).map_err(|error| RecordError::caused(&self.complete, &error))
+    fn finish(self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {
+        self.file.finish(ending)?;
+        let complete = self.target.path(&self.dir, &self.name.ended(ending.outcome));
+        std::fs::rename(&self.partial, &complete).map_err(|error| RecordError::caused(&complete, &error))
     }
 }

@@ -24,6 +24,11 @@ pub const SEARCH: [Heading; 4] = [
 /// Columns that a clock makes: two runs of one case may differ in them, and in no other.
 pub const OF_A_CLOCK: [&str; 2] = ["wall_s", "wall_search_s"];
 
+/// Whether two runs of one case may differ in this column: what a clock makes, and what says which file shows the run.
+pub fn is_beside_the_run(name: &str) -> bool {
+    OF_A_CLOCK.contains(&name) || name == "recording"
+}
+
 /// `measure: [state]`.
 pub const STATE: [Heading; 4] = [
     number("<body>.position_m", "Position of the body's centre of mass at the end, world frame.").with_parts(&XYZ),

@@ -18,6 +18,8 @@ columns! {
         /// What the run measured.
         #[serde(flatten)]
         pub measured: Measured,
+        /// Name of the case's recording, without the ending of its files (`.rrd`, `.mcap`). Null where there is none.
+        pub recording: Option<String>,
         /// Hash of the program that made the row.
         pub build: String,
     }

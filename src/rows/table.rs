@@ -1,9 +1,9 @@
 //! Rows as a table: CSV for spreadsheets, Parquet for everything columnar. Null is an empty cell.
 
-use super::plan_file::PlanAxis;
+use super::plan_file::{PlanAxis, PlanFile};
 use super::{Row, cells, columns};
 use crate::digest::hex;
-use crate::heading::CellKind;
+use crate::heading::{CellKind, unit_of};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, ZstdLevel};
@@ -42,10 +42,20 @@ impl Table {
         Table { columns: cells(&blank).into_iter().map(column).collect(), rows: rows.iter().map(cells).collect() }
     }
 
-    /// SHA-256 of all columns but those of a clock, by name, row by row: the same of the same rows.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.columns.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Cells by the names of their columns.
+    pub fn rows(&self) -> impl Iterator<Item = &Map<String, Value>> {
+        self.rows.iter()
+    }
+
+    /// SHA-256 of all columns but those that a clock makes or that say what was recorded, by name, row by row: the same of
+    /// the same rows, recorded or not.
     pub fn hash(&self) -> String {
         let names = self.columns.iter().map(|(name, _)| name.as_str());
-        let hashed: Vec<&str> = names.filter(|name| !columns::OF_A_CLOCK.contains(name)).collect();
+        let hashed: Vec<&str> = names.filter(|name| !columns::is_beside_the_run(name)).collect();
         let mut hash = Sha256::new();
         for (row, name) in self.rows.iter().flat_map(|row| hashed.iter().map(move |name| (row, name))) {
             for part in [name, "=", text(row.get(*name)).unwrap_or_default().as_str(), "\n"] {
@@ -64,18 +74,33 @@ impl Table {
         writer.into_inner().map_err(|error| error.into_error().into())
     }
 
-    pub fn to_parquet(&self) -> Result<Vec<u8>, ParquetError> {
+    /// With the plan's question, the units, program and format in its metadata.
+    pub fn to_parquet(&self, plan: &PlanFile) -> Result<Vec<u8>, ParquetError> {
         let columns = self.columns.iter().map(|(name, kind)| (name.as_str(), self.column(name, *kind), true));
         let batch = RecordBatch::try_from_iter_with_nullable(columns)?;
         let compression = Compression::ZSTD(ZstdLevel::default());
-        let hash = KeyValue::new("rows_hash".to_string(), self.hash());
         let properties = WriterProperties::builder().set_compression(compression);
-        let properties = properties.set_key_value_metadata(Some(vec![hash])).build();
+        let properties = properties.set_key_value_metadata(Some(self.said_of(plan))).build();
         let mut file = Vec::new();
         let mut writer = ArrowWriter::try_new(&mut file, batch.schema(), Some(properties))?;
         writer.write(&batch)?;
         writer.close()?;
         Ok(file)
+    }
+
+    fn said_of(&self, plan: &PlanFile) -> Vec<KeyValue> {
+        let units = self.columns.iter().map(|(name, _)| (name, unit_of(name))).filter(|(_, unit)| !unit.is_empty());
+        let units: Map<_, _> = units.map(|(name, unit)| (name.clone(), Value::from(unit))).collect();
+        let said = [
+            ("question", plan.question.clone().unwrap_or_default()),
+            ("units", Value::from(units).to_string()),
+            ("program", plan.program.clone()),
+            ("build", plan.build.clone()),
+            ("format", plan.format.to_string()),
+            ("plan_hash", plan.hash.clone()),
+            ("rows_hash", self.hash()),
+        ];
+        said.into_iter().map(|(key, value)| KeyValue::new(key.to_string(), value)).collect()
     }
 
     fn column(&self, name: &str, kind: CellKind) -> ArrayRef {

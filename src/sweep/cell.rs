@@ -49,6 +49,19 @@ impl Cell {
         self.members.len() * (2 + halvings as usize)
     }
 
+    /// The experiment that a row's columns are of: its first run at `search_low`, or at the bracket's lower end where
+    /// the row has none.
+    ///
+    /// # Errors
+    /// The experiment is wrong.
+    pub fn shown_by(&self, row: &Measured) -> Result<Experiment, ExperimentError> {
+        let low = row.more.get("search_low").and_then(|low| match low.as_i64() {
+            Some(whole) => Some(Number::from(whole)),
+            None => low.as_f64().map(Number::from),
+        });
+        self.file.searched_case(&self.members[0], low.as_ref().unwrap_or(&self.search.between[0]))
+    }
+
     /// Bisects. The row's other columns are those of the run at `search_low`, or at the bracket's lower end where there
     /// is none; `wall_s` is that of all runs. References are kept in the folder.
     pub fn bisect(&self, dir: &Path) -> Measured {

@@ -6,53 +6,125 @@ use super::search;
 use crate::build_info::{BUILD, PROGRAM};
 use crate::case::Case;
 use crate::digest::sha256;
+use crate::experiment::axes::Axis;
 use crate::experiment::{ExperimentError, ExperimentFile};
-use crate::rows::plan_file::{PlanAxis, PlanCase, PlanFile};
+use crate::record::name::RecordingName;
+use crate::rows::plan_file::{FORMAT, PlanAxis, PlanFile};
 use rayon::prelude::*;
 use serde_json::{Map, json};
+use std::collections::HashSet;
 
-/// Resolves every point of the grid, and builds its model once to find what only geometry shows (overlap).
+/// A sweep as it is planned.
+#[derive(Clone, Debug)]
+pub struct SweepPlan {
+    pub cases: Vec<Planned>,
+    pub file: PlanFile,
+    /// The experiment file that it follows from: what is set, and what it extends, written in.
+    pub written: String,
+}
+
+impl SweepPlan {
+    /// Resolves every point of the grid, and builds its model once to find what only geometry shows (overlap).
+    ///
+    /// # Errors
+    /// The first wrong case in plan order.
+    pub fn new(file: &ExperimentFile) -> Result<Self, ExperimentError> {
+        let plan = Self::unbuilt(file, &config_name(file))?;
+        // A search has built both ends of its brackets.
+        if file.search().is_none() {
+            let check = |planned: &Planned| build(file, &planned.point, &planned.case.experiment).map(drop);
+            plan.cases.par_iter().map(check).collect::<Vec<_>>().into_iter().collect::<Result<(), _>>()?;
+        }
+        Ok(plan)
+    }
+
+    /// The same without building a model, of a file that was called `config`.
+    ///
+    /// # Errors
+    /// The first wrong case in plan order.
+    pub fn unbuilt(file: &ExperimentFile, config: &str) -> Result<Self, ExperimentError> {
+        let mut cases = match file.search() {
+            Some(search) => search::cases(file, search, config)?,
+            None => {
+                let case = |index| case(file, file.axes().point(index), config);
+                let cases = (0..file.axes().len()).into_par_iter().map(case).collect::<Vec<_>>();
+                cases.into_iter().collect::<Result<Vec<_>, _>>()?
+            }
+        };
+        tell_apart(&mut cases, file, config);
+        Ok(SweepPlan { file: plan_file(file, &cases, config), written: file.written(), cases })
+    }
+
+    /// The one case of a file without axes, built once.
+    ///
+    /// # Errors
+    /// Axes are left, or the experiment is wrong.
+    pub fn single(file: &ExperimentFile) -> Result<Self, ExperimentError> {
+        file.experiment()?;
+        Self::new(file)
+    }
+}
+
+/// The cases of a file, each built once.
 ///
 /// # Errors
 /// The first wrong case in plan order.
 pub fn cases(file: &ExperimentFile) -> Result<Vec<Planned>, ExperimentError> {
-    if let Some(search) = file.search() {
-        return search::cases(file, search);
-    }
-    (0..file.axes().len()).into_par_iter().map(|index| case(file, index)).collect::<Vec<_>>().into_iter().collect()
+    Ok(SweepPlan::new(file)?.cases)
 }
 
-/// The one case of a file without axes.
+/// The one case of a file without axes, built once.
 ///
 /// # Errors
 /// Axes are left, or the experiment is wrong.
 pub fn single_case(file: &ExperimentFile) -> Result<Case, ExperimentError> {
-    checked(file, &[], Case::new(file.experiment()?, Map::new()))
-}
-
-fn case(file: &ExperimentFile, index: usize) -> Result<Planned, ExperimentError> {
-    let axes = file.axes();
-    let point = axes.point(index);
-    checked(file, &point, Case::new(file.case(&point)?, columns(axes, &point).collect())).map(Planned::from)
-}
-
-fn checked(file: &ExperimentFile, point: &[usize], case: Case) -> Result<Case, ExperimentError> {
-    build(file, point, &case.experiment)?;
+    let case = Case::new(file.experiment()?, Map::new());
+    build(file, &[], &case.experiment)?;
     Ok(case)
 }
 
-/// The plan of these cases, as its file says it.
-pub fn plan_file(cases: &[Planned]) -> PlanFile {
-    let mut axes: Vec<PlanAxis> = Vec::new();
-    for (path, value) in cases.iter().flat_map(|planned| &planned.case.axes) {
-        match axes.iter_mut().find(|axis| axis.path == *path) {
-            Some(axis) if axis.values.contains(value) => {}
-            Some(axis) => axis.values.push(value.clone()),
-            None => axes.push(PlanAxis { path: path.clone(), values: vec![value.clone()] }),
+fn case(file: &ExperimentFile, point: Vec<usize>, config: &str) -> Result<Planned, ExperimentError> {
+    let case = Case::new(file.case(&point)?, columns(file.axes(), &point).collect());
+    Ok(Planned::new(file, case, point, config))
+}
+
+/// Where two cases of a plan would share a name (values that were cut, ids that begin alike), the later one has all
+/// digits of its id.
+fn tell_apart(cases: &mut [Planned], file: &ExperimentFile, config: &str) {
+    let mut seen = HashSet::with_capacity(cases.len());
+    for planned in cases {
+        if !seen.insert(planned.name.begun()) {
+            planned.with_whole_id(file, config);
         }
     }
-    let cases: Vec<_> =
-        cases.iter().map(|Planned { case, .. }| PlanCase { case: case.id.clone(), at: case.axes.clone() }).collect();
-    let hash = sha256(json!([&axes, &cases]).to_string(), 8);
-    PlanFile { program: PROGRAM.to_string(), build: BUILD.to_string(), hash, axes, cases }
+}
+
+/// Of the file, without folders and ending; of a recording, its values.
+fn config_name(file: &ExperimentFile) -> String {
+    let stem = file.path().file_stem().map_or_else(|| "run".into(), |stem| stem.to_string_lossy());
+    RecordingName::values_of(&stem).unwrap_or(&stem).to_string()
+}
+
+fn plan_file(file: &ExperimentFile, cases: &[Planned], name: &str) -> PlanFile {
+    let over = file.search().and_then(|search| search.over);
+    let all = &file.axes().axes;
+    let axis = |axis: &Axis| PlanAxis {
+        path: axis.path.clone(),
+        values: axis.values.iter().map(|value| value.cell()).collect(),
+    };
+    let axes: Vec<_> = (0..all.len()).filter(|i| Some(*i) != over).map(|i| axis(&all[i])).collect();
+    let together = file.axes().groups.iter().filter(|group| group.len() > 1);
+    let ids: Vec<&str> = cases.iter().map(|planned| planned.case.id.as_str()).collect();
+    PlanFile {
+        format: FORMAT,
+        program: PROGRAM.to_string(),
+        build: BUILD.to_string(),
+        name: name.to_string(),
+        question: cases.first().and_then(|first| first.case.experiment.question.clone()),
+        hash: sha256(json!([&axes, ids]).to_string(), 8),
+        rows: cases.len(),
+        axes,
+        together: together.map(|group| group.iter().map(|axis| all[*axis].path.clone()).collect()).collect(),
+        search: file.search().map(|search| search.critical.clone()),
+    }
 }

@@ -1,18 +1,32 @@
 //! What is planned: a case, or a search that makes one row.
 
 use super::cell::Cell;
+use super::names;
 use crate::case::Case;
+use crate::experiment::ExperimentFile;
+use crate::record::name::RecordingName;
 
 /// One row to come.
 #[derive(Clone, Debug)]
 pub struct Planned {
     pub case: Case,
+    /// For every axis of the file the index of its value; empty without axes.
+    pub point: Vec<usize>,
+    /// What it is called where it is recorded.
+    pub name: RecordingName,
     /// Many runs that make the row: a bisection, whose first run is the case's.
     pub search: Option<Cell>,
 }
 
-impl From<Case> for Planned {
-    fn from(case: Case) -> Self {
-        Planned { case, search: None }
+impl Planned {
+    /// A case at a point of the axes of a file that is called `config`.
+    pub fn new(file: &ExperimentFile, case: Case, point: Vec<usize>, config: &str) -> Self {
+        let name = RecordingName::new(&names::values(file, &point, config), &case.id[..RecordingName::DIGITS]);
+        Planned { case, point, name, search: None }
+    }
+
+    /// With all digits of its id in its name.
+    pub fn with_whole_id(&mut self, file: &ExperimentFile, config: &str) {
+        self.name = RecordingName::new(&names::values(file, &self.point, config), &self.case.id);
     }
 }

@@ -1,12 +1,15 @@
 //! Runs the missing cases of a plan on all cores, each row kept as soon as its case ends.
 
 use super::planned::Planned;
+use super::recorded::{self, Recorded};
 use super::recordings::{known_after, known_before};
 use super::store::Store;
+use super::leftovers;
 use crate::case::Case;
 use crate::experiment::types::{Record, RecordCases, RecordTo};
-use crate::files::FileError;
+use crate::files::{self, FileError};
 use crate::model::Model;
+use crate::outcome::Outcome;
 use crate::record::RecordError;
 use crate::record::head::header;
 use crate::record::sampler::Sampler;
@@ -20,7 +23,7 @@ use crate::{panics, scene};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
 /// The machine failed during a sweep; rows of cases that had ended are kept.
@@ -47,6 +50,8 @@ pub struct Job<'a> {
     pub dir: &'a Path,
     /// What the chosen cases are recorded into; empty: nothing is.
     pub targets: &'a [Target],
+    /// A table of text, however long.
+    pub csv: bool,
     /// Runs a case and records it into the targets.
     pub work: &'a Make<'a>,
     pub progress: &'a dyn Progress,
@@ -54,12 +59,16 @@ pub struct Job<'a> {
 
 pub type Make<'a> = dyn Fn(&Planned, &[Target]) -> (Measured, Written) + Sync + 'a;
 
-/// Whether the recordings of a run were written. A run that cannot be recorded still has its result.
-pub type Written = Result<(), RecordError>;
+/// What was recorded of a run. A run that cannot be recorded still has its result.
+pub type Written = Result<Option<Recorded>, SweepError>;
 
 impl Job<'_> {
     /// Runs what is missing, then records the chosen cases and writes the tables. How many cases were run.
+    ///
+    /// # Errors
+    /// The machine failed; rows of cases that had ended are kept.
     pub fn sweep(&self, cases: &[Planned], store: &Mutex<Store>) -> Result<usize, SweepError> {
+        remove(leftovers::partial(self.dir)?)?;
         let rule = match cases.first() {
             // The row of a search is of many runs: none of them is the one to look at.
             Some(Planned { search: Some(_), .. }) => RecordCases::None,
@@ -77,16 +86,22 @@ impl Job<'_> {
             let (measured, written) = self.caught(&cases[i], targets);
             lock(store).add(&cases[i].case.id, measured)?;
             self.progress.one_done();
-            Ok::<_, SweepError>(written?)
+            self.keep(written, store)
         });
         self.progress.end();
-        lock(store).write_tables()?;
-        ran?;
-        if !self.targets.is_empty() {
-            let stale = missing.iter().copied().filter(|i| !at_once.contains(i)).collect();
-            self.record_chosen(rule, cases, store, &stale)?;
-        }
+        let recorded = ran.and_then(|()| self.record_chosen(rule, cases, store));
+        lock(store).write_tables(self.csv)?;
+        recorded?;
+        // Of cases that have panicked.
+        remove(leftovers::partial(self.dir)?)?;
         Ok(missing.len())
+    }
+
+    fn keep(&self, written: Written, store: &Mutex<Store>) -> Result<(), SweepError> {
+        match written? {
+            Some(recorded) => Ok(lock(store).add_recording(recorded)?),
+            None => Ok(()),
+        }
     }
 
     /// Those that no earlier sweep has left here, each once. A search makes its own.
@@ -114,49 +129,69 @@ impl Job<'_> {
         Ok(made?)
     }
 
-    /// Records the chosen cases that have no complete recording yet, or only one of an earlier row (`stale`).
-    fn record_chosen(
-        &self,
-        rule: RecordCases,
-        cases: &[Planned],
-        store: &Mutex<Store>,
-        stale: &HashSet<usize>,
-    ) -> Result<(), SweepError> {
-        let chosen = {
-            let store = lock(store);
-            let measured: Vec<_> = cases.iter().map(|planned| store.measured(&planned.case.id)).collect();
-            known_after(rule, &measured)
-        };
-        let chosen: Vec<_> =
-            chosen.into_iter().filter(|i| stale.contains(i) || !self.is_recorded(&cases[*i].case)).collect();
-        if chosen.is_empty() {
+    /// Records the chosen cases that have no recording yet, or another one than theirs would be now.
+    fn record_chosen(&self, rule: RecordCases, cases: &[Planned], store: &Mutex<Store>) -> Result<(), SweepError> {
+        if self.targets.is_empty() {
             return Ok(());
         }
-        self.progress.begin("recordings", chosen.len());
-        let result = chosen.par_iter().try_for_each(|&i| {
-            let (again, written) = self.caught(&cases[i], self.targets);
-            written?;
-            let first = lock(store).measured_by_this_build(&cases[i].case.id).map(Measured::without_wall_time);
-            self.progress.one_done();
-            let same = first.is_none_or(|first| first == again.without_wall_time());
-            // How far a run comes in a given time is another thing every time.
-            let same = same || cases[i].case.experiment.limits.wall_s.is_some();
-            if same { Ok(()) } else { Err(SweepError::NotDeterministic(cases[i].case.id.clone())) }
-        });
-        self.progress.end();
-        result
+        let missing: Vec<_> = chosen(rule, cases, &lock(store))
+            .into_par_iter()
+            .filter_map(|(planned, recorded, outcome)| {
+                let lacking = self.lacking(planned, recorded.as_ref(), outcome);
+                (!lacking.is_empty()).then_some((planned, lacking))
+            })
+            .collect();
+        if !missing.is_empty() {
+            self.progress.begin("recordings", missing.len());
+            let made = missing.par_iter().try_for_each(|(planned, lacking)| self.record_again(planned, lacking, store));
+            self.progress.end();
+            made?;
+        }
+        remove(leftovers::older(self.dir, lock(store).recordings())?)
     }
 
-    fn is_recorded(&self, case: &Case) -> bool {
-        let file = |target: &Target| self.dir.join(format!("{}.{}", case.id, target.extension()));
-        self.targets.iter().all(|target| file(target).exists())
+    /// The kinds of file that are not there, cut, changed, or show something else than what is asked for now.
+    fn lacking(&self, planned: &Planned, recorded: Option<&Recorded>, outcome: Outcome) -> Vec<Target> {
+        let name = planned.name.ended(outcome);
+        let is_it = |recorded: &&Recorded| recorded.name == name && recorded.shows == recorded::shows(&planned.case);
+        let recorded = recorded.filter(is_it);
+        let is_whole = |target: &Target| recorded.is_some_and(|recorded| recorded.is_whole(self.dir, *target, true));
+        self.targets.iter().copied().filter(|target| !is_whole(target)).collect()
+    }
+
+    fn record_again(&self, planned: &Planned, targets: &[Target], store: &Mutex<Store>) -> Result<(), SweepError> {
+        let case = &planned.case;
+        let (again, written) = self.caught(planned, targets);
+        self.keep(written, store)?;
+        let first = lock(store).measured_by_this_build(&case.id).map(Measured::without_wall_time);
+        self.progress.one_done();
+        let same = first.is_none_or(|first| first == again.without_wall_time());
+        // How far a run comes in a given time is another thing every time.
+        let same = same || case.experiment.limits.wall_s.is_some();
+        if same { Ok(()) } else { Err(SweepError::NotDeterministic(case.id.clone())) }
     }
 
     /// A case that panics is a row too, and the sweep goes on.
     fn caught(&self, planned: &Planned, targets: &[Target]) -> (Measured, Written) {
         let ran = catch_unwind(AssertUnwindSafe(|| (self.work)(planned, targets)));
-        ran.unwrap_or_else(|panic| (Measured::failed(panics::message(panic.as_ref()).to_string()), Ok(())))
+        ran.unwrap_or_else(|panic| (Measured::failed(panics::message(panic.as_ref()).to_string()), Ok(None)))
     }
+}
+
+/// The cases that a rule chooses, each with its recording, if there is one, and how it ended. A case that panics leaves
+/// no recording.
+fn chosen<'a>(
+    rule: RecordCases,
+    cases: &'a [Planned],
+    store: &Store,
+) -> Vec<(&'a Planned, Option<Recorded>, Outcome)> {
+    let measured: Vec<_> = cases.iter().map(|planned| store.measured(&planned.case.id)).collect();
+    let chosen = known_after(rule, &measured).into_iter();
+    let with_recording = chosen.filter_map(|i| {
+        let recorded = store.recorded(&cases[i].case.id).cloned();
+        Some((&cases[i], recorded, measured[i]?.outcome))
+    });
+    with_recording.filter(|(.., outcome)| *outcome != Outcome::Failed).collect()
 }
 
 /// The first of equal cases stands for all of them.
@@ -166,41 +201,81 @@ fn missing(cases: &[Planned], store: &Store) -> Vec<usize> {
     (0..cases.len()).filter(|&i| seen.insert(&cases[i].case.id) && is_missing(&cases[i])).collect()
 }
 
+fn remove(paths: Vec<PathBuf>) -> Result<(), SweepError> {
+    Ok(paths.iter().try_for_each(|path| files::remove(path))?)
+}
+
+/// Where a run finds its reference, and what it leaves.
+#[derive(Clone, Copy)]
+pub struct Places<'a> {
+    pub references: &'a Path,
+    pub recordings: &'a Path,
+    pub targets: &'a [Target],
+}
+
 /// Builds a case's model and runs it, recording it into `dir`: the usual `Make`.
-pub fn build_and_run(Planned { case, search }: &Planned, dir: &Path, targets: &[Target]) -> (Measured, Written) {
-    if let Some(cell) = search {
-        return (cell.bisect(dir), Ok(()));
+pub fn build_and_run(planned: &Planned, dir: &Path, targets: &[Target]) -> (Measured, Written) {
+    if let Some(cell) = &planned.search {
+        return (cell.bisect(dir), Ok(None));
     }
-    match scene::build(&case.experiment) {
+    match scene::build(&planned.case.experiment) {
         Ok((model, start)) => {
-            let (ended, written) = run_case(case, &model, start, dir, targets);
+            let places = Places { references: dir, recordings: dir, targets };
+            let (ended, written) = run_case(planned, &model, start, places);
             (ended.measured, written)
         }
         // Every case is built once before the first one runs.
-        Err(error) => (Measured::failed(error.to_string()), Ok(())),
+        Err(error) => (Measured::failed(error.to_string()), Ok(None)),
     }
 }
 
 /// Runs one case and writes its recordings.
-pub fn run_case(case: &Case, model: &Model, start: State, dir: &Path, targets: &[Target]) -> (Ended, Written) {
-    let reference = reference::of_or_made(dir, &case.experiment, model, &start);
+pub fn run_case(planned: &Planned, model: &Model, start: State, places: Places) -> (Ended, Written) {
+    let case = &planned.case;
+    let reference = reference::of_or_made(places.references, &case.experiment, model, &start);
     let choice = choose::choose(&case.experiment, model, &start);
     let experiment = choice.as_ref().map_or(&case.experiment, |choice| &choice.experiment);
     let run = |sampler: Option<&mut Sampler>| {
         study::run_as(choice.as_ref(), &case.experiment, model, start, sampler, reference.as_ref())
     };
-    if targets.is_empty() {
-        return (run(None), Ok(()));
+    if places.targets.is_empty() {
+        return (run(None), Ok(None));
     }
     let clock = ticks(experiment);
-    match open(targets, dir, &header(case, model, &clock)) {
+    match open(places.targets, places.recordings, &header(case, &planned.name, model, &clock)) {
         Ok(writer) => {
             let mut sampler = Sampler::new(writer, &experiment.record, &clock);
             let ended = run(Some(&mut sampler));
-            (ended, sampler.finish())
+            let name = planned.name.ended(ended.measured.outcome);
+            let recorded = |()| Ok(Some(Recorded::of(places.recordings, case, name, places.targets)?));
+            let written = sampler.finish().map_err(SweepError::from).and_then(recorded);
+            (ended, written)
         }
-        Err(error) => (run(None), Err(error)),
+        Err(error) => (run(None), Err(error.into())),
     }
+}
+
+/// Runs the one case of a folder, its row there or not, and keeps row, recordings and tables.
+pub fn run_one(
+    planned: &Planned,
+    model: &Model,
+    start: State,
+    places: Places,
+    store: &mut Store,
+) -> (Ended, Result<(), SweepError>) {
+    let (ended, written) = run_case(planned, model, start, places);
+    let measured = ended.measured.clone();
+    let keep = || {
+        store.add(&planned.case.id, measured)?;
+        if let Some(recorded) = written? {
+            store.add_recording(recorded)?;
+        }
+        store.write_tables(false)?;
+        remove(leftovers::partial(places.recordings)?)?;
+        remove(leftovers::older(places.recordings, store.recordings())?)
+    };
+    let kept = keep();
+    (ended, kept)
 }
 
 /// What `record.to` means in this build; nothing said: everything it can write.

@@ -19,7 +19,7 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// The first wrong case; a column that the condition names and no row has.
-pub fn cases(file: &ExperimentFile, search: &Search) -> Result<Vec<Planned>, ExperimentError> {
+pub fn cases(file: &ExperimentFile, search: &Search, name: &str) -> Result<Vec<Planned>, ExperimentError> {
     let axes = file.axes();
     let shared = Arc::new(file.clone());
     let points = (0..axes.len()).map(|i| axes.point(i));
@@ -37,10 +37,10 @@ pub fn cases(file: &ExperimentFile, search: &Search) -> Result<Vec<Planned>, Exp
         let members = (0..members).map(member).collect();
         Cell { file: shared.clone(), search: search.clone(), members, whole }
     };
-    firsts.par_iter().map(|first| case(cell(first), first)).collect::<Vec<_>>().into_iter().collect()
+    firsts.par_iter().map(|first| case(cell(first), first, name)).collect::<Vec<_>>().into_iter().collect()
 }
 
-fn case(cell: Cell, first: &[usize]) -> Result<Planned, ExperimentError> {
+fn case(cell: Cell, first: &[usize], name: &str) -> Result<Planned, ExperimentError> {
     let (file, search) = (&cell.file, &cell.search);
     let mut ends = Vec::with_capacity(2 * cell.members.len());
     for end in &search.between {
@@ -52,7 +52,8 @@ fn case(cell: Cell, first: &[usize]) -> Result<Planned, ExperimentError> {
     }
     let over = search.over.map(|over| file.axes().axes[over].path.clone());
     let axes: Map<_, _> = columns(file.axes(), first).filter(|(path, _)| Some(path) != over.as_ref()).collect();
-    Ok(Planned { case: Case::of_search(cell.rule(), ends, axes), search: Some(cell) })
+    let planned = Planned::new(file, Case::of_search(cell.rule(), ends, axes), first.to_vec(), name);
+    Ok(Planned { search: Some(cell), ..planned })
 }
 
 /// Both ends are whole, and between them nothing else is accepted.

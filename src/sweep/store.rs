@@ -1,45 +1,48 @@
-//! A folder of results: plan.json, journal.jsonl, rows.csv, rows.parquet.
+//! A folder of results: experiment.yaml, plan.json, journal.jsonl, rows.csv, rows.parquet, recordings.
 //!
-//! A row goes to the journal as soon as its case ends, so that nothing computed is lost; the tables are written from it
-//! in plan order. The journal holds what was measured by case id, the plan holds the axes: a sweep whose axes have
-//! grown finds its old rows again.
-//!
-//! Every line of the journal carries a checksum of the rest of it, so that a line that is torn or changed counts for
-//! nothing and its case is run again. The journal is locked while a sweep adds to it: two at once would write over each
-//! other's files.
+//! Rows go to the journal as their cases end; the tables are written from it in plan order. The journal holds what was
+//! measured by case id, the plan holds the axes: a sweep whose axes have grown finds its old rows again.
 
+use super::journal::{Entry, Journal, JournalFile};
+use super::plan::SweepPlan;
+use super::planned::Planned;
+use super::recorded::Recorded;
 use crate::build_info::BUILD;
-use crate::digest::sha256;
 use crate::files::{self, FileError, write_whole};
 use crate::outcome::Outcome;
-use crate::rows::plan_file::{PlanCase, PlanFile};
+use crate::record::writer::Target;
+use crate::rows::plan_file::{FORMAT, PlanFile};
 use crate::rows::{Measured, Row, table};
-use serde::{Deserialize, Serialize};
-use std::collections::HashMap;
-use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{ErrorKind, Write};
+use serde_json::{Map, Value};
+use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// One line of the journal.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Entry {
-    pub case: String,
-    pub build: String,
-    #[serde(flatten)]
-    pub measured: Measured,
-}
-
-/// The last entry of every case, by its id.
-pub type Entries = HashMap<String, Entry>;
+/// Above so many rows a table of text is written only when it is asked for.
+const CSV_ROWS: usize = 100_000;
 
 /// A folder of results, open for adding rows.
 pub struct Store {
     dir: PathBuf,
     plan: PlanFile,
-    /// Another one was here before.
-    is_changed: bool,
-    journal: File,
-    done: Entries,
+    /// Ids of the plan's cases with their values on the axes.
+    order: Vec<(String, Map<String, Value>)>,
+    /// The plan that was here before.
+    before: Option<PlanFile>,
+    journal: JournalFile,
+    done: Journal,
+}
+
+/// What an edited plan has left of the rows that are there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edited {
+    /// Phrases, one an axis.
+    pub changes: Vec<String>,
+    /// Rows of the plan that are there already.
+    pub held: usize,
+    /// All rows of the plan.
+    pub planned: usize,
+    /// Rows that are there and no longer planned.
+    pub unplanned: usize,
 }
 
 impl Store {
@@ -47,135 +50,151 @@ impl Store {
     ///
     /// # Errors
     /// The machine failed, or another program has the folder open.
-    pub fn open(dir: &Path, plan: PlanFile, keep: bool) -> Result<Self, FileError> {
+    pub fn open(dir: &Path, plan: &SweepPlan, keep: bool) -> Result<Self, FileError> {
         files::make_folder(dir)?;
-        let mut journal = open_alone(dir)?;
-        let text = read_journal(dir)?;
-        // A killed run may have left half a line: end it, so that the next one starts at its beginning.
-        if text.last().is_some_and(|last| *last != b'\n') {
-            journal.write_all(b"\n").map_err(|error| FileError::new(&journal_path(dir), error))?;
-        }
-        let mut done = entries(&text);
+        let (journal, mut done) = JournalFile::open(dir)?;
         if !keep {
-            done.retain(|_, entry| entry.build == BUILD);
+            done.retain_build();
         }
-        let before = read_plan(dir).ok().map(|before| before.hash);
-        let is_changed = before.is_some_and(|hash| hash != plan.hash);
-        write_whole(&plan_path(dir), serde_json::to_string(&plan).unwrap_or_default().as_bytes())?;
-        Ok(Store { dir: dir.to_path_buf(), plan, is_changed, journal, done })
+        let before = read_plan(dir).ok();
+        write_whole(&dir.join(EXPERIMENT), plan.written.as_bytes())?;
+        write_whole(&dir.join(PLAN), &serde_json::to_vec_pretty(&plan.file).unwrap_or_default())?;
+        Ok(Store { dir: dir.to_path_buf(), plan: plan.file.clone(), order: order(&plan.cases), before, journal, done })
     }
 
-    /// Opens a folder for reading its rows, of whatever build.
-    pub fn read(dir: &Path) -> Result<(PlanFile, Entries), FileError> {
-        Ok((read_plan(dir)?, entries(&read_journal(dir)?)))
-    }
-
-    /// Of an edited plan that goes on in its folder: how many of its rows are there already, and how many it has.
-    pub fn still_hold(&self) -> Option<[usize; 2]> {
-        let held = self.plan.cases.iter().filter(|planned| self.done.contains_key(&planned.case)).count();
-        self.is_changed.then_some([held, self.plan.cases.len()])
+    /// Of an edited plan that goes on in its folder; none: it is the same, or the first.
+    pub fn edited(&self) -> Option<Edited> {
+        let before = self.before.as_ref().filter(|before| before.hash != self.plan.hash)?;
+        let held = self.order.iter().filter(|(case, _)| self.done.rows.contains_key(case)).count();
+        Some(Edited {
+            changes: self.plan.changes_from(before),
+            held,
+            planned: self.order.len(),
+            unplanned: self.done.rows.len() - held,
+        })
     }
 
     /// Cases that have failed count as missing.
     pub fn forget_failed(&mut self) {
-        self.done.retain(|_, entry| entry.measured.outcome != Outcome::Failed);
+        self.done.rows.retain(|_, entry| entry.measured.outcome != Outcome::Failed);
     }
 
     pub fn measured(&self, case: &str) -> Option<&Measured> {
-        self.done.get(case).map(|entry| &entry.measured)
+        self.done.rows.get(case).map(|entry| &entry.measured)
     }
 
     /// The same, if this very program measured it: another one may give other bits.
     pub fn measured_by_this_build(&self, case: &str) -> Option<&Measured> {
-        self.done.get(case).filter(|entry| entry.build == BUILD).map(|entry| &entry.measured)
+        self.done.rows.get(case).filter(|entry| entry.build == BUILD).map(|entry| &entry.measured)
+    }
+
+    /// Of rows that are there, whichever build they are of.
+    pub fn recorded(&self, case: &str) -> Option<&Recorded> {
+        self.done.recorded(case)
+    }
+
+    /// All recordings that the folder knows of.
+    pub fn recordings(&self) -> impl Iterator<Item = &Recorded> {
+        self.done.recordings.values()
     }
 
     /// Appends to the journal at once.
+    ///
+    /// # Errors
+    /// The machine failed.
     pub fn add(&mut self, case: &str, measured: Measured) -> Result<(), FileError> {
         let entry = Entry { case: case.to_string(), build: BUILD.to_string(), measured };
-        let line = line(&entry);
-        self.journal.write_all(line.as_bytes()).map_err(|error| FileError::new(&journal_path(&self.dir), error))?;
-        self.done.insert(entry.case.clone(), entry);
+        self.journal.add(&entry)?;
+        self.done.rows.insert(entry.case.clone(), entry);
+        Ok(())
+    }
+
+    /// The same of a recording.
+    ///
+    /// # Errors
+    /// The machine failed.
+    pub fn add_recording(&mut self, recorded: Recorded) -> Result<(), FileError> {
+        let recorded = match self.done.recordings.get(&recorded.recorded) {
+            Some(before) => recorded.with_files_of(before),
+            None => recorded,
+        };
+        self.journal.add(&recorded)?;
+        self.done.recordings.insert(recorded.recorded.clone(), recorded);
         Ok(())
     }
 
     /// Rows that there are, in plan order.
     pub fn rows(&self) -> Vec<Row> {
-        rows(&self.plan, &self.done)
+        rows(&self.dir, &self.order, &self.done)
     }
 
-    pub fn write_tables(&self) -> Result<(), FileError> {
-        let table = table::Table::new(&self.plan.axes, &self.rows());
-        let csv = self.dir.join("rows.csv");
-        write_whole(&csv, &table.to_csv().map_err(|error| FileError::new(&csv, error))?)?;
-        let parquet = self.dir.join("rows.parquet");
-        write_whole(&parquet, &table.to_parquet().map_err(|error| FileError::new(&parquet, error))?)
+    /// `csv`: also where a table of text is long.
+    ///
+    /// # Errors
+    /// The machine failed.
+    pub fn write_tables(&self, csv: bool) -> Result<(), FileError> {
+        write_tables(&self.dir, &self.plan, &self.rows(), csv)
     }
+}
+
+pub(super) const PLAN: &str = "plan.json";
+pub(super) const EXPERIMENT: &str = "experiment.yaml";
+
+impl fmt::Display for Edited {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Edited { changes, held, planned, unplanned } = self;
+        write!(f, "the plan has changed")?;
+        if !changes.is_empty() {
+            write!(f, " ({})", changes.join("; "))?;
+        }
+        write!(f, "; {held} of {planned} rows still hold")?;
+        if *unplanned > 0 {
+            write!(f, ", {unplanned} that are no longer planned stay in the store")?;
+        }
+        Ok(())
+    }
+}
+
+/// Ids of cases with their values on the axes, in plan order.
+pub(super) fn order(cases: &[Planned]) -> Vec<(String, Map<String, Value>)> {
+    cases.iter().map(|Planned { case, .. }| (case.id.clone(), case.axes.clone())).collect()
 }
 
 /// Rows of a plan that there are, in its order.
-pub fn rows(plan: &PlanFile, done: &Entries) -> Vec<Row> {
-    let row = |planned: &PlanCase| {
-        let Entry { case, build, measured } = done.get(&planned.case)?.clone();
-        Some(Row { case, axes: planned.at.clone(), measured, build })
+pub(super) fn rows(dir: &Path, order: &[(String, Map<String, Value>)], done: &Journal) -> Vec<Row> {
+    let row = |(case, axes): &(String, Map<String, Value>)| {
+        let Entry { case, build, measured } = done.rows.get(case)?.clone();
+        let is_there = |recorded: &&Recorded| Target::ALL.iter().any(|target| recorded.is_whole(dir, *target, false));
+        let recording = done.recorded(&case).filter(is_there).map(|recorded| recorded.name.clone());
+        Some(Row { case, axes: axes.clone(), measured, recording, build })
     };
-    plan.cases.iter().filter_map(row).collect()
+    order.iter().filter_map(row).collect()
 }
 
-/// The journal for appending, locked until it is closed, by a kill too.
-fn open_alone(dir: &Path) -> Result<File, FileError> {
-    let path = journal_path(dir);
-    let opened = OpenOptions::new().create(true).append(true).open(&path);
-    let journal = opened.map_err(|error| FileError::new(&path, error))?;
-    match journal.try_lock() {
-        Ok(()) => Ok(journal),
-        Err(TryLockError::WouldBlock) => Err(FileError::new(dir, "another gotai is at work here")),
-        // A file system without locks, over a network for instance, has to be trusted.
-        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(journal),
-        Err(TryLockError::Error(error)) => Err(FileError::new(&path, error)),
+pub(super) fn write_tables(dir: &Path, plan: &PlanFile, rows: &[Row], csv: bool) -> Result<(), FileError> {
+    let table = table::Table::new(&plan.axes, rows);
+    let path = dir.join("rows.csv");
+    if csv || rows.len() <= CSV_ROWS {
+        write_whole(&path, &table.to_csv().map_err(|error| FileError::new(&path, error))?)?;
+    } else {
+        // Of fewer rows, and no longer true.
+        files::remove(&path)?;
     }
+    let path = dir.join("rows.parquet");
+    write_whole(&path, &table.to_parquet(plan).map_err(|error| FileError::new(&path, error))?)
 }
 
-/// Between what a line of the journal says and its checksum.
-const SEAL: &str = ",\"sum\":\"";
-
-/// What the journal says of a row: JSON, whose last member is 64 bits of the SHA-256 of all before it.
-pub fn line(entry: &Entry) -> String {
-    let text = serde_json::to_string(entry).unwrap_or_default();
-    let said = text.strip_suffix('}').unwrap_or_default();
-    format!("{said}{SEAL}{}\"}}\n", sha256(said, 8))
-}
-
-/// None: the line is not what was written.
-fn entry(line: &[u8]) -> Option<Entry> {
-    let (said, sum) = std::str::from_utf8(line).ok()?.rsplit_once(SEAL)?;
-    let is_whole = sum.strip_suffix("\"}")? == sha256(said, 8);
-    is_whole.then(|| serde_json::from_str(&format!("{said}}}")).ok())?
-}
-
-fn plan_path(dir: &Path) -> PathBuf {
-    dir.join("plan.json")
-}
-
-fn read_plan(dir: &Path) -> Result<PlanFile, FileError> {
-    let path = plan_path(dir);
-    serde_json::from_slice(&files::read(&path)?).map_err(|error| FileError::new(&path, error))
-}
-
-fn journal_path(dir: &Path) -> PathBuf {
-    dir.join("journal.jsonl")
-}
-
-/// Nothing: there is none yet.
-fn read_journal(dir: &Path) -> Result<Vec<u8>, FileError> {
-    let path = journal_path(dir);
-    match std::fs::read(&path) {
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Vec::new()),
-        read => read.map_err(|error| FileError::new(&path, error)),
+/// The plan of a folder.
+///
+/// # Errors
+/// There is none that this program can read.
+pub(super) fn read_plan(dir: &Path) -> Result<PlanFile, FileError> {
+    let path = dir.join(PLAN);
+    let plan: Value = serde_json::from_slice(&files::read(&path)?).map_err(|error| FileError::new(&path, error))?;
+    let format = plan["format"].as_u64();
+    if format != Some(u64::from(FORMAT)) {
+        let found = format.map_or("no format, as of an older gotai".to_string(), |found| found.to_string());
+        return Err(FileError::new(&path, format!("expected format {FORMAT}, found {found}; run its sweep again")));
     }
-}
-
-/// Later lines win; a line that does not fit its checksum counts for nothing.
-fn entries(journal: &[u8]) -> Entries {
-    journal.split(|byte| *byte == b'\n').filter_map(entry).map(|entry| (entry.case.clone(), entry)).collect()
+    serde_json::from_value(plan).map_err(|error| FileError::new(&path, error))
 }

@@ -82,7 +82,7 @@ fn a_sweep_makes_a_reference_once_and_reads_it_back_to_the_bit() {
     };
     let (ran, rows) = sweep(&cases, folder.path(), &[]);
     assert_eq!((ran, files().len()), (4, 2));
-    for (Planned { case, .. }, row) in cases.iter().zip(&rows) {
+    for (Planned { case, .. }, row) in cases.cases.iter().zip(&rows) {
         let (model, start) = scene::build(&case.experiment).unwrap();
         let kept = of(folder.path(), &case.experiment, &model, &start).unwrap().unwrap();
         assert_eq!(kept, made(&case.experiment, &model, &start).unwrap());

@@ -16,7 +16,7 @@ fn record(path: &Path, n: u64, streams: Streams) {
     }
     let event = Event { step: n, time_s: s::time_s(n), severity: Severity::Warning, text: "the end".to_owned() };
     recorder.event(&event).unwrap();
-    Box::new(recorder).finish().unwrap();
+    Box::new(recorder).finish(&s::ending()).unwrap();
 }
 
 /// Encoded messages by topic, in the order of the file, with their log times.
@@ -119,11 +119,30 @@ fn configuration_and_versions_are_attached() {
     let attachment = ::mcap::read::attachment(&bytes, &summary.attachment_indexes[0]).unwrap();
     assert_eq!(attachment.name, "experiment.yaml");
     assert_eq!(attachment.data, s::CONFIG.as_bytes());
-    let metadata = ::mcap::read::metadata(&bytes, &summary.metadata_indexes[0]).unwrap();
-    assert_eq!(metadata.name, "gotai");
-    assert_eq!(metadata.metadata["case"], "bouncing");
-    assert_eq!(metadata.metadata["build"], "0123abcd");
-    assert_eq!(metadata.metadata["step_s"], "0.001");
+    // A torn file has the first one, a whole file both.
+    let metadata = |i: usize| ::mcap::read::metadata(&bytes, &summary.metadata_indexes[i]).unwrap();
+    let (start, end) = (metadata(0), metadata(1));
+    assert_eq!((start.name.as_str(), end.name.as_str()), ("gotai.start", "gotai"));
+    let expected = [
+        ("case", "0123456789abcdef"),
+        ("build", "0123abcd"),
+        ("step_s", "0.001"),
+        ("scene.friction", "0.5"),
+        ("method", "fine"),
+    ];
+    for (key, value) in expected {
+        assert_eq!((start.metadata[key].as_str(), end.metadata[key].as_str()), (value, value), "{key}");
+    }
+    let expected = [
+        ("name", s::NAME),
+        ("outcome", "diverged"),
+        ("criterion", "energy"),
+        ("end_time_s", "0.25"),
+        ("steps", "250"),
+    ];
+    for (key, value) in expected {
+        assert_eq!((start.metadata.get(key), end.metadata[key].as_str()), (None, value), "{key}");
+    }
 }
 
 #[test]

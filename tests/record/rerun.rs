@@ -17,7 +17,7 @@ fn record(path: &Path, n: u64, streams: Streams) {
     }
     let event = Event { step: n, time_s: s::time_s(n), severity: Severity::Info, text: "the end".to_owned() };
     recorder.event(&event).unwrap();
-    Box::new(recorder).finish().unwrap();
+    Box::new(recorder).finish(&s::ending()).unwrap();
 }
 
 fn read(path: &Path) -> ChunkStore {
@@ -115,6 +115,25 @@ fn streams_that_are_off_leave_no_entity() {
     assert_eq!(entities(Streams { forces: true, ..NONE }), with(&["/contact/force", "/world/forces"]));
     let energy = ["/energy/kinetic", "/energy/potential", "/energy/total", "/penetration"];
     assert_eq!(entities(Streams { energy: true, ..NONE }), with(&energy));
+}
+
+#[test]
+fn name_axes_and_outcome_are_properties() {
+    let dir = crate::scratch::folder();
+    let path = dir.path().join("a.rrd");
+    record(&path, 10, ALL);
+    let store = read(&path);
+    let said = |entity: &str| -> String {
+        let chunks = store.iter_physical_chunks().filter(|chunk| chunk.entity_path().to_string() == entity);
+        chunks.map(|chunk| format!("{:?}", chunk.components())).collect()
+    };
+    // The one that the head gave is replaced.
+    let names = said("/__properties");
+    assert!(names.contains(s::NAME) && !names.contains("0.5_fine.01234567"), "{names}");
+    let run = said("/__properties/gotai");
+    for part in ["scene.friction", "method", "outcome", "diverged", "criterion", "energy", "end_time_s", "steps"] {
+        assert!(run.contains(part), "{part}: {run}");
+    }
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! A made-up run to record: a cube bounces, turning, on the floor of a 4 m box. Everything follows from the sample's
 //! number, so that a test can say what a file must hold.
 
-use gotai::record::sample::{Batch, BodyHeader, BodySample, ContactSample, EnergySample, Header, Streams};
+use gotai::outcome::Outcome;
+use gotai::record::name::RecordingName;
+use gotai::record::sample::{Batch, BodyHeader, BodySample, ContactSample, Ending, EnergySample, Header, Streams};
 
 pub const ALL: Streams = Streams { bodies: true, contacts: true, forces: true, energy: true };
 pub const NONE: Streams = Streams { bodies: false, contacts: false, forces: false, energy: false };
@@ -15,7 +17,9 @@ const BOUNCE_M: f64 = 2.0;
 
 pub fn header(streams: Streams) -> Header {
     Header {
-        case: "bouncing".to_owned(),
+        case: "0123456789abcdef".to_owned(),
+        name: RecordingName::new(&["0.5".to_owned(), "fine".to_owned()], "01234567"),
+        axes: vec![("scene.friction".to_owned(), 0.5.into()), ("method".to_owned(), "fine".into())],
         title: "A cube bounces in a box".to_owned(),
         program: "gotai 0.0.0".to_owned(),
         build: "0123abcd".to_owned(),
@@ -33,6 +37,14 @@ pub fn header(streams: Streams) -> Header {
         arrow_m_per_n: 0.02,
     }
 }
+
+/// A run that exploded.
+pub fn ending() -> Ending {
+    Ending { outcome: Outcome::Diverged, criterion: Some("energy".to_owned()), end_time_s: 0.25, steps: 250 }
+}
+
+/// What `open` calls the files of such a run, without their endings.
+pub const NAME: &str = "0.5_fine_diverged.01234567";
 
 /// Appends sample number `i` to a batch.
 pub fn push(batch: &mut Batch, i: u64, streams: Streams) {

@@ -1,5 +1,5 @@
 use super::synthetic::{self as s, ALL};
-use gotai::record::sample::{Batch, Event, Severity};
+use gotai::record::sample::{Batch, Ending, Event, Severity};
 use gotai::record::writer::{Target, Writer, open};
 use gotai::record::{RecordError, Recorder};
 use std::collections::BTreeSet;
@@ -45,7 +45,7 @@ impl Recorder for Memory {
         Ok(())
     }
 
-    fn finish(self: Box<Self>) -> Result<(), RecordError> {
+    fn finish(self: Box<Self>, _: &Ending) -> Result<(), RecordError> {
         self.seen.lock().unwrap().push(Seen::Finish);
         Ok(())
     }
@@ -71,7 +71,7 @@ fn a_slow_recorder_gets_every_sample_in_order_from_few_batches() {
     let memory = Memory { slow: true, ..Memory::default() };
     let mut writer = Writer::start(vec![Box::new(memory.clone())]).unwrap();
     fill(&mut writer, 0..50_500);
-    writer.finish().unwrap();
+    writer.finish(s::ending()).unwrap();
     assert!(*memory.seen.lock().unwrap() == expected(50_500));
     // Four batches circulate; a fresh one may grow elsewhere once more in its first rounds.
     let places = memory.places.lock().unwrap().len();
@@ -86,7 +86,7 @@ fn events_come_between_the_samples_they_happened_between() {
     writer.event(event("a"));
     fill(&mut writer, 2..3);
     writer.event(event("b"));
-    writer.finish().unwrap();
+    writer.finish(s::ending()).unwrap();
     let expected = [
         Seen::Step(0),
         Seen::Step(1),
@@ -103,7 +103,7 @@ fn a_failed_write_is_reported_at_the_end_and_hurts_nobody_else() {
     let (good, bad) = (Memory::default(), Memory { fail_at: Some(3000), ..Memory::default() });
     let mut writer = Writer::start(vec![Box::new(bad.clone()), Box::new(good.clone())]).unwrap();
     fill(&mut writer, 0..20_000);
-    assert_eq!(writer.finish().unwrap_err().reason, "full");
+    assert_eq!(writer.finish(s::ending()).unwrap_err().reason, "full");
     assert!(*good.seen.lock().unwrap() == expected(20_000));
     assert!(!bad.seen.lock().unwrap().contains(&Seen::Finish));
 }
@@ -114,7 +114,7 @@ fn a_panic_of_a_recorder_is_an_error_of_the_writer() {
     let mut writer = Writer::start(vec![Box::new(bad)]).unwrap();
     fill(&mut writer, 0..50_000);
     writer.event(event("nobody listens"));
-    let reason = writer.finish().unwrap_err().reason;
+    let reason = writer.finish(s::ending()).unwrap_err().reason;
     assert!(reason.contains("out of order"), "{reason}");
 }
 
@@ -126,14 +126,13 @@ fn a_file_has_its_final_name_when_it_is_complete() {
             std::fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
         names.collect::<BTreeSet<_>>()
     };
-    let named =
-        |middle: &str| Target::AVAILABLE.iter().map(|t| format!("bouncing{middle}.{}", t.extension())).collect();
+    let named = |name: &str| Target::AVAILABLE.iter().map(|t| format!("{name}.{}", t.extension())).collect();
 
     let mut writer = open(Target::AVAILABLE, dir.path(), &s::header(ALL)).unwrap();
     fill(&mut writer, 0..5000);
-    assert_eq!(names(), named(".partial"));
-    writer.finish().unwrap();
-    assert_eq!(names(), named(""));
+    assert_eq!(names(), named("0123456789abcdef.partial"));
+    writer.finish(s::ending()).unwrap();
+    assert_eq!(names(), named(s::NAME));
 }
 
 #[test]
@@ -142,8 +141,8 @@ fn a_writer_that_is_dropped_leaves_its_files_partial() {
     let mut writer = open(&[Target::Mcap], dir.path(), &s::header(ALL)).unwrap();
     fill(&mut writer, 0..5000);
     drop(writer);
-    assert!(dir.path().join("bouncing.partial.mcap").exists());
-    assert!(!dir.path().join("bouncing.mcap").exists());
+    assert!(dir.path().join("0123456789abcdef.partial.mcap").exists());
+    assert!(!Target::Mcap.path(dir.path(), s::NAME).exists());
 }
 
 #[test]
@@ -154,7 +153,7 @@ fn a_directory_that_cannot_be_written_is_an_error() {
     for place in [dir.path().join("missing"), file] {
         for &target in Target::AVAILABLE {
             let error = open(&[target], &place, &s::header(ALL)).err().unwrap();
-            assert!(error.to_string().contains("bouncing.partial"), "{error}");
+            assert!(error.to_string().contains("0123456789abcdef.partial"), "{error}");
         }
     }
 }
@@ -164,14 +163,14 @@ fn a_directory_that_cannot_be_written_is_an_error() {
 fn a_full_disk_is_an_error_and_the_run_goes_on() {
     let dir = crate::scratch::folder();
     for &target in Target::AVAILABLE {
-        let partial = dir.path().join(format!("bouncing.partial.{}", target.extension()));
+        let partial = dir.path().join(format!("0123456789abcdef.partial.{}", target.extension()));
         std::os::unix::fs::symlink("/dev/full", partial).unwrap();
         let result = open(&[target], dir.path(), &s::header(ALL)).and_then(|mut writer| {
             fill(&mut writer, 0..20_000);
-            writer.finish()
+            writer.finish(s::ending())
         });
         let error = result.unwrap_err().to_string();
         assert!(error.contains("No space left"), "{error}");
-        assert!(!dir.path().join(format!("bouncing.{}", target.extension())).exists());
+        assert!(!target.path(dir.path(), s::NAME).exists());
     }
 }

@@ -1,11 +1,12 @@
 //! Sweeps: resume, threads, panics, tables, recordings.
 
+mod names;
+mod recordings;
 mod store;
 mod threads;
 
 use gotai::record::writer::Target;
-use gotai::sweep::plan::{cases, plan_file};
-use gotai::sweep::planned::Planned;
+use gotai::sweep::plan::SweepPlan;
 use gotai::sweep::runner::{Job, Make, Progress, build_and_run, lock};
 use gotai::sweep::store::Store;
 use std::path::Path;
@@ -42,19 +43,19 @@ impl Progress for Silent {
     fn end(&self) {}
 }
 
-pub fn planned(text: &str, sets: &[&str]) -> Vec<Planned> {
-    cases(&crate::yaml::file(text, sets)).unwrap()
+pub fn planned(text: &str, sets: &[&str]) -> SweepPlan {
+    SweepPlan::new(&crate::yaml::file(text, sets)).unwrap()
 }
 
 /// Sweeps as the program does; how many cases were run, and the folder's rows.
-pub fn sweep(cases: &[Planned], dir: &Path, targets: &[Target]) -> (usize, Vec<gotai::rows::Row>) {
-    sweep_with(cases, dir, targets, &|case, targets| build_and_run(case, dir, targets))
+pub fn sweep(plan: &SweepPlan, dir: &Path, targets: &[Target]) -> (usize, Vec<gotai::rows::Row>) {
+    sweep_with(plan, dir, targets, &|case, targets| build_and_run(case, dir, targets))
 }
 
-pub fn sweep_with(cases: &[Planned], dir: &Path, targets: &[Target], work: &Make) -> (usize, Vec<gotai::rows::Row>) {
-    let store = Mutex::new(Store::open(dir, plan_file(cases), false).unwrap());
-    let job = Job { dir, targets, work, progress: &Silent };
-    let ran = job.sweep(cases, &store).unwrap();
+pub fn sweep_with(plan: &SweepPlan, dir: &Path, targets: &[Target], work: &Make) -> (usize, Vec<gotai::rows::Row>) {
+    let store = Mutex::new(Store::open(dir, plan, false).unwrap());
+    let job = Job { dir, targets, csv: false, work, progress: &Silent };
+    let ran = job.sweep(&plan.cases, &store).unwrap();
     let rows = lock(&store).rows();
     (ran, rows)
 }

@@ -2,18 +2,16 @@ use super::{SWEEP, planned, sweep, sweep_with};
 use crate::scratch;
 use gotai::experiment::types::RecordCases;
 use gotai::outcome::Outcome;
-use gotai::record::writer::Target;
 use gotai::rows::columns::OF_A_CLOCK;
 use gotai::rows::{Measured, Row, cells};
-use gotai::sweep::plan::plan_file;
 use gotai::sweep::planned::Planned;
 use gotai::sweep::recordings::known_after;
 use gotai::sweep::runner::build_and_run;
-use gotai::sweep::store::{Entry, Store, line};
+use gotai::sweep::journal::{Entry, Journal, line};
+use gotai::sweep::store::Store;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
 use std::fs::File;
-use std::io::Write;
 
 #[test]
 fn run_again_a_sweep_does_only_what_is_missing() {
@@ -25,7 +23,7 @@ fn run_again_a_sweep_does_only_what_is_missing() {
     let more = planned(SWEEP, &[]);
     let (ran, rows) = sweep(&more, folder.path(), &[]);
     assert_eq!((ran, rows.len()), (16, 24));
-    assert!(rows.iter().zip(&more).all(|(row, Planned { case, .. })| row.case == case.id && row.axes == case.axes));
+    assert!(rows.iter().zip(&more.cases).all(|(row, Planned { case, .. })| row.case == case.id && row.axes == case.axes));
 }
 
 #[test]
@@ -73,12 +71,18 @@ fn an_edited_plan_goes_on_and_what_failed_can_be_tried_again() {
         assert!(planned.case.experiment.seed != 1, "seed 1 is not liked here");
         build_and_run(planned, folder.path(), targets)
     });
-    assert_eq!(Store::open(folder.path(), plan_file(&few), false).unwrap().still_hold(), None);
+    assert_eq!(Store::open(folder.path(), &few, false).unwrap().edited(), None);
     let more = planned(SWEEP, &["sweep.axes.seed=[0, 1, 2]", "time.end_s=0.2"]);
-    let mut store = Store::open(folder.path(), plan_file(&more), false).unwrap();
-    assert_eq!(store.still_hold(), Some([8, 12]));
+    let mut store = Store::open(folder.path(), &more, false).unwrap();
+    let said = |store: &Store| store.edited().unwrap().to_string();
+    assert_eq!(said(&store), "the plan has changed (seed has grown by 1 to 3 values); 8 of 12 rows still hold");
     store.forget_failed();
-    assert_eq!(store.still_hold(), Some([4, 12]));
+    assert!(said(&store).ends_with("; 4 of 12 rows still hold"), "{}", said(&store));
+    drop(store);
+    let fewer = planned(SWEEP, &["method=lecture", "sweep.axes.seed=[2, 0]", "time.end_s=0.2"]);
+    let shrunk = "the plan has changed (seed has shrunk by 1 to 2 values; method is no axis any more); 2 of 4 rows still \
+                  hold, 6 that are no longer planned stay in the store";
+    assert_eq!(said(&Store::open(folder.path(), &fewer, false).unwrap()), shrunk);
 }
 
 /// What is left out of a row's hash is what two runs of one case may differ in.
@@ -95,11 +99,11 @@ fn columns_of_a_clock_are_those_that_are_taken_off() {
 fn two_sweeps_at_once_are_refused() {
     let folder = scratch::folder();
     let cases = planned(SWEEP, &["sweep.axes.seed=[0]", "time.end_s=0.2"]);
-    let one = Store::open(folder.path(), plan_file(&cases), false).unwrap();
-    let Err(error) = Store::open(folder.path(), plan_file(&cases), false) else { panic!("opened twice") };
+    let one = Store::open(folder.path(), &cases, false).unwrap();
+    let Err(error) = Store::open(folder.path(), &cases, false) else { panic!("opened twice") };
     assert!(error.to_string().contains("another gotai is at work here"), "{error}");
     // Reading does not wait for it.
-    assert!(Store::read(folder.path()).unwrap().1.is_empty());
+    assert!(Journal::read(folder.path()).unwrap().rows.is_empty());
     drop(one);
     assert_eq!(sweep(&cases, folder.path(), &[]).0, 4);
 }
@@ -109,12 +113,12 @@ fn rows_of_another_build_count_as_missing() {
     let folder = scratch::folder();
     let cases = planned(SWEEP, &["sweep.axes.seed=[0]"]);
     sweep(&cases, folder.path(), &[]);
-    let (_, done) = Store::read(folder.path()).unwrap();
-    let others = done.into_values().map(|entry| line(&Entry { build: "another".into(), ..entry }));
+    let done = Journal::read(folder.path()).unwrap();
+    let others = done.rows.into_values().map(|entry| line(&Entry { build: "another".into(), ..entry }));
     std::fs::write(folder.path().join("journal.jsonl"), others.collect::<String>()).unwrap();
-    let kept = Store::open(folder.path(), plan_file(&cases), true).unwrap();
-    assert!(cases.iter().all(|planned| kept.measured(&planned.case.id).is_some()));
-    assert!(cases.iter().all(|planned| kept.measured_by_this_build(&planned.case.id).is_none()));
+    let kept = Store::open(folder.path(), &cases, true).unwrap();
+    assert!(cases.cases.iter().all(|planned| kept.measured(&planned.case.id).is_some()));
+    assert!(cases.cases.iter().all(|planned| kept.measured_by_this_build(&planned.case.id).is_none()));
     drop(kept);
     assert_eq!(sweep(&cases, folder.path(), &[]).0, 4);
 }
@@ -172,18 +176,4 @@ fn few_recordings_show_both_outcomes() {
     assert_eq!(known_after(RecordCases::Sample(20), &all).len(), 20);
     assert_eq!(known_after(RecordCases::First, &all), [0]);
     assert_eq!(known_after(RecordCases::Few, &all[..5]).len(), 5);
-}
-
-#[test]
-fn a_missing_recording_is_made_again_and_a_complete_one_left_alone() {
-    let folder = scratch::folder();
-    let cases = planned(SWEEP, &["sweep.axes.seed=[0]"]);
-    sweep(&cases, folder.path(), &[Target::Mcap]);
-    let file = |i: usize| folder.path().join(format!("{}.mcap", cases[i].case.id));
-    let before: Vec<_> = (0..4).map(|i| std::fs::read(file(i)).unwrap()).collect();
-    std::fs::remove_file(file(2)).unwrap();
-    File::create(file(1)).unwrap().write_all(b"mine").unwrap();
-    assert_eq!(sweep(&cases, folder.path(), &[Target::Mcap]).0, 0);
-    assert_eq!(std::fs::read(file(2)).unwrap(), before[2]);
-    assert_eq!(std::fs::read(file(1)).unwrap(), b"mine");
 }

@@ -4,12 +4,14 @@ use super::layout;
 use super::names::{
     APPLICATION, CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, WORLD, energy_path,
 };
-use crate::record::sample::{BodyHeader, Header};
+use crate::record::name::RecordingName;
+use crate::record::sample::{BodyHeader, Ending, Header};
 use crate::record::schema::{self, Rgb};
-use ::rerun::components::Radius;
+use ::rerun::components::{Radius, Scalar, Text};
 use ::rerun::log::LogMsg;
+use ::rerun::sink::MemorySinkStorage;
 use ::rerun::{
-    AnyValues, Arrows3D, Color, EntityPath, LineStrips3D, Mesh3D, Points3D, RecordingStream, RecordingStreamBuilder,
+    AnyValues, Arrows3D, Color, ComponentIdentifier, EntityPath, LineStrips3D, Mesh3D, Points3D, RecordingStream, RecordingStreamBuilder,
     RecordingStreamResult, SeriesLines, StoreId, TextDocument, ViewCoordinates,
 };
 use std::error::Error;
@@ -28,9 +30,7 @@ const BODY_ALPHA: u8 = 190;
 
 /// The recording's name and its first messages. `bodies`: the bodies' entities, in the header's order.
 pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
-    // Cases of another build have the same id; the viewer would merge recordings that share one.
-    let id = format!("{} {}", header.case, header.build);
-    let (stream, memory) = RecordingStreamBuilder::new(APPLICATION).recording_id(id).enabled(true).memory()?;
+    let (stream, memory) = stream(&recording_id(header))?;
     let store = memory.store_id().ok_or("Rerun made no recording")?;
 
     let mut messages = layout::messages(header)?;
@@ -48,14 +48,50 @@ pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<
     Ok((store, messages))
 }
 
-fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
-    stream.send_recording_name(header.title.as_str())?;
+/// Cases of another build have the same id; the viewer would merge recordings that share one.
+pub fn recording_id(header: &Header) -> String {
+    format!("{} {}", header.case, header.build)
+}
+
+/// What the end of a run adds to the recording of this id: its name, and how the run ended.
+pub fn ending(
+    recording_id: &str,
+    name: &RecordingName,
+    ending: &Ending,
+) -> RecordingStreamResult<impl Iterator<Item = LogMsg>> {
+    let (stream, memory) = stream(recording_id)?;
+    stream.send_recording_name(name.ended(ending.outcome))?;
     let run = AnyValues::default()
-        .with_component::<::rerun::components::Text>("case", [header.case.as_str()])
-        .with_component::<::rerun::components::Text>("title", [header.title.as_str()])
-        .with_component::<::rerun::components::Text>("program", [header.program.as_str()])
-        .with_component::<::rerun::components::Text>("build", [header.build.as_str()])
-        .with_component::<::rerun::components::Scalar>("step_s", [header.step_s]);
+        .with_component::<Text>("outcome", [ending.outcome.name()])
+        .with_component::<Scalar>("end_time_s", [ending.end_time_s])
+        .with_component::<Scalar>("steps", [ending.steps as f64]);
+    let run = match &ending.criterion {
+        Some(criterion) => run.with_component::<Text>("criterion", [criterion.as_str()]),
+        None => run,
+    };
+    stream.send_property(schema::METADATA, &run)?;
+    // The recording is there already: what opens one is left out.
+    Ok(memory.take().into_iter().filter(|message| matches!(message, LogMsg::ArrowMsg(..))))
+}
+
+fn stream(recording_id: &str) -> RecordingStreamResult<(RecordingStream, MemorySinkStorage)> {
+    RecordingStreamBuilder::new(APPLICATION).recording_id(recording_id).enabled(true).memory()
+}
+
+fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    stream.send_recording_name(header.name.begun())?;
+    // A path is never empty, which is all that is asked of a name.
+    let named = header.axes.iter().filter_map(|(path, value)| Some((ComponentIdentifier::try_new(path).ok()?, value)));
+    let axes = named.fold(AnyValues::default(), |run, (field, value)| match value.as_f64() {
+        Some(x) => run.with_component::<Scalar>(field, [x]),
+        None => run.with_component::<Text>(field, [schema::text(value)]),
+    });
+    let run = axes
+        .with_component::<Text>("case", [header.case.as_str()])
+        .with_component::<Text>("title", [header.title.as_str()])
+        .with_component::<Text>("program", [header.program.as_str()])
+        .with_component::<Text>("build", [header.build.as_str()])
+        .with_component::<Scalar>("step_s", [header.step_s]);
     stream.send_property(schema::METADATA, &run)?;
     let page = format!(
         "# {}\n\n{}, build {}\n\n```yaml\n{}\n```\n",

@@ -1,0 +1,139 @@
+//! `gotai run DIR --case ID`: a row of a results folder once more, bit for bit, recorded at every step.
+
+use super::args::{OutputArgs, RunArgs};
+use super::error::CliError;
+use super::output::{print, print_json};
+use super::shown::{document, say_where, summary};
+use crate::build_info::BUILD;
+use crate::case::Case;
+use crate::experiment::types::{Experiment, Record};
+use crate::files::make_folder;
+use crate::outcome::Outcome;
+use crate::rows::columns::is_beside_the_run;
+use crate::rows::{Measured, Row, cells};
+use crate::sweep::build::build;
+use crate::sweep::folder::Folder;
+use crate::sweep::journal::Entry;
+use crate::sweep::planned::Planned;
+use crate::sweep::runner::{Places, SweepError, run_case};
+use serde_json::{Value, json};
+use std::path::Path;
+use std::process::ExitCode;
+
+/// A column of the row that the replay has not met.
+struct Differing {
+    column: String,
+    row: Value,
+    replay: Value,
+}
+
+pub(super) fn replay(dir: &Path, id: &str, run: &RunArgs, output: OutputArgs) -> Result<ExitCode, CliError> {
+    let folder = Folder::read(dir)?;
+    let found = find(&folder, id)?;
+    let row = folder.journal.rows.get(&found.case.id);
+    let planned = Planned { case: at_every_step(found, row)?, ..found.clone() };
+    let targets = run.targets(planned.case.experiment.record.to)?;
+    let (model, start) = build(&folder.file, &planned.point, &planned.case.experiment)?;
+    let replays = dir.join("replays");
+    make_folder(&replays)?;
+    let places = Places { references: dir, recordings: &replays, targets: &targets };
+    let (ended, written) = run_case(&planned, &model, start, places);
+    let differing = row.map_or(Vec::new(), |row| differing(&row.measured, &ended.measured));
+    let name = planned.name.ended(ended.measured.outcome);
+    if output.json {
+        let case = &planned.case;
+        let shown = Row {
+            case: case.id.clone(),
+            axes: case.axes.clone(),
+            measured: ended.measured.clone(),
+            recording: (!targets.is_empty() && written.is_ok()).then(|| name.clone()),
+            build: BUILD.to_string(),
+        };
+        let mut document = document(&shown, &model, &ended);
+        document["row_build"] = json!(row.map(|row| &row.build));
+        document["differing"] = differing.iter().map(|d| json!([d.column, d.row, d.replay])).collect();
+        print_json(&document);
+    } else {
+        print(summary(&planned.case.id, &ended.measured));
+        if !output.quiet {
+            eprintln!("{}", compared(row, &differing));
+        }
+    }
+    written?;
+    if !output.quiet {
+        say_where(&replays, &name, &targets);
+    }
+    let is_ours = row.is_some_and(|row| row.build == BUILD) && planned.case.experiment.limits.wall_s.is_none();
+    if is_ours && !differing.is_empty() {
+        return Err(SweepError::NotDeterministic(planned.case.id).into());
+    }
+    Ok(ExitCode::from(u8::from(ended.measured.outcome == Outcome::Failed)))
+}
+
+/// The one case whose id begins so.
+fn find<'a>(folder: &'a Folder, id: &str) -> Result<&'a Planned, CliError> {
+    let dir = folder.dir.display();
+    let begins = |planned: &&Planned| !id.is_empty() && planned.case.id.starts_with(id);
+    let mut found: Vec<&Planned> = folder.cases.iter().filter(begins).collect();
+    found.dedup_by_key(|planned| &planned.case.id);
+    match found[..] {
+        [only] => Ok(only),
+        [] if folder.journal.rows.keys().any(|case| !id.is_empty() && case.starts_with(id)) => Err(CliError::Input(
+            format!("--case {id}: this row is in the store of {dir}, but no longer in its plan"),
+        )),
+        [] => Err(CliError::Input(format!(
+            "--case {id}: expected the first digits of a row's id, found none that begins so (`gotai rows {dir}` shows \
+             them)"
+        ))),
+        [first, second, ..] => Err(CliError::Input(format!(
+            "--case {id}: expected enough digits for one row, found {} that begin so: {} and {}",
+            found.len(),
+            described(first),
+            described(second)
+        ))),
+    }
+}
+
+fn described(planned: &Planned) -> String {
+    let values: Vec<_> = planned.case.axes.iter().map(|(path, value)| format!("{path} = {value}")).collect();
+    format!("{} ({})", planned.case.id, values.join(", "))
+}
+
+/// The row's experiment; of a search, that of its run at `search_low`.
+fn at_every_step(found: &Planned, row: Option<&Entry>) -> Result<Case, CliError> {
+    let experiment = match (&found.search, row) {
+        (None, _) => found.case.experiment.clone(),
+        (Some(cell), Some(row)) => cell.shown_by(&row.measured)?,
+        (Some(_), None) => {
+            return Err(CliError::Input(format!(
+                "--case {}: this row of a search is not there yet; run its sweep first",
+                found.case.id
+            )));
+        }
+    };
+    let record = Record { every_s: 0.0, ..experiment.record.clone() };
+    Ok(Case { experiment: Experiment { record, ..experiment }, ..found.case.clone() })
+}
+
+/// Of what the run measured; the columns of a search are of many runs.
+fn differing(row: &Measured, replay: &Measured) -> Vec<Differing> {
+    let row = cells(row);
+    let found = cells(replay).into_iter().filter(|(column, _)| !is_beside_the_run(column));
+    let differing = found.filter(|(column, value)| row.get(column) != Some(value));
+    differing
+        .map(|(column, replay)| Differing { row: row.get(&column).cloned().unwrap_or_default(), column, replay })
+        .collect()
+}
+
+fn compared(row: Option<&Entry>, differing: &[Differing]) -> String {
+    let Some(row) = row else { return "this case has no row yet".to_string() };
+    let of = match row.build == BUILD {
+        true => "the row".to_string(),
+        false => format!("the row of another build ({}, this is {BUILD})", row.build),
+    };
+    if differing.is_empty() {
+        return format!("the same as {of}, bit for bit");
+    }
+    let lines = differing.iter().map(|d| format!("\n  {}: {} there, {} here", d.column, d.row, d.replay));
+    format!("not the same as {of}:{}", lines.collect::<String>())
+}

@@ -1,0 +1,171 @@
+//! `gotai rows`: the rows of a folder of results, without another program.
+
+use super::args::OutputArgs;
+use super::error::CliError;
+use super::output::{print, print_json};
+use super::table::table;
+use crate::experiment::filter::{Filter, shown_cell};
+use crate::experiment::nearest::nearest;
+use crate::rows::table::Table;
+use crate::sweep::folder::Folder;
+use clap::Args;
+use serde_json::{Map, Value};
+use std::cmp::Ordering;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+#[derive(Args)]
+pub struct Command {
+    /// A folder of results (it has plan.json)
+    dir: PathBuf,
+    /// Only rows of which this holds: COLUMN=VALUE, or another sign: != < <= > >=; all that are given must hold
+    #[arg(long = "where", value_name = "COLUMN=VALUE")]
+    filters: Vec<String>,
+    /// Columns to show, with commas between them; `all` [default: id, axes, outcome and what tells most]
+    #[arg(long, value_delimiter = ',')]
+    columns: Vec<String>,
+    /// Columns to sort by, with commas between them; with a minus before it, the largest first
+    #[arg(long, value_delimiter = ',', allow_hyphen_values = true)]
+    sort: Vec<String>,
+    /// As CSV
+    #[arg(long)]
+    csv: bool,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// Shown where nothing else is asked for, of what is not empty in all rows.
+const TELLING: [&str; 10] = [
+    "outcome",
+    "criterion",
+    "end_time_s",
+    "energy_drift_rel",
+    "energy_rise_max_rel",
+    "penetration_max_m",
+    "residual_max",
+    "error_position_m",
+    "search_low",
+    "search_high",
+];
+
+/// Digits of an id that a person reads.
+const DIGITS: usize = 8;
+
+type Cells = Map<String, Value>;
+
+impl Command {
+    pub fn run(self) -> Result<ExitCode, CliError> {
+        let folder = Folder::read(&self.dir)?;
+        let rows = Table::new(&folder.plan.axes, &folder.rows());
+        let known: Vec<&str> = rows.names().collect();
+        let filter = self.filter(&known)?;
+        let mut chosen: Vec<&Cells> = rows.rows().filter(|row| filter.takes(|name| row.get(name))).collect();
+        self.sort(&mut chosen, &known)?;
+        let columns = self.columns(&folder, &known, &chosen)?;
+        let cells = |row: &Cells| -> Vec<Value> {
+            columns.iter().map(|name| row.get(*name).cloned().unwrap_or_default()).collect()
+        };
+        if self.output.json {
+            let named = |row: &&Cells| columns.iter().map(|name| name.to_string()).zip(cells(row)).collect::<Cells>();
+            print_json(&chosen.iter().map(named).collect::<Vec<_>>());
+        } else if self.csv {
+            print(csv(&columns, chosen.iter().map(|row| cells(row))).trim_end());
+        } else {
+            let mut table = table(&columns);
+            for row in &chosen {
+                table.add_row(columns.iter().zip(cells(row)).map(|(name, cell)| shown(name, &cell)));
+            }
+            print(table);
+            if !self.output.quiet {
+                eprintln!("{} of {} rows, {} planned", chosen.len(), rows.rows().count(), folder.plan.rows);
+            }
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    fn filter(&self, known: &[&str]) -> Result<Filter, CliError> {
+        let filter = Filter::of_texts(&self.filters)?;
+        filter.0.iter().try_for_each(|(name, _)| find("--where", name, known).map(drop))?;
+        Ok(filter)
+    }
+
+    fn sort(&self, rows: &mut [&Cells], known: &[&str]) -> Result<(), CliError> {
+        let mut keys = Vec::new();
+        for written in &self.sort {
+            let (falls, name) = written.strip_prefix('-').map_or((false, written.as_str()), |name| (true, name));
+            keys.push((find("--sort", name, known)?, falls));
+        }
+        let by = |a: &Cells, b: &Cells, name: &str, falls: bool| {
+            let (a, b) = (a.get(name).filter(|cell| !cell.is_null()), b.get(name).filter(|cell| !cell.is_null()));
+            match (a, b) {
+                (Some(a), Some(b)) if falls => order(b, a),
+                (Some(a), Some(b)) => order(a, b),
+                // What is empty comes last, either way.
+                (a, b) => b.is_some().cmp(&a.is_some()),
+            }
+        };
+        rows.sort_by(|a, b| {
+            keys.iter().map(|(name, falls)| by(a, b, name, *falls)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+        });
+        Ok(())
+    }
+
+    fn columns<'a>(&self, folder: &Folder, known: &[&'a str], rows: &[&Cells]) -> Result<Vec<&'a str>, CliError> {
+        if self.columns == ["all"] {
+            return Ok(known.to_vec());
+        }
+        if !self.columns.is_empty() {
+            return self.columns.iter().map(|name| find("--columns", name, known)).collect();
+        }
+        let is_axis = |name: &str| folder.plan.axes.iter().any(|axis| axis.path == name && axis.values.len() > 1);
+        let says = |name: &str| rows.iter().any(|row| row.get(name).is_some_and(|cell| !cell.is_null()));
+        let is_shown = |name: &&&str| {
+            **name == "case" || is_axis(name) || (TELLING.contains(*name) && (says(name) || **name == "outcome"))
+        };
+        Ok(known.iter().filter(is_shown).copied().collect())
+    }
+}
+
+fn find<'a>(flag: &str, name: &str, known: &[&'a str]) -> Result<&'a str, CliError> {
+    let found = known.iter().find(|known| **known == name).copied();
+    found.ok_or_else(|| {
+        let near = nearest(name, known).map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
+        CliError::Input(format!("{flag}: expected a column, found `{name}`{near} (known: {})", known.join(", ")))
+    })
+}
+
+/// Numbers by size, before texts by their letters.
+fn order(a: &Value, b: &Value) -> Ordering {
+    match (a.as_f64(), b.as_f64()) {
+        (Some(a), Some(b)) => a.total_cmp(&b),
+        (Some(_), None) => Ordering::Less,
+        (None, Some(_)) => Ordering::Greater,
+        (None, None) => shown_cell(a).cmp(&shown_cell(b)),
+    }
+}
+
+/// For people: short ids, four digits of what was measured; axes and counts as they are.
+fn shown(name: &str, cell: &Value) -> String {
+    match cell {
+        Value::Null => String::new(),
+        Value::String(id) if name == "case" => id.chars().take(DIGITS).collect(),
+        Value::Number(number) if number.is_f64() && !name.contains('.') => rounded(number.as_f64().unwrap_or(f64::NAN)),
+        other => shown_cell(other),
+    }
+}
+
+fn rounded(x: f64) -> String {
+    let is_plain = x == 0.0 || (1e-3..1e6).contains(&x.abs());
+    if is_plain { format!("{}", (x * 1e4).round() / 1e4) } else { format!("{x:.3e}") }
+}
+
+fn csv(columns: &[&str], rows: impl Iterator<Item = Vec<Value>>) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    // Writing into memory cannot fail.
+    let _ = writer.write_record(columns);
+    for row in rows {
+        let text = |cell: &Value| if cell.is_null() { String::new() } else { shown_cell(cell) };
+        let _ = writer.write_record(row.iter().map(text));
+    }
+    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+}

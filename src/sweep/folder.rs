@@ -1,0 +1,78 @@
+//! A folder of results as a reader finds it: its question, its plan, its rows.
+
+use super::journal::Journal;
+use super::plan::SweepPlan;
+use super::planned::Planned;
+use super::store::{EXPERIMENT, PLAN, order, read_plan, rows, write_tables};
+use crate::build_info::BUILD;
+use crate::experiment::{ExperimentError, ExperimentFile};
+use crate::files::FileError;
+use crate::rows::Row;
+use crate::rows::plan_file::PlanFile;
+use std::path::{Path, PathBuf};
+
+/// A folder of results, read; nobody is kept from working in it.
+pub struct Folder {
+    pub dir: PathBuf,
+    /// As the folder says it.
+    pub plan: PlanFile,
+    /// The configuration that was run.
+    pub file: ExperimentFile,
+    /// Its cases, as this program resolves them.
+    pub cases: Vec<Planned>,
+    pub journal: Journal,
+}
+
+/// Why a folder of results cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    #[error("{0}: expected a folder of results, found no {PLAN} in it")]
+    NoResults(String),
+    #[error(transparent)]
+    Experiment(#[from] ExperimentError),
+    /// Its plan, or a file of it.
+    #[error(transparent)]
+    File(#[from] FileError),
+    #[error("{dir}: {EXPERIMENT} does not make the plan of {PLAN}: expected hash {expected}, found {found}{why}")]
+    OtherPlan { dir: String, expected: String, found: String, why: String },
+}
+
+impl Folder {
+    pub fn is_one(dir: &Path) -> bool {
+        dir.join(PLAN).is_file()
+    }
+
+    /// # Errors
+    /// It is none, cannot be read, or its configuration is not that of its plan.
+    pub fn read(dir: &Path) -> Result<Self, FolderError> {
+        if !Self::is_one(dir) {
+            return Err(FolderError::NoResults(dir.display().to_string()));
+        }
+        let plan = read_plan(dir)?;
+        let file = ExperimentFile::load(&dir.join(EXPERIMENT), &[])?;
+        let SweepPlan { cases, file: again, .. } = SweepPlan::unbuilt(&file, &plan.name)?;
+        if again.hash != plan.hash {
+            let why = if plan.build == BUILD { "" } else { " (it was planned by another build of gotai)" };
+            return Err(FolderError::OtherPlan {
+                dir: dir.display().to_string(),
+                expected: plan.hash,
+                found: again.hash,
+                why: why.to_string(),
+            });
+        }
+        Ok(Folder { dir: dir.to_path_buf(), plan, file, cases, journal: Journal::read(dir)? })
+    }
+
+    /// Rows that there are, in plan order.
+    pub fn rows(&self) -> Vec<Row> {
+        rows(&self.dir, &order(&self.cases), &self.journal)
+    }
+
+    /// Writes the tables anew.
+    ///
+    /// # Errors
+    /// The machine failed.
+    pub fn write_tables(&self) -> Result<(), FileError> {
+        write_tables(&self.dir, &self.plan, &self.rows(), false)
+    }
+}

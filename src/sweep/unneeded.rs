@@ -1,0 +1,109 @@
+//! What nobody needs of a folder of results, and what its files take.
+
+use super::folder::Folder;
+use super::leftovers;
+use crate::build_info::BUILD;
+use crate::files::{self, FileError};
+use crate::record::writer::Target;
+use serde::Serialize;
+use serde_json::Value;
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+/// Bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Bytes {
+    pub total: u64,
+    pub recordings: u64,
+    pub replays: u64,
+    /// What `gotai clean` drops beside replays.
+    pub unneeded: u64,
+}
+
+/// What nobody needs, and what it would take to make it again: nothing.
+#[derive(Clone, Debug, Default)]
+pub struct Unneeded {
+    /// What runs of single rows have left.
+    pub replays: Vec<PathBuf>,
+    /// Recordings that were being written when their program was killed, or that newer ones stand for.
+    pub leftovers: Vec<PathBuf>,
+    /// Recordings of other builds.
+    pub recordings: Vec<PathBuf>,
+    /// References of other builds.
+    pub references: Vec<PathBuf>,
+    /// Rows of other builds.
+    pub rows: usize,
+}
+
+impl Unneeded {
+    /// # Errors
+    /// The folder cannot be read.
+    pub fn of(folder: &Folder) -> Result<Self, FileError> {
+        let Folder { dir, journal, .. } = folder;
+        let mut leftovers = leftovers::partial(dir)?;
+        leftovers.extend(leftovers::older(dir, journal.recordings.values())?);
+        let (ours, others): (Vec<_>, Vec<_>) =
+            journal.recordings.values().partition(|recorded| recorded.build == BUILD);
+        let ours: HashSet<&str> = ours.iter().map(|recorded| recorded.name.as_str()).collect();
+        let others = others.iter().filter(|recorded| !ours.contains(recorded.name.as_str()));
+        let files = others.flat_map(|recorded| Target::ALL.map(|target| target.path(dir, &recorded.name)));
+        let mut recordings: Vec<_> = files.filter(|path| path.exists()).collect();
+        recordings.sort();
+        Ok(Unneeded {
+            replays: files_of(&dir.join("replays"))?,
+            leftovers,
+            recordings,
+            references: files_of(dir)?.into_iter().filter(|path| is_reference_of_another_build(path)).collect(),
+            rows: journal.rows.values().filter(|entry| entry.build != BUILD).count(),
+        })
+    }
+
+    /// All files but the replays.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.leftovers.iter().chain(&self.recordings).chain(&self.references)
+    }
+}
+
+impl Bytes {
+    /// # Errors
+    /// The folder cannot be read.
+    pub fn of(folder: &Folder) -> Result<Self, FileError> {
+        let unneeded = Unneeded::of(folder)?;
+        let all = files_of(&folder.dir)?;
+        let is_recording = |path: &&PathBuf| Target::ALL.iter().any(|target| ends(path, target.extension()));
+        let replays = size(&unneeded.replays);
+        Ok(Bytes {
+            total: size(&all) + replays,
+            recordings: size(all.iter().filter(is_recording)),
+            replays,
+            unneeded: size(unneeded.files()),
+        })
+    }
+}
+
+/// Of files; those that have just gone count for nothing.
+pub fn size<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> u64 {
+    files.into_iter().filter_map(|path| Some(std::fs::metadata(path).ok()?.len())).sum()
+}
+
+fn ends(path: &Path, ending: &str) -> bool {
+    path.extension().is_some_and(|own| own == ending)
+}
+
+/// The build stands in the file.
+fn is_reference_of_another_build(path: &Path) -> bool {
+    let name = path.file_name().map(|name| name.to_string_lossy());
+    name.is_some_and(|name| name.starts_with("reference-") && name.ends_with(".json"))
+        && files::read(path).ok().and_then(|text| serde_json::from_slice::<Value>(&text).ok()).is_none_or(|reference| reference["build"] != BUILD)
+}
+
+/// In a folder, which need not be there, in the order of their names.
+fn files_of(dir: &Path) -> Result<Vec<PathBuf>, FileError> {
+    if !dir.is_dir() {
+        return Ok(Vec::new());
+    }
+    let entries = std::fs::read_dir(dir).map_err(|error| FileError::new(dir, error))?;
+    let mut files: Vec<_> = entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect();
+    files.sort();
+    Ok(files)
+}

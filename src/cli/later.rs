@@ -18,9 +18,8 @@ const COMMANDS: [&str; 13] = [
     "repair",
     "doctor",
 ];
-const FLAGS: [&str; 10] = [
+const FLAGS: [&str; 9] = [
     "--shard",
-    "--axis",
     "--case",
     "--live",
     "--progress",

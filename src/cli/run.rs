@@ -38,6 +38,7 @@ pub struct Command {
 
 impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
+        self.experiment.refuse_axes()?;
         let file = self.experiment.load(&self.config)?;
         let case = single_case(&file)?;
         let targets = self.run.targets(case.experiment.record.to)?;

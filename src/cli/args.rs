@@ -2,19 +2,58 @@
 
 use super::error::CliError;
 use crate::digest::sha256;
-use crate::experiment::ExperimentFile;
 use crate::experiment::types::RecordTo;
+use crate::experiment::{ExperimentFile, Given};
 use crate::record::writer::Target;
 use crate::sweep::runner::targets;
-use clap::{Args, ValueEnum};
+use clap::{ArgMatches, Args, FromArgMatches, ValueEnum};
 use std::path::{Component, Path, PathBuf};
 
 /// Of every command that reads an experiment.
-#[derive(Args, Clone, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct ExperimentArgs {
+    /// In the order on the command line, which each of the two flags alone does not tell.
+    given: Vec<Given>,
+}
+
+#[derive(Args)]
+struct ExperimentFlags {
     /// Change a value: a key path and YAML, e.g. scene.bodies.cube.mass_kg=2; list items by name or 0-based index
-    #[arg(long = "set", value_name = "PATH=VALUE")]
-    pub(super) sets: Vec<String>,
+    #[arg(long = "set", id = SET, value_name = "PATH=VALUE")]
+    _sets: Vec<String>,
+    /// The values of an axis, in place of the file's or new: a list, from..to, or a form, e.g. seed=0..39
+    #[arg(long = "axis", id = AXIS, value_name = "PATH=VALUES")]
+    _axes: Vec<String>,
+}
+
+const SET: &str = "set";
+const AXIS: &str = "axis";
+
+impl Args for ExperimentArgs {
+    fn augment_args(command: clap::Command) -> clap::Command {
+        ExperimentFlags::augment_args(command)
+    }
+
+    fn augment_args_for_update(command: clap::Command) -> clap::Command {
+        ExperimentFlags::augment_args_for_update(command)
+    }
+}
+
+impl FromArgMatches for ExperimentArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let all = |id, flag: fn(String) -> Given| {
+            let texts = matches.get_many::<String>(id).into_iter().flatten().cloned().map(flag);
+            matches.indices_of(id).into_iter().flatten().zip(texts)
+        };
+        let mut given: Vec<(usize, Given)> = all(SET, Given::Set).chain(all(AXIS, Given::Axis)).collect();
+        given.sort_by_key(|(place, _)| *place);
+        Ok(ExperimentArgs { given: given.into_iter().map(|(_, given)| given).collect() })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
 }
 
 /// Of every command that prints.
@@ -88,24 +127,35 @@ impl RunArgs {
 
 impl ExperimentArgs {
     pub(super) fn load(&self, config: &Path) -> Result<ExperimentFile, CliError> {
-        Ok(ExperimentFile::load(config, &self.sets)?)
+        Ok(ExperimentFile::load_given(config, &self.given)?)
+    }
+
+    /// Of a command that runs a single case.
+    pub(super) fn refuse_axes(&self) -> Result<(), CliError> {
+        match self.given.iter().find(|given| matches!(given, Given::Axis(_))) {
+            None => Ok(()),
+            Some(axis) => Err(CliError::Input(format!(
+                "--axis {}: not available in this version: `gotai run` runs a single case; use `gotai sweep`",
+                axis.text()
+            ))),
+        }
     }
 
     /// The same of a text that stands in a file of another kind.
     pub(super) fn read(&self, path: &Path, text: &str) -> Result<ExperimentFile, CliError> {
-        Ok(ExperimentFile::from_text(path, text, &self.sets)?)
+        Ok(ExperimentFile::from_text_given(path, text, &self.given)?)
     }
 
     /// Nothing is changed.
     pub(super) fn is_empty(&self) -> bool {
-        self.sets.is_empty()
+        self.given.is_empty()
     }
 
     /// recordings/<path of the config below configs/, without .yaml>, and what was set, so that no run overwrites the
     /// table of another one.
     pub(super) fn default_out(&self, config: &Path) -> PathBuf {
         let mut folder = Path::new("recordings").join(below_configs(config)).into_os_string();
-        folder.push(suffix(&self.sets));
+        folder.push(suffix(&self.given));
         folder.into()
     }
 }
@@ -113,12 +163,13 @@ impl ExperimentArgs {
 /// Keys that change neither the motion nor the columns.
 const BESIDE: [&str; 4] = ["record", "question", "expect", "bench"];
 
-/// `+path=value` for every `--set` in the order given, in characters that every shell and file system takes.
-fn suffix(sets: &[String]) -> String {
+/// `+path=value` for every `--set` and `--axis` in the order given, in characters that every shell and file system
+/// takes.
+fn suffix(given: &[Given]) -> String {
     const LONGEST: usize = 80;
     const KEPT: usize = 60;
-    let decides = |set: &&String| !BESIDE.contains(&set.split(['.', '=']).next().unwrap_or_default().trim());
-    let given: String = sets.iter().filter(decides).map(|set| format!("+{set}")).collect();
+    let decides = |set: &&str| !BESIDE.contains(&set.split(['.', '=']).next().unwrap_or_default().trim());
+    let given: String = given.iter().map(Given::text).filter(decides).map(|set| format!("+{set}")).collect();
     let is_safe = |c: char| c.is_ascii_alphanumeric() || ".+-=".contains(c);
     let name: String = given.chars().map(|c| if is_safe(c) { c } else { '-' }).collect();
     if name.len() <= LONGEST {

@@ -16,9 +16,8 @@ const COMMANDS: [&str; 11] = [
     "repair",
     "doctor",
 ];
-const FLAGS: [&str; 8] = [
+const FLAGS: [&str; 7] = [
     "--shard",
-    "--axis",
     "--live",
     "--progress",
     "--color",

@@ -50,7 +50,7 @@ impl Command {
 
     /// A row is run again as it was.
     fn refuse_beside_case(&self) -> Result<(), CliError> {
-        let given = [("--set", !self.experiment.is_empty()), ("--out", self.run.out.is_some())];
+        let given = [("--set or --axis", !self.experiment.is_empty()), ("--out", self.run.out.is_some())];
         match given.iter().find(|(_, is_given)| *is_given) {
             None => Ok(()),
             Some((flag, _)) => Err(CliError::Input(format!(
@@ -60,6 +60,7 @@ impl Command {
     }
 
     fn run_experiment(&self) -> Result<ExitCode, CliError> {
+        self.experiment.refuse_axes()?;
         let file = self.load()?;
         let plan = SweepPlan::single(&file)?;
         let planned = &plan.cases[0];

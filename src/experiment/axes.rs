@@ -1,6 +1,6 @@
 //! The axes of a sweep: from what is written to a grid of points, in the order written, the first axis slowest.
 
-use super::error::{self, ExperimentError, Kind, describe};
+use super::error::{self, ExperimentError, Kind, describe, shortened};
 use super::key_path::{KeyPath, Path, Segment};
 use super::later::BESIDE_EXPERIMENT;
 use super::overrides::split;
@@ -42,6 +42,12 @@ pub struct Axis {
 pub struct AxisValue {
     pub label: Option<String>,
     pub value: Value,
+}
+
+impl From<Number> for AxisValue {
+    fn from(number: Number) -> Self {
+        AxisValue { label: None, value: Value::Number(number) }
+    }
 }
 
 impl AxisValue {
@@ -153,8 +159,10 @@ fn read_axis(key: &str, spec: &Value) -> Result<Axis> {
     let values = match spec {
         Value::Sequence(items) => read_list(items, &at)?,
         Value::Mapping(_) => from_value::<Form>(spec, &at)?.values(&at)?,
+        Value::String(text) if text.contains("..") => read_span(text, &at)?,
         other => {
-            let expected = "a list of values, or one of range, log, linear";
+            let expected = "a list of values ([a, b]), whole numbers from..to (0..39), or one of range, log, linear \
+                            ({ log: { from: 1e-3, to: 1, count: 4 } })";
             return Err(ExperimentError::unexpected(at, expected, &describe(other)));
         }
     };
@@ -163,6 +171,23 @@ fn read_axis(key: &str, spec: &Value) -> Result<Axis> {
     }
     refuse_repeats(key, &values)?;
     Ok(Axis { path: key.to_string(), segments, values })
+}
+
+/// `from..to`, short for `{ range: { from, to } }` of whole numbers.
+fn read_span(text: &str, at: &KeyPath) -> Result<Vec<AxisValue>> {
+    let ends = text.split_once("..").and_then(|(from, to)| Some((whole(from)?, whole(to)?)));
+    let Some((from, to)) = ends.filter(|(from, to)| from <= to) else {
+        let expected = "whole numbers from..to with from ≤ to, such as 0..39";
+        return Err(ExperimentError::unexpected(at.clone(), expected, &format!("`{}`", shortened(text))));
+    };
+    check_count(from.abs_diff(to) + 1, Path::Base(at))?;
+    Ok((from..=to).filter_map(to_number).map(AxisValue::from).collect())
+}
+
+/// What a number of YAML holds.
+fn whole(text: &str) -> Option<i128> {
+    let n = text.trim().parse().ok()?;
+    to_number(n).map(|_| n)
 }
 
 pub(super) fn read_list(items: &[Value], at: &KeyPath) -> Result<Vec<AxisValue>> {
@@ -263,7 +288,7 @@ fn together_path(group: usize, member: Option<usize>) -> KeyPath {
 /// An axis that is not a list.
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Form {
+pub(super) enum Form {
     Range(Range),
     Log(Spaced),
     Linear(Spaced),
@@ -272,7 +297,7 @@ enum Form {
 /// `from`, `from + step`, … up to `to`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Range {
+pub(super) struct Range {
     from: Number,
     to: Number,
     #[serde(default = "one")]
@@ -286,7 +311,7 @@ fn one() -> Number {
 /// `count` values, both ends exact, rising or falling.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Spaced {
+pub(super) struct Spaced {
     from: Number,
     to: Number,
     count: u32,
@@ -300,7 +325,7 @@ impl Form {
             Form::Log(spaced) => spaced.values(base.key("log"), logarithmic)?,
             Form::Linear(spaced) => spaced.values(base.key("linear"), linear)?,
         };
-        Ok(numbers.into_iter().map(|number| AxisValue { label: None, value: Value::Number(number) }).collect())
+        Ok(numbers.into_iter().map(AxisValue::from).collect())
     }
 }
 

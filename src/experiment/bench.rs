@@ -37,7 +37,7 @@ pub struct Listed {
 /// As it is written.
 #[derive(serde::Deserialize)]
 #[serde(rename = "Bench", deny_unknown_fields)]
-struct BenchText {
+pub(super) struct BenchText {
     methods: Option<Vec<Value>>,
     #[serde(default)]
     steps_s: Vec<f64>,

@@ -50,6 +50,14 @@ pub fn described_as(name: &str) -> &str {
     name.split_once('[').map_or(name, |(described, _)| described)
 }
 
+/// Its name without the number of a copy, if that is written as `each` writes it.
+pub fn without_number(name: &str) -> Option<&str> {
+    let (described, number) = name.strip_suffix(']')?.split_once('[')?;
+    let is_index = |text: &str| text.parse::<u32>().is_ok_and(|n| n.to_string() == text);
+    let indices: Vec<&str> = number.split(',').collect();
+    ([1, 3].contains(&indices.len()) && indices.into_iter().all(is_index)).then_some(described)
+}
+
 pub fn validate_copies(copies: &Copies, at: Path) -> Result<()> {
     let number = match (copies.count, copies.grid) {
         (Some(count), None) => u64::from(count),

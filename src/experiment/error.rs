@@ -20,7 +20,9 @@ pub struct Details {
     pub line: Option<usize>,
     /// From 1.
     pub column: Option<usize>,
-    /// The `PATH=VALUE` of the `--set` that the value came from.
+    /// The flag that the value came from: `--set` or `--axis`.
+    pub flag: Option<&'static str>,
+    /// Its `PATH=VALUE`.
     pub set: Option<String>,
     /// `path = value` of the axis that the value came from.
     pub axis: Option<String>,
@@ -57,7 +59,7 @@ pub enum Kind {
     Missing,
     /// A value of the wrong type or out of its bounds, or one that does not fit another.
     Unexpected,
-    /// A `--set` or an axis whose path leads nowhere.
+    /// A `--set` or an axis whose path leads nowhere, or where another one leads already.
     Path,
     /// A single run was asked for, and the file still has axes.
     AxesLeft,
@@ -70,6 +72,7 @@ impl ExperimentError {
             file: None,
             line: None,
             column: None,
+            flag: None,
             set: None,
             axis: None,
             case: None,
@@ -175,9 +178,9 @@ impl std::error::Error for ExperimentError {}
 
 impl fmt::Display for ExperimentError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Details { file, line, set, axis, case, path, message, .. } = self.details();
+        let Details { file, line, flag, set, axis, case, path, message, .. } = self.details();
         match (set, file, line) {
-            (Some(set), _, _) => write!(f, "--set {}: ", in_one_line(set))?,
+            (Some(set), _, _) => write!(f, "{} {}: ", flag.unwrap_or("--set"), in_one_line(set))?,
             (None, Some(file), Some(line)) => write!(f, "{file}:{line}: ")?,
             (None, Some(file), None) => write!(f, "{file}: ")?,
             (None, None, _) => {}

@@ -1,19 +1,22 @@
-//! An experiment file with its `--set`s: from text to resolved `Experiment`s, and from errors back to lines.
+//! An experiment file with what flags change: from text to resolved `Experiment`s, and from errors back to lines.
 
 use super::axes::{Axes, axis_path, value_path};
 use super::bench::{self, Bench};
+use super::copies;
+use super::emit::emit;
 use super::error::{ExperimentError, Kind};
 use super::expect::{self, Expectation};
+use super::extends::{Origins, with_bases};
+use super::given::{Applied, Given, apply};
 use super::key_path::KeyPath;
-use super::overrides::{Override, assign, resolve, split};
-use super::search::{Search, SearchText, search_path};
-use super::source::{parse, read};
+use super::overrides::{assign, resolve, split};
+use super::search::{Search, search_path};
+use super::source::read;
+use super::sweep::Sweep;
 use super::types::Experiment;
 use super::validate::{normalise_quaternions, validate};
 use super::value_de::from_value;
-use super::{copies, positions};
-use serde::Deserialize;
-use serde_yaml::{Mapping, Number, Value};
+use serde_yaml::{Number, Value};
 use std::path::{Path, PathBuf};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
@@ -22,9 +25,10 @@ type Result<T> = std::result::Result<T, ExperimentError>;
 #[derive(Clone, Debug)]
 pub struct ExperimentFile {
     path: PathBuf,
-    /// What was read, for the lines of errors.
-    text: String,
-    /// Everything but `sweep`, `expect` and `bench`.
+    origins: Origins,
+    /// All that was asked for: the file on its bases, with what the flags change.
+    asked: Value,
+    /// The same without `sweep`, `expect` and `bench`.
     tree: Value,
     axes: Axes,
     /// What changes from case to case, shorter paths first, so that `method.lecture.sweeps` changes what `method` has
@@ -33,20 +37,7 @@ pub struct ExperimentFile {
     search: Option<Search>,
     expect: Vec<Expectation>,
     bench: Option<Bench>,
-    sets: Vec<Applied>,
-}
-
-/// The axes of a sweep, still as written; `axes.rs` and `search.rs` read them.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Sweep {
-    #[serde(default)]
-    axes: Mapping,
-    /// Groups of axes that advance side by side.
-    #[serde(default)]
-    together: Vec<Vec<String>>,
-    /// One row a cell of the axes: the critical value of one more key.
-    search: Option<SearchText>,
+    given: Vec<Applied>,
 }
 
 /// A value for another place than the file's own.
@@ -74,49 +65,65 @@ struct Point<'a> {
     searched: Option<&'a Number>,
 }
 
-/// A `--set` and the topmost place it changed.
-#[derive(Clone, Debug)]
-struct Applied {
-    text: String,
-    path: Vec<String>,
-    at: KeyPath,
-}
-
 impl ExperimentFile {
     /// Reads a file and applies `sets` (`PATH=VALUE`) in their order.
     ///
     /// # Errors
     /// Whatever can be wrong before a single case is resolved; `is_machine` tells a failing machine from wrong input.
     pub fn load(path: &Path, sets: &[String]) -> Result<ExperimentFile> {
-        let text = read(path).map_err(|error| error.named(path))?;
-        Self::from_text(path, &text, sets)
+        Self::load_given(path, &all_sets(sets))
     }
 
-    /// The same for a text; `path` is only how messages call it.
+    /// The same with flags of both kinds.
+    ///
+    /// # Errors
+    /// As `load`.
+    pub fn load_given(path: &Path, given: &[Given]) -> Result<ExperimentFile> {
+        let text = read(path).map_err(|error| error.named(path))?;
+        Self::from_text_given(path, &text, given)
+    }
+
+    /// The same for a text; `path` is how messages call it, and what it extends is found from there.
     ///
     /// # Errors
     /// As `load`.
     pub fn from_text(path: &Path, text: &str, sets: &[String]) -> Result<ExperimentFile> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let tree = parse(text).map_err(|error| error.named(path))?;
+        Self::from_text_given(path, text, &all_sets(sets))
+    }
+
+    /// The same with flags of both kinds.
+    ///
+    /// # Errors
+    /// As `load`.
+    pub fn from_text_given(path: &Path, text: &str, given: &[Given]) -> Result<ExperimentFile> {
+        let (mut tree, origins) = with_bases(path, text)?;
+        let mut applied = Vec::with_capacity(given.len());
+        for given in given {
+            let change = apply(&mut tree, given, &applied);
+            applied.push(change.map_err(|error| given.blamed(error).named(path))?);
+        }
         let mut file = ExperimentFile {
             path: path.to_path_buf(),
-            text: text.to_string(),
+            origins,
+            asked: tree.clone(),
             tree,
             axes: Axes::default(),
             order: Vec::new(),
             search: None,
             expect: Vec::new(),
             bench: None,
-            sets: Vec::new(),
+            given: applied,
         };
-        for set in sets {
-            file.apply(set).map_err(|error| by_set(error, set).named(path))?;
-        }
         let read = file.expand_axes().and_then(|()| file.read_expectations()).and_then(|()| file.read_bench());
         read.map_err(|error| file.placed(error))?;
         file.refuse_overwritten_sets()?;
         Ok(file)
+    }
+
+    /// The text of what was asked for: the file on its bases, with all that flags change. It says the same as they do
+    /// together, without any of them.
+    pub fn written(&self) -> String {
+        emit(&self.asked)
     }
 
     /// As the user named it.
@@ -229,57 +236,6 @@ impl ExperimentFile {
         }
     }
 
-    fn apply(&mut self, text: &str) -> Result<()> {
-        let Override { path, value } = Override::parse(text)?;
-        let path = self.with_axis_key(path);
-        let target = resolve(&self.tree, &path);
-        self.remove_axis(&target);
-        let at = assign(&mut self.tree, &path, value)?;
-        self.sets.push(Applied { text: text.to_string(), path, at });
-        Ok(())
-    }
-
-    /// After `sweep.axes` comes one key with dots in it: an axis that exists, else all that is left.
-    fn with_axis_key(&self, mut path: Vec<String>) -> Vec<String> {
-        if path.len() < 3 || path[0] != "sweep" || path[1] != "axes" {
-            return path;
-        }
-        let known = axis_keys(&self.tree);
-        let is_axis = |len: &usize| known.contains(&path[2..*len].join("."));
-        let len = (3..=path.len()).rev().find(is_axis).unwrap_or(path.len());
-        let key = path[2..len].join(".");
-        path.splice(2..len, [key]);
-        path
-    }
-
-    /// Setting what an axis varies, or what is searched, fixes it.
-    fn remove_axis(&mut self, target: &KeyPath) {
-        let is_target = |key: &String| split(key).is_ok_and(|path| resolve(&self.tree, &path).is_same(target));
-        let removed: Vec<String> = axis_keys(&self.tree).into_iter().filter(is_target).collect();
-        let is_searched = searched_key(&self.tree).filter(is_target).is_some();
-        let Some(sweep) = self.tree.get_mut("sweep") else {
-            return;
-        };
-        if let (true, Some(sweep)) = (is_searched, sweep.as_mapping_mut()) {
-            sweep.shift_remove("search");
-        }
-        if let Some(Value::Mapping(search)) = sweep.get_mut("search") {
-            // A single value is left of what was tried together.
-            if search.get("over").is_some_and(|over| is_one_of(over, &removed)) {
-                search.shift_remove("over");
-                search.shift_remove("fraction");
-            }
-        }
-        if let Some(Value::Mapping(axes)) = sweep.get_mut("axes") {
-            axes.retain(|key, _| !is_one_of(key, &removed));
-        }
-        if let Some(Value::Sequence(groups)) = sweep.get_mut("together") {
-            for group in groups.iter_mut().filter_map(Value::as_sequence_mut) {
-                group.retain(|name| !is_one_of(name, &removed));
-            }
-        }
-    }
-
     fn expand_axes(&mut self) -> Result<()> {
         let Some(mapping) = self.tree.as_mapping_mut() else {
             return Ok(());
@@ -344,9 +300,10 @@ impl ExperimentFile {
                 let path = resolve(&self.tree, &set.path);
                 path.starts_with(&target) && !path.is_same(&target)
             };
-            if let Some(set) = self.sets.iter().find(is_below) {
+            if let Some(set) = self.given.iter().find(is_below) {
                 let message = format!("is an axis, whose values would overwrite this; set `{}` itself", axis.path);
-                return Err(by_set(ExperimentError::new(Kind::Path, target, message), &set.text).named(&self.path));
+                let error = ExperimentError::new(Kind::Path, target, message);
+                return Err(set.given.blamed(error).named(&self.path));
             }
         }
         Ok(())
@@ -417,19 +374,18 @@ impl ExperimentFile {
         values.collect::<Vec<_>>().join(", ")
     }
 
-    /// Where the value at the error's path came from: the last `--set` that touched it, else its line in the file.
+    /// Where the value at the error's path came from: the last flag that touched it, else its line in its file.
     pub(crate) fn placed(&self, error: ExperimentError) -> ExperimentError {
-        let path = error.details().path.clone();
-        if let Some(set) = self.sets.iter().rev().find(|set| path.starts_with(&set.at)) {
-            return by_set(error, &set.text).named(&self.path);
+        let path = &error.details().path;
+        match self.given.iter().rev().find(|given| path.starts_with(&given.at)) {
+            Some(given) => given.blamed(error).named(&self.path),
+            None => self.origins.placed(error),
         }
-        let mut error = error.named(&self.path);
-        if let Some(position) = positions::nearest(&self.text, &path) {
-            error.details_mut().line = Some(position.line);
-            error.details_mut().column = Some(position.column);
-        }
-        error
     }
+}
+
+fn all_sets(sets: &[String]) -> Vec<Given> {
+    sets.iter().cloned().map(Given::Set).collect()
 }
 
 fn resolved(tree: &Value) -> Result<Experiment> {
@@ -438,22 +394,4 @@ fn resolved(tree: &Value) -> Result<Experiment> {
     normalise_quaternions(&mut experiment);
     copies::expand(&mut experiment);
     Ok(experiment)
-}
-
-fn axis_keys(tree: &Value) -> Vec<String> {
-    let axes = tree.get("sweep").and_then(|sweep| sweep.get("axes")).and_then(Value::as_mapping);
-    axes.map(Mapping::keys).into_iter().flatten().filter_map(Value::as_str).map(str::to_string).collect()
-}
-
-fn searched_key(tree: &Value) -> Option<String> {
-    Some(tree.get("sweep")?.get("search")?.get("critical")?.as_str()?.to_string())
-}
-
-fn is_one_of(value: &Value, words: &[String]) -> bool {
-    value.as_str().is_some_and(|text| words.iter().any(|word| word == text))
-}
-
-fn by_set(mut error: ExperimentError, set: &str) -> ExperimentError {
-    error.details_mut().set = Some(set.to_string());
-    error
 }

@@ -11,7 +11,7 @@ pub fn is_later(type_name: &str, word: &str) -> bool {
 }
 
 /// Keys that a file has beside those of its experiment; they are taken out before it is read, and no case has them.
-pub const BESIDE_EXPERIMENT: [&str; 3] = ["sweep", "expect", "bench"];
+pub const BESIDE_EXPERIMENT: [&str; 4] = ["sweep", "expect", "bench", "extends"];
 
 /// All keys that may be written where this type stands.
 pub fn all_keys<'a>(type_name: &str, fields: &[&'a str]) -> Vec<&'a str> {

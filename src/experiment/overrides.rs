@@ -8,7 +8,7 @@ use serde_yaml::{Mapping, Value};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
 
-/// A `--set PATH=VALUE`.
+/// The `PATH=VALUE` of a flag.
 #[derive(Clone, Debug)]
 pub struct Override {
     pub path: Vec<String>,
@@ -95,7 +95,7 @@ fn find_item(items: &[Value], key: &str) -> Option<usize> {
     by_name.or_else(|| key.parse().ok().filter(|index| *index < items.len()))
 }
 
-fn item_segment(item: &Value, index: usize) -> Segment {
+pub(super) fn item_segment(item: &Value, index: usize) -> Segment {
     let name = item_name(item).filter(|name| is_addressable(name)).map(str::to_string);
     Segment::Item { index, name }
 }

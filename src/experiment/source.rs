@@ -1,9 +1,8 @@
-//! From a file to a tree of YAML values, and from an experiment back to text.
+//! From a file to a tree of YAML values.
 
 use super::error::{ExperimentError, Kind, describe};
 use super::key_path::KeyPath;
 use super::positions::{self, Duplicate, Position};
-use super::types::Experiment;
 use serde_yaml::Value;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -79,13 +78,4 @@ fn syntax_error(error: &serde_yaml::Error, text: &str) -> ExperimentError {
         fault.details_mut().column = Some(position.column);
     }
     fault
-}
-
-/// As the user would write it.
-pub fn to_yaml(experiment: &Experiment) -> String {
-    let mut text = Vec::new();
-    let mut serializer = serde_yaml::Serializer::new(&mut text);
-    // Writing plain data into memory cannot fail.
-    let _ = serde_yaml::with::singleton_map_recursive::serialize(experiment, &mut serializer);
-    String::from_utf8_lossy(&text).into_owned()
 }

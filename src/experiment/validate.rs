@@ -7,8 +7,8 @@ use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
 use super::tolerances::{SMALLEST_GLOBAL, SMALLEST_TOLERANCE};
 use super::types::{
-    Accuracy, CONTAINER, Container, Diverge, EventDriven, Experiment, Free, Impact, Limits, Measure, Method, Pair,
-    Penalty, Plane, Random, Record, RecordCases, Scene, Shape, Solver, Time, TimeStepping,
+    Accuracy, Body, CONTAINER, Container, Diverge, EventDriven, Experiment, Free, Impact, Limits, Measure, Method,
+    Pair, Penalty, Plane, Random, Record, RecordCases, Scene, Shape, Solver, Time, TimeStepping,
 };
 use super::validate_body::validate_body;
 use super::validate_loads::validate_loads;
@@ -33,10 +33,18 @@ pub fn validate(experiment: &Experiment) -> Result<()> {
     validate_measure(experiment, root.key("measure"))
 }
 
-/// Any multiple of a unit quaternion may be written; from here on they are unit ones.
+/// How far from 1 the squared length of a normalised quaternion may be: four components, a root and two quotients, each
+/// rounded.
+const UNIT_SLACK: f64 = 8.0 * f64::EPSILON;
+
+/// Any multiple of a unit quaternion may be written; from here on they are unit ones. One that is a unit up to rounding
+/// stays as it is, bit for bit, so that what is written of a resolved experiment is read as the same.
 pub fn normalise_quaternions(experiment: &mut Experiment) {
     let orientations = experiment.scene.bodies.iter_mut().filter_map(|body| body.orientation.as_mut());
     for q in orientations.filter_map(|orientation| orientation.quaternion_xyzw.as_mut()) {
+        if (q.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= UNIT_SLACK {
+            continue;
+        }
         let largest = q.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
         let scaled = q.map(|x| x / largest);
         let norm = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -56,8 +64,12 @@ fn validate_scene(scene: &Scene, at: Path) -> Result<()> {
     }
     for (i, body) in scene.bodies.iter().enumerate() {
         validate_body(body, bodies.item(i, Some(&body.name)))?;
-        if let Some(first) = scene.bodies[..i].iter().position(|other| other.name == body.name) {
-            let found = format!("`{}`, which item {first} of the list has", body.name);
+        let is_taken = |(j, other): (usize, &Body)| match &other.copies {
+            None => j < i && other.name == body.name,
+            Some(_) => (j < i && other.name == body.name) || (j != i && other.is_called(&body.name)),
+        };
+        if let Some(other) = scene.bodies.iter().enumerate().position(is_taken) {
+            let found = format!("`{}`, which item {other} of the list has", body.name);
             return Err(unexpected(bodies.item(i, None).key("name"), "a name of its own", &found));
         }
     }

@@ -1,7 +1,7 @@
 //! What must be true of one body, whatever else is in the scene.
 
 use super::checks::{Result, a_part, direction, not_negative, positive, sizes, unexpected};
-use super::copies::validate_copies;
+use super::copies::{validate_copies, without_number};
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
 use super::types::{
@@ -19,7 +19,7 @@ const MOST_NODES: f64 = 1e6;
 const TRIANGLE_SLACK: f64 = 1e-9;
 
 pub fn validate_body(body: &Body, at: Path) -> Result<()> {
-    validate_name(&body.name, at.key("name"))?;
+    validate_name(body, at.key("name"))?;
     validate_shape(&body.shape, at.key("shape"))?;
     validate_mesh(body, at.key("mesh"))?;
     validate_mass(body, at)?;
@@ -35,7 +35,12 @@ pub fn validate_body(body: &Body, at: Path) -> Result<()> {
 }
 
 /// Names stand in key paths, `--set`s, columns and the paths of recordings; contacts call the container `container`.
-fn validate_name(name: &str, at: Path) -> Result<()> {
+/// A resolved experiment names copies by their number.
+fn validate_name(body: &Body, at: Path) -> Result<()> {
+    let name = match &body.copies {
+        None => without_number(&body.name).unwrap_or(&body.name),
+        Some(_) => &body.name,
+    };
     let is_reserved = |c: char| c.is_control() || ".[]=/".contains(c);
     let expected = if name.is_empty() || name.trim() != name {
         "a name without space around it"
@@ -46,7 +51,7 @@ fn validate_name(name: &str, at: Path) -> Result<()> {
     } else {
         return Ok(());
     };
-    Err(unexpected(at, expected, &format!("`{}`", name.escape_debug())))
+    Err(unexpected(at, expected, &format!("`{}`", body.name.escape_debug())))
 }
 
 fn validate_shape(shape: &Shape, at: Path) -> Result<()> {

@@ -28,6 +28,16 @@ fn a_range_includes_both_ends_and_integers_stay_integers() {
 }
 
 #[test]
+fn whole_numbers_from_to_are_a_range() {
+    assert_eq!(shown("0..3"), ["0", "1", "2", "3"]);
+    assert_eq!(shown("-2..1"), ["-2", "-1", "0", "1"]);
+    assert_eq!(shown("'7 .. 7'"), ["7"]);
+    assert_eq!(shown("-4..-3"), ["-4", "-3"]);
+    let [short, long] = ["0..39", "{ range: { from: 0, to: 39 } }"].map(|spec| axes(&format!("    seed: {spec}\n")));
+    assert_eq!(short, long);
+}
+
+#[test]
 fn a_range_of_decimals_has_decimal_values() {
     let tenths = ["0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1.0"];
     assert_eq!(shown("{ range: { from: 0.1, to: 1, step: 0.1 } }"), tenths);
@@ -140,7 +150,13 @@ type Row = (&'static str, &'static str, usize, &'static str, &'static str);
 #[rustfmt::skip]
 const BAD: &[Row] = &[
     ("no values", "    seed: []\n", 22, "sweep.axes.seed", "at least one value"),
-    ("one value", "    seed: 3\n", 22, "sweep.axes.seed", "expected a list of values, or one of range, log, linear, found 3"),
+    ("one value", "    seed: 3\n", 22, "sweep.axes.seed", "expected a list of values ([a, b]), whole numbers from..to (0..39), or one of range, log, linear ({ log: { from: 1e-3, to: 1, count: 4 } }), found 3"),
+    ("a range that falls", "    seed: 5..2\n", 22, "sweep.axes.seed", "expected whole numbers from..to with from ≤ to, such as 0..39, found `5..2`"),
+    ("a range of decimals", "    time.end_s: 0.5..2\n", 22, "sweep.axes.time.end_s", "found `0.5..2`"),
+    ("a range without an end", "    seed: 0..\n", 22, "sweep.axes.seed", "found `0..`"),
+    ("a long range", "    seed: 0..9999999999\n", 22, "sweep.axes.seed", "at most 1000000 values, found 10000000000"),
+    ("a word alone", "    method: lecture\n", 22, "sweep.axes.method", "found the text `lecture`"),
+    ("a path of the base", "    extends: [a.yaml]\n", 22, "sweep.axes.extends", "`bench`, `extends`, found `extends`"),
     ("an unknown form", "    seed: { rnge: { from: 0, to: 1 } }\n", 22, "sweep.axes.seed.rnge", "did you mean `range`?"),
     ("an unknown key of a form", "    seed: [1]\n    time.end_s:\n      range: { from: 0, to: 1, stp: 1 }\n", 24, "sweep.axes.time.end_s.range.stp", "did you mean `step`?"),
     ("no end", "    seed: { range: { from: 0 } }\n", 22, "sweep.axes.seed.range.to", "missing"),

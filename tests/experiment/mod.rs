@@ -1,13 +1,17 @@
-//! The experiment file: `good.rs` reads, `bad.rs` refuses, `sets.rs` overrides, `axes.rs` sweeps.
+//! The experiment file: `good.rs` reads, `bad.rs` refuses, `sets.rs` overrides, `axes.rs` sweeps, `flags.rs` sweeps from
+//! the command line, `extends.rs` stands on another file, `written.rs` writes what was read.
 
 mod axes;
 mod bad;
+mod extends;
+mod flags;
 mod good;
 mod ids;
 mod sets;
+mod written;
 
 use gotai::experiment::types::Experiment;
-use gotai::experiment::{ExperimentError, ExperimentFile};
+use gotai::experiment::{ExperimentError, ExperimentFile, Given};
 use std::path::Path;
 
 /// A file without faults whose lines the tests count on: change it at its end only.
@@ -36,6 +40,15 @@ time:
 pub fn file(text: &str, sets: &[&str]) -> Result<ExperimentFile, ExperimentError> {
     let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
     ExperimentFile::from_text(Path::new("a.yaml"), text, &sets)
+}
+
+/// `--axis …` is an axis, all else a set.
+pub fn flagged(text: &str, flags: &[&str]) -> Result<ExperimentFile, ExperimentError> {
+    let given = |flag: &&str| match flag.strip_prefix("--axis ") {
+        Some(axis) => Given::Axis(axis.to_string()),
+        None => Given::Set(flag.to_string()),
+    };
+    ExperimentFile::from_text_given(Path::new("a.yaml"), text, &flags.iter().map(given).collect::<Vec<_>>())
 }
 
 pub fn experiment(text: &str, sets: &[&str]) -> Result<Experiment, ExperimentError> {

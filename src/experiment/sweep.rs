@@ -1,0 +1,17 @@
+//! `sweep:` as it is written; `axes.rs` and `search.rs` read it.
+
+use super::search::SearchText;
+use serde::Deserialize;
+use serde_yaml::Mapping;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Sweep {
+    #[serde(default)]
+    pub axes: Mapping,
+    /// Groups of axes that advance side by side.
+    #[serde(default)]
+    pub together: Vec<Vec<String>>,
+    /// One row a cell of the axes: the critical value of one more key.
+    pub search: Option<SearchText>,
+}

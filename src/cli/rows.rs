@@ -9,6 +9,7 @@ use crate::experiment::nearest::nearest;
 use crate::rows::table::Table;
 use crate::sweep::folder::Folder;
 use clap::Args;
+use comfy_table::presets;
 use serde_json::{Map, Value};
 use std::cmp::Ordering;
 use std::path::PathBuf;
@@ -72,6 +73,7 @@ impl Command {
             print(csv(&columns, chosen.iter().map(|row| cells(row))).trim_end());
         } else {
             let mut table = table(&columns);
+            table.load_preset(presets::NOTHING);
             for row in &chosen {
                 table.add_row(columns.iter().zip(cells(row)).map(|(name, cell)| shown(name, &cell)));
             }

@@ -39,7 +39,7 @@ impl Command {
         let missing = total - rows.len();
         if self.output.json {
             print_json(&json!({
-                "dir": self.dir, "question": folder.plan.question, "cases": total, "done": rows.len(),
+                "dir": self.dir, "question": folder.plan.question, "methods": methods(&folder), "cases": total, "done": rows.len(),
                 "missing": missing, "failed": failed, "finished": count(&rows, Outcome::Finished),
                 "diverged": count(&rows, Outcome::Diverged), "stalled": count(&rows, Outcome::Stalled),
                 "of_another_build": other_build, "recordings": rows.iter().filter(|row| row.recording.is_some()).count(),
@@ -49,6 +49,7 @@ impl Command {
             if let Some(question) = &folder.plan.question {
                 print(question.trim());
             }
+            print(format!("by {}", methods(&folder).join(", ")));
             print(format!("{} of {total} done, {missing} missing, {failed} failed", rows.len()));
             if other_build > 0 && !self.keep {
                 print(format!("{other_build} rows are of another build (--keep takes them, `gotai clean` drops them)"));
@@ -63,4 +64,15 @@ impl Command {
         }
         Ok(ExitCode::from(u8::from(missing > 0 || failed > 0)))
     }
+}
+
+/// The words of all methods that are planned, in their order.
+fn methods(folder: &Folder) -> Vec<&'static str> {
+    let mut words: Vec<&str> = Vec::new();
+    for word in folder.cases.iter().map(|planned| planned.case.experiment.method.word()) {
+        if !words.contains(&word) {
+            words.push(word);
+        }
+    }
+    words
 }

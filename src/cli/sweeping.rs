@@ -8,6 +8,7 @@ use crate::experiment::types::RecordTo;
 use crate::outcome::Outcome;
 use crate::record::writer::Target;
 use crate::rows::{Row, count};
+use crate::sweep::folder::Folder;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::planned::Planned;
 use crate::sweep::runner::{Job, build_and_run, lock};
@@ -128,6 +129,13 @@ pub fn configs(given: &[PathBuf]) -> Result<Vec<Config>, CliError> {
         let name = below_configs(path);
         // A folder of its own only where there is another to tell it from.
         let base = if given.len() > 1 { name } else { PathBuf::new() };
+        if Folder::is_one(path) {
+            let path = path.display();
+            return Err(CliError::Input(format!(
+                "{path}: expected experiment files, found a folder of results; go on in it with `gotai sweep \
+                 {path}/experiment.yaml --out {path}`"
+            )));
+        }
         if path.is_dir() {
             let below = |file: &Path| base.join(file.strip_prefix(path).unwrap_or(file).with_extension(""));
             all.extend(files_of(path)?.into_iter().map(|file| Config {
@@ -150,7 +158,8 @@ fn files_of(given: &Path) -> Result<Vec<PathBuf>, CliError> {
         let entries = entries.map_err(|error| CliError::Machine(format!("{}: {error}", folder.display())))?;
         for path in entries.flatten().map(|entry| entry.path()) {
             if path.is_dir() {
-                folders.push(path);
+                // What results keep of their question is no question of its own.
+                folders.extend((!Folder::is_one(&path)).then_some(path));
             } else if path.extension().is_some_and(|ending| ending == "yaml" || ending == "yml") {
                 found.push(path);
             }

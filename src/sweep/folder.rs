@@ -1,9 +1,10 @@
 //! A folder of results as a reader finds it: its question, its plan, its rows.
 
 use super::journal::Journal;
+use super::kept::{EXPERIMENT, PLAN, read_plan};
 use super::plan::SweepPlan;
 use super::planned::Planned;
-use super::store::{EXPERIMENT, PLAN, order, read_plan, rows, write_tables};
+use super::store::{order, rows, write_tables};
 use crate::build_info::BUILD;
 use crate::experiment::{ExperimentError, ExperimentFile};
 use crate::files::FileError;

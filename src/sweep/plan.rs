@@ -1,6 +1,7 @@
 //! All cases of an experiment file, in plan order, each resolved and checked before the first run.
 
 use super::build::{build, columns};
+use super::kept::{EXPERIMENT, read_plan};
 use super::planned::Planned;
 use super::search;
 use crate::build_info::{BUILD, PROGRAM};
@@ -13,6 +14,7 @@ use crate::rows::plan_file::{FORMAT, PlanAxis, PlanFile};
 use rayon::prelude::*;
 use serde_json::{Map, json};
 use std::collections::HashSet;
+use std::path::Path;
 
 /// A sweep as it is planned.
 #[derive(Clone, Debug)]
@@ -99,10 +101,19 @@ fn tell_apart(cases: &mut [Planned], file: &ExperimentFile, config: &str) {
     }
 }
 
-/// Of the file, without folders and ending; of a recording, its values.
+/// Of the file, without folders and ending; of a recording, its values; of what a folder of results keeps, what that
+/// was called.
 fn config_name(file: &ExperimentFile) -> String {
+    if let Some(plan) = plan_beside(file.path()) {
+        return plan.name;
+    }
     let stem = file.path().file_stem().map_or_else(|| "run".into(), |stem| stem.to_string_lossy());
     RecordingName::values_of(&stem).unwrap_or(&stem).to_string()
+}
+
+fn plan_beside(path: &Path) -> Option<PlanFile> {
+    let is_kept = path.file_name().is_some_and(|name| name == EXPERIMENT);
+    is_kept.then(|| read_plan(path.parent()?).ok())?
 }
 
 fn plan_file(file: &ExperimentFile, cases: &[Planned], name: &str) -> PlanFile {

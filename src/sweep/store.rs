@@ -4,6 +4,7 @@
 //! measured by case id, the plan holds the axes: a sweep whose axes have grown finds its old rows again.
 
 use super::journal::{Entry, Journal, JournalFile};
+use super::kept::{EXPERIMENT, PLAN, read_plan};
 use super::plan::SweepPlan;
 use super::planned::Planned;
 use super::recorded::Recorded;
@@ -11,7 +12,7 @@ use crate::build_info::BUILD;
 use crate::files::{self, FileError, write_whole};
 use crate::outcome::Outcome;
 use crate::record::writer::Target;
-use crate::rows::plan_file::{FORMAT, PlanFile};
+use crate::rows::plan_file::PlanFile;
 use crate::rows::{Measured, Row, table};
 use serde_json::{Map, Value};
 use std::fmt;
@@ -137,9 +138,6 @@ impl Store {
     }
 }
 
-pub(super) const PLAN: &str = "plan.json";
-pub(super) const EXPERIMENT: &str = "experiment.yaml";
-
 impl fmt::Display for Edited {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Edited { changes, held, planned, unplanned } = self;
@@ -182,19 +180,4 @@ pub(super) fn write_tables(dir: &Path, plan: &PlanFile, rows: &[Row], csv: bool)
     }
     let path = dir.join("rows.parquet");
     write_whole(&path, &table.to_parquet(plan).map_err(|error| FileError::new(&path, error))?)
-}
-
-/// The plan of a folder.
-///
-/// # Errors
-/// There is none that this program can read.
-pub(super) fn read_plan(dir: &Path) -> Result<PlanFile, FileError> {
-    let path = dir.join(PLAN);
-    let plan: Value = serde_json::from_slice(&files::read(&path)?).map_err(|error| FileError::new(&path, error))?;
-    let format = plan["format"].as_u64();
-    if format != Some(u64::from(FORMAT)) {
-        let found = format.map_or("no format, as of an older gotai".to_string(), |found| found.to_string());
-        return Err(FileError::new(&path, format!("expected format {FORMAT}, found {found}; run its sweep again")));
-    }
-    serde_json::from_value(plan).map_err(|error| FileError::new(&path, error))
 }

@@ -1,5 +1,7 @@
 //! The program as a user meets it: output, files, exit codes.
 
+mod results;
+
 use crate::scratch;
 use serde_json::Value;
 use std::path::Path;
@@ -8,7 +10,7 @@ use std::time::{Duration, Instant};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-fn gotai(args: &[&str]) -> Command {
+pub fn gotai(args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_gotai"));
     command.args(args).current_dir(ROOT).env("NO_COLOR", "1");
     command
@@ -20,7 +22,7 @@ pub fn run(args: &[&str]) -> (i32, String, String) {
     (status.code().unwrap(), text(stdout), text(stderr))
 }
 
-fn json(args: &[&str]) -> Value {
+pub fn json(args: &[&str]) -> Value {
     let (code, out, err) = run(args);
     assert_eq!(code, 0, "{err}");
     serde_json::from_str(&out).unwrap_or_else(|error| panic!("{error}: {out}"))

@@ -1,0 +1,24 @@
+//! What a folder of results keeps of its question: experiment.yaml, and the plan that follows from it.
+
+use crate::files::{self, FileError};
+use crate::rows::plan_file::{FORMAT, PlanFile};
+use serde_json::Value;
+use std::path::Path;
+
+pub const PLAN: &str = "plan.json";
+pub const EXPERIMENT: &str = "experiment.yaml";
+
+/// The plan of a folder.
+///
+/// # Errors
+/// There is none that this program can read.
+pub fn read_plan(dir: &Path) -> Result<PlanFile, FileError> {
+    let path = dir.join(PLAN);
+    let plan: Value = serde_json::from_slice(&files::read(&path)?).map_err(|error| FileError::new(&path, error))?;
+    let format = plan["format"].as_u64();
+    if format != Some(u64::from(FORMAT)) {
+        let found = format.map_or("no format, as of an older gotai".to_string(), |found| found.to_string());
+        return Err(FileError::new(&path, format!("expected format {FORMAT}, found {found}; run its sweep again")));
+    }
+    serde_json::from_value(plan).map_err(|error| FileError::new(&path, error))
+}

@@ -17,9 +17,9 @@ pub fn to_yaml(experiment: &Experiment) -> String {
 /// The text of a tree.
 pub fn emit(tree: &Value) -> String {
     let text = written(tree);
-    // No part of a mark is its beginning, and none of what is written before one ends in it.
-    let marks = (0_u32..).map(|n| format!("scalar{n}q"));
-    let mark = marks.into_iter().find(|mark| !text.contains(mark.as_str())).unwrap_or_default();
+    // It has its first letter once, and a scalar begins a line or follows a space: nothing else ends up as a mark.
+    let mut marks = (0_u32..).map(|n| format!("scalar{n}q"));
+    let mark = marks.find(|mark| !text.contains(mark.as_str())).unwrap_or_default();
     let mut marked = tree.clone();
     mark_scalars(&mut marked, &mark);
     written(&marked).replace(&mark, "")

@@ -98,8 +98,11 @@ impl Merge {
 
     /// No type reads `null` at these places: an axis, and what stands beside the experiment.
     fn is_taken_away(&self) -> bool {
-        let is_beside = |key: &&str| self.at.is_same(&KeyPath::of_keys(&[key]));
-        BESIDE_EXPERIMENT.iter().any(|key| is_beside(&key)) || (self.is_in_axis() && self.at.len() == 3)
+        match self.at.lookup().iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+            [key] => BESIDE_EXPERIMENT.contains(key),
+            ["sweep", "axes", _] => true,
+            _ => false,
+        }
     }
 
     /// Of two new ones that share a name both are appended, and refused later.

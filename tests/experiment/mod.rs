@@ -1,5 +1,5 @@
-//! The experiment file: `good.rs` reads, `bad.rs` refuses, `sets.rs` overrides, `axes.rs` sweeps, `flags.rs` sweeps from
-//! the command line, `extends.rs` stands on another file, `written.rs` writes what was read.
+//! The experiment file: `good.rs` reads, `bad.rs` refuses, `sets.rs` overrides, `axes.rs` sweeps, `flags.rs` sweeps
+//! from the command line, `extends.rs` stands on another file, `written.rs` writes what was read.
 
 mod axes;
 mod bad;

@@ -73,8 +73,8 @@ impl Heading {
     }
 }
 
-/// The unit that the name of a column, or the path of an axis, ends with, whatever component stands behind it; empty for
-/// texts, counts and ratios.
+/// The unit that the name of a column, or the path of an axis, ends with, whatever component stands behind it; empty
+/// for texts, counts and ratios.
 pub fn unit_of(name: &str) -> &'static str {
     let ends = |name: &str| UNITS.iter().find(|(ending, _)| name.ends_with(ending)).map(|(_, unit)| *unit);
     ends(name).or_else(|| ends(name.rsplit_once('.')?.0)).unwrap_or_default()

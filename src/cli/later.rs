@@ -3,28 +3,10 @@
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
-const COMMANDS: [&str; 11] = [
-    "merge",
-    "submit",
-    "report",
-    "view",
-    "schema",
-    "completions",
-    "new",
-    "compare",
-    "export",
-    "repair",
-    "doctor",
-];
-const FLAGS: [&str; 7] = [
-    "--shard",
-    "--live",
-    "--progress",
-    "--color",
-    "--fail-fast",
-    "--no-report",
-    "--fail-on-regression",
-];
+const COMMANDS: [&str; 11] =
+    ["merge", "submit", "report", "view", "schema", "completions", "new", "compare", "export", "repair", "doctor"];
+const FLAGS: [&str; 7] =
+    ["--shard", "--live", "--progress", "--color", "--fail-fast", "--no-report", "--fail-on-regression"];
 
 /// Prints a parser's message (or help) and gives the exit code.
 pub fn explain_usage(error: &clap::Error) -> ExitCode {

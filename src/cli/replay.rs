@@ -78,9 +78,9 @@ fn find<'a>(folder: &'a Folder, id: &str) -> Result<&'a Planned, CliError> {
     found.dedup_by_key(|planned| &planned.case.id);
     match found[..] {
         [only] => Ok(only),
-        [] if folder.journal.rows.keys().any(|case| !id.is_empty() && case.starts_with(id)) => Err(CliError::Input(
-            format!("--case {id}: this row is in the store of {dir}, but no longer in its plan"),
-        )),
+        [] if folder.journal.rows.keys().any(|case| !id.is_empty() && case.starts_with(id)) => {
+            Err(CliError::Input(format!("--case {id}: this row is in the store of {dir}, but no longer in its plan")))
+        }
         [] => Err(CliError::Input(format!(
             "--case {id}: expected the first digits of a row's id, found none that begins so (`gotai rows {dir}` shows \
              them)"

@@ -107,7 +107,10 @@ impl Command {
             }
         };
         rows.sort_by(|a, b| {
-            keys.iter().map(|(name, falls)| by(a, b, name, *falls)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+            keys.iter()
+                .map(|(name, falls)| by(a, b, name, *falls))
+                .find(|order| order.is_ne())
+                .unwrap_or(Ordering::Equal)
         });
         Ok(())
     }

@@ -115,7 +115,8 @@ impl Command {
                  {path}`"
             )));
         }
-        if !self.config.extension().is_some_and(|ending| ending == "mcap") || !self.config.exists() {
+        let is_recording = self.config.extension().is_some_and(|ending| ending == "mcap") && self.config.exists();
+        if !is_recording {
             return self.experiment.load(&self.config);
         }
         match experiment_of(&self.config)? {

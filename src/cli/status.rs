@@ -39,11 +39,12 @@ impl Command {
         let missing = total - rows.len();
         if self.output.json {
             print_json(&json!({
-                "dir": self.dir, "question": folder.plan.question, "methods": methods(&folder), "cases": total, "done": rows.len(),
-                "missing": missing, "failed": failed, "finished": count(&rows, Outcome::Finished),
-                "diverged": count(&rows, Outcome::Diverged), "stalled": count(&rows, Outcome::Stalled),
-                "of_another_build": other_build, "recordings": rows.iter().filter(|row| row.recording.is_some()).count(),
-                "bytes": bytes, "plan_hash": folder.plan.hash, "rows_hash": Table::new(&folder.plan.axes, &rows).hash(),
+                "dir": self.dir, "question": folder.plan.question, "methods": methods(&folder), "cases": total,
+                "done": rows.len(), "missing": missing, "failed": failed,
+                "finished": count(&rows, Outcome::Finished), "diverged": count(&rows, Outcome::Diverged),
+                "stalled": count(&rows, Outcome::Stalled), "of_another_build": other_build,
+                "recordings": rows.iter().filter(|row| row.recording.is_some()).count(), "bytes": bytes,
+                "plan_hash": folder.plan.hash, "rows_hash": Table::new(&folder.plan.axes, &rows).hash(),
             }));
         } else {
             if let Some(question) = &folder.plan.question {

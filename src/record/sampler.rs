@@ -3,7 +3,7 @@
 //! A recorded run is the same run: the sampler only looks. What no stream asks for is not computed.
 
 use super::RecordError;
-use super::sample::{BodySample, ContactSample, EnergySample, Ending, Event, Severity, Streams};
+use super::sample::{BodySample, ContactSample, Ending, EnergySample, Event, Severity, Streams};
 use super::writer::Writer;
 use crate::clock::Clock;
 use crate::collide::SolvedContact;

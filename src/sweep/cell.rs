@@ -73,11 +73,10 @@ impl Cell {
         let (mut low, mut high) = (self.try_at(low, dir)?, self.try_at(high, dir)?);
         let (mut tried, mut wall_s) = (2, low.wall_s() + high.wall_s());
         if low.reached == high.reached {
-            let (verdict, ends) = match low.reached {
-                true => ("below", [Value::Null, json!(low.value)]),
-                false => ("above", [json!(high.value), Value::Null]),
-            };
-            return Ok(self.row(low.measured, ends, tried, wall_s, verdict));
+            return Ok(match low.reached {
+                true => self.row(low.measured, [Value::Null, json!(low.value)], tried, wall_s, "below"),
+                false => self.row(high.measured, [json!(high.value), Value::Null], tried, wall_s, "above"),
+            });
         }
         while let Some(middle) = self.between(float(&low.value), float(&high.value)) {
             let trial = self.try_at(&middle, dir)?;

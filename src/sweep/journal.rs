@@ -29,7 +29,7 @@ pub struct Entry {
 #[serde(untagged)]
 enum Line {
     Recorded(Recorded),
-    Row(Entry),
+    Row(Box<Entry>),
 }
 
 /// What a journal says: of every case the last line.
@@ -59,7 +59,7 @@ impl Journal {
         for said in text.split(|byte| *byte == b'\n').filter_map(said) {
             match serde_json::from_str::<Line>(&said) {
                 Ok(Line::Recorded(recorded)) => drop(journal.recordings.insert(recorded.recorded.clone(), recorded)),
-                Ok(Line::Row(entry)) => drop(journal.rows.insert(entry.case.clone(), entry)),
+                Ok(Line::Row(entry)) => drop(journal.rows.insert(entry.case.clone(), *entry)),
                 // Of another version.
                 Err(_) => {}
             }
@@ -113,7 +113,7 @@ impl JournalFile {
         rows.sort_by_key(|entry| &entry.case);
         let mut recordings: Vec<&Recorded> = kept.recordings.values().collect();
         recordings.sort_by_key(|recorded| &recorded.recorded);
-        let lines: String = rows.iter().map(|entry| line(entry)).chain(recordings.iter().map(|r| line(r))).collect();
+        let lines: String = rows.iter().map(line).chain(recordings.iter().map(line)).collect();
         write_whole(&path(dir), lines.as_bytes())
     }
 

@@ -1,10 +1,10 @@
 //! Runs the missing cases of a plan on all cores, each row kept as soon as its case ends.
 
+use super::leftovers;
 use super::planned::Planned;
 use super::recorded::{self, Recorded};
 use super::recordings::{known_after, known_before};
 use super::store::Store;
-use super::leftovers;
 use crate::case::Case;
 use crate::experiment::types::{Record, RecordCases, RecordTo};
 use crate::files::{self, FileError};
@@ -180,11 +180,7 @@ impl Job<'_> {
 
 /// The cases that a rule chooses, each with its recording, if there is one, and how it ended. A case that panics leaves
 /// no recording.
-fn chosen<'a>(
-    rule: RecordCases,
-    cases: &'a [Planned],
-    store: &Store,
-) -> Vec<(&'a Planned, Option<Recorded>, Outcome)> {
+fn chosen<'a>(rule: RecordCases, cases: &'a [Planned], store: &Store) -> Vec<(&'a Planned, Option<Recorded>, Outcome)> {
     let measured: Vec<_> = cases.iter().map(|planned| store.measured(&planned.case.id)).collect();
     let chosen = known_after(rule, &measured).into_iter();
     let with_recording = chosen.filter_map(|i| {

@@ -94,7 +94,10 @@ fn ends(path: &Path, ending: &str) -> bool {
 fn is_reference_of_another_build(path: &Path) -> bool {
     let name = path.file_name().map(|name| name.to_string_lossy());
     name.is_some_and(|name| name.starts_with("reference-") && name.ends_with(".json"))
-        && files::read(path).ok().and_then(|text| serde_json::from_slice::<Value>(&text).ok()).is_none_or(|reference| reference["build"] != BUILD)
+        && files::read(path)
+            .ok()
+            .and_then(|text| serde_json::from_slice::<Value>(&text).ok())
+            .is_none_or(|reference| reference["build"] != BUILD)
 }
 
 /// In a folder, which need not be there, in the order of their names.

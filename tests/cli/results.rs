@@ -42,7 +42,10 @@ fn a_folder_tells_its_question_and_shows_a_case_again() {
     json(&small_map(out, &["--json", "--record", "mcap"]));
     let status = json(&["status", out, "--json"]);
     assert_eq!(status["question"], "Which mesh explodes at which time step?");
-    assert_eq!((&status["methods"], &status["cases"], &status["recordings"]), (&value!(["lecture"]), &12.into(), &12.into()));
+    assert_eq!(
+        (&status["methods"], &status["cases"], &status["recordings"]),
+        (&value!(["lecture"]), &12.into(), &12.into())
+    );
     // The plan holds the axes, experiment.yaml makes the same plan again.
     let plan: Value = serde_json::from_slice(&std::fs::read(folder.path().join("plan.json")).unwrap()).unwrap();
     assert_eq!((&plan["format"], plan.get("cases")), (&2.into(), None));
@@ -59,17 +62,28 @@ fn a_folder_tells_its_question_and_shows_a_case_again() {
     // Show it again: the same, bit for bit, recorded at every step, and no row is touched.
     let before = files(folder.path());
     let id = exploded[0]["case"].as_str().unwrap();
+    assert!(before.keys().any(|name| name.contains("_diverged.") && name.contains(&id[..8])), "{id}");
     let shown = json(&["run", out, "--case", &id[..12], "--json", "--record", "mcap"]);
     assert_eq!((&shown["case"], &shown["outcome"], &shown["differing"]), (&id.into(), &"diverged".into(), &value!([])));
     assert!(before == files(folder.path()));
     let replays = files(&folder.path().join("replays"));
     let name = format!("{}.mcap", shown["recording"].as_str().unwrap());
-    assert!(replays.keys().eq([&name]) && before.contains_key(&name) && replays[&name].len() > before[&name].len());
+    assert!(replays.keys().eq([&name]) && before.contains_key(&name));
     let status = json(&["status", out, "--json"]);
     assert_eq!(status["bytes"]["replays"], replays[&name].len());
+    // At 2 ms, five times as many samples as the sweep has recorded.
+    let fine = json(&["rows", out, "--where", "time.step_s=0.002", "--columns", "case,recording", "--json"])[0].clone();
+    json(&["run", out, "--case", fine["case"].as_str().unwrap(), "--json", "--record", "mcap"]);
+    let fine = format!("{}.mcap", fine["recording"].as_str().unwrap());
+    let replay = folder.path().join("replays").join(&fine);
+    assert!(std::fs::metadata(&replay).unwrap().len() > 3 * before[&fine].len() as u64);
+    std::fs::remove_file(replay).unwrap();
     // Dropped again, and nothing else.
     let cleaned = json(&["clean", out, "--json"]);
-    assert_eq!((&cleaned["files"], &cleaned["rows"], &cleaned["bytes"]), (&1.into(), &0.into(), &replays[&name].len().into()));
+    assert_eq!(
+        (&cleaned["files"], &cleaned["rows"], &cleaned["bytes"]),
+        (&1.into(), &0.into(), &replays[&name].len().into())
+    );
     assert!(!folder.path().join("replays").exists());
     let recordings = |files: BTreeMap<String, Vec<u8>>| -> Vec<_> {
         files.into_iter().filter(|(name, _)| name.ends_with("mcap")).collect()
@@ -106,7 +120,8 @@ fn a_row_of_a_search_shows_its_run_at_search_low() {
     let out = folder.path().to_str().unwrap();
     let search = "sweep.search={critical: time.step_s, between: [0.001, 0.05], until: {outcome: diverged}}";
     let meshes = "scene.bodies.body=[cube 27, ico 162]";
-    let args = ["sweep", STABILITY, "--out", out, "--json", "--set", "sweep.axes={}", "--set", search, "--axis", meshes];
+    let fixed = ["--set", "seed=0", "--set", "time.step_s=0.01", "--set", search, "--axis", meshes];
+    let args = [&["sweep", STABILITY, "--out", out, "--json"], &fixed[..]].concat();
     let Value::Array(rows) = json(&args)["rows"].clone() else { panic!("no rows") };
     for row in &rows {
         let shown = json(&["run", out, "--case", &row["case"].as_str().unwrap()[..8], "--json"]);
@@ -196,11 +211,13 @@ fn rows_are_chosen_sorted_and_printed() {
     let folder = scratch::folder();
     let out = folder.path().to_str().unwrap();
     json(&small_map(out, &["--json", "--record", "none"]));
-    let (code, csv, _) = run(&["rows", out, "--columns", "time.step_s,seed,energy_drift_rel", "--sort", "seed,-time.step_s", "--csv"]);
+    let (code, csv, _) =
+        run(&["rows", out, "--columns", "time.step_s,seed,energy_drift_rel", "--sort", "seed,-time.step_s", "--csv"]);
     let lines: Vec<&str> = csv.lines().collect();
     assert_eq!((code, lines.len(), lines[0]), (0, 13, "time.step_s,seed,energy_drift_rel"));
     let firsts: Vec<&str> = lines[1..].iter().map(|line| line.rsplit_once(',').unwrap().0).collect();
-    let expected = [0, 1].map(|seed| ["0.05", "0.02", "0.002"].map(|step| [format!("{step},{seed}"), format!("{step},{seed}")]));
+    let expected =
+        [0, 1].map(|seed| ["0.05", "0.02", "0.002"].map(|step| [format!("{step},{seed}"), format!("{step},{seed}")]));
     assert_eq!(firsts, expected.concat().concat());
     // The same numbers as in the table, to the last bit.
     let mut table = csv::Reader::from_path(folder.path().join("rows.csv")).unwrap();
@@ -216,7 +233,10 @@ fn rows_are_chosen_sorted_and_printed() {
     assert_eq!(count(&["time.step_s<=0.02", "seed=1"]), 4);
     assert_eq!(count(&["scene.bodies.body=ico 162"]), 6);
     assert_eq!(count(&["scene.bodies.body!=ico 162", "time.step_s>0.02"]), 2);
-    assert_eq!(json(&["rows", out, "--columns", "all", "--json"])[0].as_object().unwrap().len(), csv_width(folder.path()));
+    assert_eq!(
+        json(&["rows", out, "--columns", "all", "--json"])[0].as_object().unwrap().len(),
+        csv_width(folder.path())
+    );
     let (_, text, _) = run(&["rows", out]);
     assert!(text.contains("ico 162") && text.lines().all(|line| line.chars().count() <= 140), "{text}");
 }
@@ -282,6 +302,7 @@ fn axes_on_the_command_line_are_in_the_name_of_the_folder() {
     let out = folder.path().join("recordings/smoke+seed=0..1+time.end-s=0.1+method=-free--penalty-");
     let rows = std::fs::read_to_string(out.join("rows.csv")).unwrap();
     // The order of the file, the label of the file's own value, and the new axis last.
-    let firsts: Vec<_> = rows.lines().map(|line| line.split(',').skip(1).take(2).collect::<Vec<_>>().join(" ")).collect();
+    let firsts: Vec<_> =
+        rows.lines().map(|line| line.split(',').skip(1).take(2).collect::<Vec<_>>().join(" ")).collect();
     assert_eq!(firsts, ["method seed", "free 0", "free 1", "penalty 0", "penalty 1"]);
 }

@@ -87,8 +87,7 @@ fn names_are_unique_safe_and_short() {
 /// Ids that begin alike are as good as never met: here the names are, with values cut away.
 #[test]
 fn cases_that_would_share_a_name_are_told_apart() {
-    let labels: Vec<_> =
-        (0..2).map(|i| format!("{{ label: {}{i}, value: {i} }}", "y".repeat(150))).collect();
+    let labels: Vec<_> = (0..2).map(|i| format!("{{ label: {}{i}, value: {i} }}", "y".repeat(150))).collect();
     let file = crate::yaml::file(&format!("{BALL}sweep: {{ axes: {{ seed: [{}] }} }}\n", labels.join(", ")), &[]);
     let cases = SweepPlan::unbuilt(&file, "test").unwrap().cases;
     assert_ne!(cases[0].name, cases[1].name);

@@ -4,10 +4,10 @@ use gotai::experiment::types::RecordCases;
 use gotai::outcome::Outcome;
 use gotai::rows::columns::OF_A_CLOCK;
 use gotai::rows::{Measured, Row, cells};
+use gotai::sweep::journal::{Entry, Journal, line};
 use gotai::sweep::planned::Planned;
 use gotai::sweep::recordings::known_after;
 use gotai::sweep::runner::build_and_run;
-use gotai::sweep::journal::{Entry, Journal, line};
 use gotai::sweep::store::Store;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
@@ -23,7 +23,9 @@ fn run_again_a_sweep_does_only_what_is_missing() {
     let more = planned(SWEEP, &[]);
     let (ran, rows) = sweep(&more, folder.path(), &[]);
     assert_eq!((ran, rows.len()), (16, 24));
-    assert!(rows.iter().zip(&more.cases).all(|(row, Planned { case, .. })| row.case == case.id && row.axes == case.axes));
+    assert!(
+        rows.iter().zip(&more.cases).all(|(row, Planned { case, .. })| row.case == case.id && row.axes == case.axes)
+    );
 }
 
 #[test]

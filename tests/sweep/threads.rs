@@ -7,8 +7,10 @@ use gotai::record::writer::Target;
 use gotai::rows::Row;
 
 fn hash(rows: &[Row]) -> String {
-    let bits: Vec<Row> =
-        rows.iter().map(|row| Row { measured: row.measured.without_wall_time(), recording: None, ..row.clone() }).collect();
+    let bits: Vec<Row> = rows
+        .iter()
+        .map(|row| Row { measured: row.measured.without_wall_time(), recording: None, ..row.clone() })
+        .collect();
     sha256(serde_json::to_vec(&bits).unwrap(), 32)
 }
 

@@ -46,6 +46,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "experiment",
             "state",
             "clock",
+            "files",
             "build_info",
             "panics",
         ],

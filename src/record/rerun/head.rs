@@ -11,8 +11,8 @@ use ::rerun::components::{Radius, Scalar, Text};
 use ::rerun::log::LogMsg;
 use ::rerun::sink::MemorySinkStorage;
 use ::rerun::{
-    AnyValues, Arrows3D, Color, ComponentIdentifier, EntityPath, LineStrips3D, Mesh3D, Points3D, RecordingStream, RecordingStreamBuilder,
-    RecordingStreamResult, SeriesLines, StoreId, TextDocument, ViewCoordinates,
+    AnyValues, Arrows3D, Color, ComponentIdentifier, EntityPath, LineStrips3D, Mesh3D, Points3D, RecordingStream,
+    RecordingStreamBuilder, RecordingStreamResult, SeriesLines, StoreId, TextDocument, ViewCoordinates,
 };
 use std::error::Error;
 

@@ -224,7 +224,8 @@ fn rows_are_chosen_sorted_and_printed() {
     let column = table.headers().unwrap().iter().position(|name| name == "energy_drift_rel").unwrap();
     let mut drifts: Vec<String> = table.records().map(|row| row.unwrap()[column].to_string()).collect();
     let mut printed: Vec<String> = lines[1..].iter().map(|line| line.rsplit_once(',').unwrap().1.to_string()).collect();
-    (drifts.sort(), printed.sort());
+    drifts.sort();
+    printed.sort();
     assert_eq!(drifts, printed);
     let count = |filters: &[&str]| {
         let filters: Vec<&str> = filters.iter().flat_map(|filter| ["--where", filter]).collect();

@@ -5,6 +5,7 @@ use gotai::experiment::types::Integrator;
 use gotai::measure::Judge;
 use gotai::plan::Plan;
 use gotai::scene::build;
+use gotai::shown::Shown;
 use gotai::step::Stepper;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -46,14 +47,16 @@ fn allocations(sets: &[&str]) -> (u64, u64) {
     let (model, start) = build(&experiment).unwrap();
     let clock = experiment.clock();
     let plan = Plan::new(&model, &experiment.method);
-    let mut stepper = Stepper::new(&experiment.method, &plan, &model, &start);
+    let mut stepper = Stepper::new(&experiment.method.stepping().unwrap(), &plan, &model, &start);
     let mut judge = Judge::new(&model, &start, &experiment.diverge, &plan);
     let (mut before, mut state) = (start.clone(), start);
     let counted = ALLOCATIONS.get();
     while state.step < clock.steps {
         before.copy_from(&state);
         stepper.step(&model, &mut state, &clock);
-        judge.observe(&model, [&before, &before, &state], stepper.contacts(), clock.step_s);
+        let acted = stepper.acted(&before, &clock);
+        let shown = Shown { before: &before, after: &state, acted, way: None, stalled: None, is_last: false };
+        judge.observe(&model, &shown);
     }
     (ALLOCATIONS.get() - counted, stepper.work().contacts)
 }

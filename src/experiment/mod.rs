@@ -7,6 +7,7 @@ mod accuracy;
 pub mod axes;
 pub mod bench;
 mod checks;
+mod chosen;
 pub mod copies;
 mod defaults;
 mod either;

@@ -5,6 +5,7 @@
 //! SI units stand last in the key. Unknown keys are errors.
 
 pub use super::accuracy::Accuracy;
+pub use super::chosen::SteppingMethod;
 use super::defaults::is_default;
 pub use super::limits::{Limits, ReferenceRun};
 pub use super::loads::*;

@@ -130,7 +130,7 @@ fn a_sleeping_top_is_stable_above_its_critical_spin() {
         let (model, start) = gotai::scene::build(&experiment).unwrap();
         let clock = experiment.clock();
         let plan = gotai::plan::Plan::new(&model, &experiment.method);
-        let mut stepper = gotai::step::Stepper::new(&experiment.method, &plan, &model, &start);
+        let mut stepper = gotai::step::Stepper::new(&experiment.method.stepping().unwrap(), &plan, &model, &start);
         let (mut state, mut largest) = (start, 0.0_f64);
         while state.step < clock.steps {
             stepper.step(&model, &mut state, &clock);

@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 fn whole_matrix(experiment: &Experiment, steps: u64) -> DMatrix<f64> {
     let (model, mut state) = build(experiment).unwrap();
     let (clock, plan) = (experiment.clock(), Plan::new(&model, &experiment.method));
-    let mut stepper = Stepper::new(&experiment.method, &plan, &model, &state);
+    let mut stepper = Stepper::new(&experiment.method.stepping().unwrap(), &plan, &model, &state);
     let mut most: (Vec<Contact>, State) = (Vec::new(), state.clone());
     while state.step < steps {
         let before = state.clone();

@@ -84,7 +84,7 @@ fn the_largest_eigenvalue_is_that_of_the_normal_rows() {
         let experiment = experiment(CUBE_IN_BOX, &sets);
         let (model, mut state) = build(&experiment).unwrap();
         let (clock, plan) = (experiment.clock(), Plan::new(&model, &experiment.method));
-        let mut stepper = Stepper::new(&experiment.method, &plan, &model, &state);
+        let mut stepper = Stepper::new(&experiment.method.stepping().unwrap(), &plan, &model, &state);
         let mut before = state.clone();
         while stepper.contacts().is_empty() {
             before = state.clone();

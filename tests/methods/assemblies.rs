@@ -176,8 +176,8 @@ impl Gathered {
                 pushes[i].angular += r_W.cross(impulse_W) * sign;
             }
         }
-        let mut ledger = ResidualLedger::new(true, Approach::Inside, true, &self.model);
-        ledger.observe(&self.model, [&self.state; 2], &solved, &pushes, STEP_S);
+        let mut ledger = ResidualLedger::new(true, true, &self.model);
+        ledger.observe(&self.model, [&self.state; 2], &solved, &pushes, (Approach::Inside, STEP_S));
         ledger.max.unwrap()
     }
 

@@ -104,10 +104,10 @@ fn redundant_contacts_share_a_weight_evenly() {
         for friction in ["0", "0.3", "1.5"] {
             let mesh = format!("scene.bodies.cube.mesh.nodes_per_edge={mesh}");
             let ended = run(&experiment(FACE, &[NEWTON, &mesh, &format!("scene.friction={friction}")]));
-            let share = GRAVITY * ended.step_s / f64::from(n);
-            let uneven = ended.contacts.iter().map(|c| (c.impulse_W.y / share - 1.0).abs()).fold(0.0, f64::max);
-            let sideways = ended.contacts.iter().map(|c| c.impulse_W.xz().norm() / share).fold(0.0, f64::max);
-            assert_eq!(ended.contacts.len(), n as usize);
+            let share = GRAVITY / f64::from(n);
+            let uneven = ended.forces.iter().map(|c| (c.force_W.y / share - 1.0).abs()).fold(0.0, f64::max);
+            let sideways = ended.forces.iter().map(|c| c.force_W.xz().norm() / share).fold(0.0, f64::max);
+            assert_eq!(ended.forces.len(), n as usize);
             // measured: 1.1e-14 and 3.3e-16
             assert!(uneven < 1e-12 && sideways < 1e-12, "{n}: {uneven} {sideways}");
         }

@@ -110,7 +110,8 @@ fn drifts(integrator: Integrator, step_s: f64, steps: u64) -> (f64, f64) {
     let experiment = experiment(BAR, &[&format!("method.free.integrator={}", integrator.word())]);
     let (model, start) = build(&experiment).unwrap();
     let clock = Clock { steps, end_s: step_s * steps as f64, step_s };
-    let mut stepper = Stepper::new(&experiment.method, &Plan::new(&model, &experiment.method), &model, &start);
+    let mut stepper =
+        Stepper::new(&experiment.method.stepping().unwrap(), &Plan::new(&model, &experiment.method), &model, &start);
     let (E0, L0) = kept(&model, &start);
     let (mut state, mut worst) = (start, (0.0_f64, 0.0_f64));
     while state.step < steps {

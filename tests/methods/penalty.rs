@@ -35,7 +35,7 @@ fn at_rest(nodes: u32, sets: &[&str]) -> (Stepper, Model, State) {
     let (model, mut state) = build(&experiment).unwrap();
     state.bodies[0].p_WB.y -= 9.8 / (STIFFNESS * f64::from(nodes * nodes));
     let plan = Plan::new(&model, &experiment.method);
-    (Stepper::new(&experiment.method, &plan, &model, &state), model, state)
+    (Stepper::new(&experiment.method.stepping().unwrap(), &plan, &model, &state), model, state)
 }
 
 fn contacts(model: &Model, state: &State) -> Vec<Contact> {

@@ -7,7 +7,6 @@ use gotai::measure::reference::Reference;
 use gotai::rows::Measured;
 use gotai::scene;
 use gotai::study::reference::{id, made, of};
-use gotai::study::run_against;
 use gotai::sweep::planned::Planned;
 
 /// A body that turns about all its axes and falls: what a reference says of it can be held against the closed form.
@@ -105,7 +104,8 @@ fn until_part(part: u64, sets: &[&str]) -> Measured {
     let (model, start) = scene::build(&experiment).unwrap();
     let mut reference = made(&experiment, &model, &start).unwrap();
     reference.parted_s = Some(2.0 * (part + 1) as f64 / 64.0);
-    run_against(&experiment, &model, start, None, Some(&reference)).measured
+    let method = experiment.method.stepping().unwrap();
+    gotai::run::run(&experiment, &method, &model, start, None, Some(&reference)).measured
 }
 
 #[test]

@@ -27,7 +27,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("collide", &["model", "shape", "state", "work"]),
     ("integrate", &["model", "experiment", "math", "state", "work"]),
     ("plan", &["experiment", "model", "collide"]),
-    ("shown", &["collide", "state"]),
+    ("shown", &["collide", "model", "outcome", "state"]),
     ("scene", &["experiment", "model", "shape", "collide", "state", "work"]),
     ("exact", &["experiment", "model", "shape", "collide", "math", "state"]),
     ("solve", &["experiment", "model", "collide", "math", "state", "work"]),
@@ -37,11 +37,11 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "record",
         &[
+            "shown",
             "measure",
             "case",
             "rows",
             "outcome",
-            "collide",
             "model",
             "experiment",
             "state",
@@ -134,7 +134,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &[
             "sweep",
             "study",
-            "step",
+            "run",
             "measure",
             "plan",
             "check",
@@ -157,6 +157,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "sweep",
             "study",
             "run",
+            "shown",
             "step",
             "record",
             "measure",

@@ -3,7 +3,7 @@
 use super::args::{ExperimentArgs, OutputArgs};
 use super::error::CliError;
 use super::output::{print, print_json};
-use crate::experiment::types::{Method, Shape};
+use crate::experiment::types::Shape;
 use crate::plan::{Plan, Stage};
 use crate::record::sampler::steps_between;
 use crate::run::ticks::ticks;
@@ -144,7 +144,7 @@ fn trial_s(planned: &Planned) -> f64 {
     };
     // With three twins, and two more runs for what two runs agree in.
     let twins = if sensitivity::is_wanted(&case.experiment) { 3.0 } else { 0.0 };
-    let tried = if matches!(case.experiment.method, Method::Auto(_)) { 2.0 } else { 0.0 };
+    let tried = if case.experiment.method.facts().chooses { 2.0 } else { 0.0 };
     started.elapsed().as_secs_f64() * (1.0 + twins + tried) * runs(planned) as f64 / part.max(1e-3)
 }
 

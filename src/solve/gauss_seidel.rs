@@ -47,8 +47,6 @@ pub struct Scratch {
     pub(super) before: Vec<Impulse>,
     pub(super) order: Vec<usize>,
     pub(super) coupling: Memory,
-    /// Of `nncg`.
-    pub(super) direction: Vec<Impulse>,
 }
 
 impl Scratch {
@@ -57,12 +55,9 @@ impl Scratch {
             before: Vec::with_capacity(contacts),
             order: Vec::with_capacity(contacts),
             coupling: Memory::with_capacity(bodies),
-            direction: Vec::with_capacity(contacts),
         }
     }
-}
 
-impl Scratch {
     /// The order of the first sweep.
     pub(super) fn restart(&mut self, sweeps: &Sweeps, contacts: usize) {
         self.order.clear();
@@ -81,7 +76,7 @@ pub fn iterate(
     work: &mut Work,
 ) -> bool {
     scratch.restart(sweeps, p.len());
-    let Scratch { before, order, coupling, .. } = scratch;
+    let Scratch { before, order, coupling } = scratch;
     if problem.is_dense() {
         sweep_until_done(problem, &mut problem.dense(), sweeps, p, before, order, work)
     } else {

@@ -14,6 +14,7 @@ pub mod position;
 pub mod problem;
 mod proximal;
 mod smallest;
+pub mod solver;
 pub mod start;
 
 pub use impulse::{Impulse, corrected};

@@ -4,7 +4,9 @@
 //! solver `pgs` of time-stepping. `after-sweep` is the slide to the letter. As printed the slide's formula is Jacobi;
 //! Gauss–Seidel uses the values already updated.
 
-use super::problem::{Block, ContactProblem, Coupling, Memory};
+use super::block::Block;
+use super::coupling::{Coupling, Memory};
+use super::problem::ContactProblem;
 use super::{Impulse, corrected, exact_contact};
 use crate::experiment::types::{Cone, Correction, Iteration, Local, Order};
 use crate::work::Work;

@@ -3,8 +3,9 @@
 //! Fletcher and Reeves. It starts again whenever a gradient is longer than the one before.
 
 use super::Impulse;
+use super::coupling::Coupling;
 use super::gauss_seidel::{self, Sweeps, has_settled, sweep};
-use super::problem::{ContactProblem, Coupling};
+use super::problem::ContactProblem;
 use crate::work::Work;
 
 /// The solver's memory between steps, to spare the allocator.

@@ -7,8 +7,8 @@ use crate::collide::approach::Approach;
 use crate::experiment::types::Lecture as Settings;
 use crate::model::Model;
 use crate::solve::gauss_seidel::{self, Sweeps, Variant, correct_all, iterate};
-use crate::solve::problem::Twist;
 use crate::solve::start::first_guess;
+use crate::solve::twist::Twist;
 use crate::state::State;
 
 pub struct Lecture {

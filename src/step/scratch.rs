@@ -6,7 +6,8 @@ use crate::integrate::rotation::{turn_at_momentum, turn_literally, w_from_moment
 use crate::model::{Body, Model};
 use crate::plan::Plan;
 use crate::solve::Impulse;
-use crate::solve::problem::{ContactProblem, Twist};
+use crate::solve::problem::ContactProblem;
+use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use crate::work::Work;
 

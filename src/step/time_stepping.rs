@@ -22,9 +22,11 @@ use crate::model::Model;
 use crate::plan::Plan;
 use crate::solve::Impulse;
 use crate::solve::gauss_seidel::{Sweeps, Variant};
+use crate::solve::pins::Pin;
 use crate::solve::position::Push;
-use crate::solve::problem::{ContactProblem, Pin, Twist};
+use crate::solve::problem::ContactProblem;
 use crate::solve::solver::ContactSolver;
+use crate::solve::twist::Twist;
 use crate::state::State;
 use nalgebra::Vector3;
 

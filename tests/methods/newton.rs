@@ -6,7 +6,7 @@ use gotai::experiment::types::Solver;
 use gotai::outcome::Outcome;
 use gotai::rows::Measured;
 use gotai::solve::Impulse;
-use gotai::solve::problem::Twist;
+use gotai::solve::twist::Twist;
 
 const NEWTON: &str = "method.time-stepping.solver=newton";
 

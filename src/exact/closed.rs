@@ -2,7 +2,7 @@
 
 use super::facts::Lacks;
 use super::scene::Motion;
-use crate::experiment::types::{Exact, Experiment, Integrator, Method};
+use crate::experiment::types::{Accuracy, Exact, Experiment};
 use crate::model::Model;
 use crate::state::State;
 
@@ -39,9 +39,7 @@ impl Closed {
 /// The closed forms that an experiment names, and where.
 pub fn named(experiment: &Experiment) -> Vec<(&'static str, Exact)> {
     let mut named: Vec<_> = experiment.exact.iter().map(|exact| ("exact", *exact)).collect();
-    if let Method::Free(free) = &experiment.method
-        && free.integrator == Integrator::Exact
-    {
+    if experiment.method.accuracy() == Accuracy::Closed {
         named.push(("method.free.integrator", Exact::FreeMotion));
     }
     named

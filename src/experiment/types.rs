@@ -7,12 +7,17 @@
 pub use super::accuracy::Accuracy;
 pub use super::chosen::SteppingMethod;
 use super::defaults::is_default;
+pub use super::facts::{About, Approach, ContactModel, Facts, MethodSettings, Restitution};
+pub use super::integrator::Integrator;
 pub use super::limits::{Limits, ReferenceRun};
 pub use super::loads::*;
 pub use super::method::*;
 pub use super::scene::*;
+pub use super::solver::{Solver, SolverFacts};
+pub use super::variants::*;
 use crate::clock::Clock;
 use serde::{Deserialize, Serialize};
+use strum::{IntoStaticStr, VariantArray};
 
 /// One resolved experiment: no axes left in it, every default filled in. What a file holds besides (`sweep`, `expect`,
 /// `bench`) is taken out by `file.rs` before.
@@ -126,7 +131,7 @@ pub enum RecordCases {
     Sample(u32),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, VariantArray)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stream {
     Bodies,
@@ -136,12 +141,13 @@ pub enum Stream {
 }
 
 impl Stream {
-    pub const ALL: [Stream; 4] = [Stream::Bodies, Stream::Contacts, Stream::Forces, Stream::Energy];
+    pub const ALL: &'static [Stream] = Stream::VARIANTS;
 }
 
 /// Closed forms, by name; of which scenes: `exact/scene.rs`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr, VariantArray)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Exact {
     /// Parabola, with constant and harmonic forces, and torque-free rotation of every body.
     FreeMotion,
@@ -178,46 +184,11 @@ pub enum Exact {
 }
 
 impl Exact {
-    /// All of them, as written above; a test holds this against the parser's own list.
-    pub const ALL: [Exact; 16] = [
-        Exact::FreeMotion,
-        Exact::SymmetricBody,
-        Exact::LinearDrag,
-        Exact::QuadraticDrag,
-        Exact::HeavyTop,
-        Exact::Pendulum,
-        Exact::Rest,
-        Exact::Sliding,
-        Exact::Ball,
-        Exact::Turntable,
-        Exact::RockingBlock,
-        Exact::FallingRod,
-        Exact::Ladder,
-        Exact::RimlessWheel,
-        Exact::Dome,
-        Exact::StickSlip,
-    ];
+    pub const ALL: &'static [Exact] = Exact::VARIANTS;
 
     /// Its word in the file.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Exact::FreeMotion => "free-motion",
-            Exact::SymmetricBody => "symmetric-body",
-            Exact::LinearDrag => "linear-drag",
-            Exact::QuadraticDrag => "quadratic-drag",
-            Exact::HeavyTop => "heavy-top",
-            Exact::Pendulum => "pendulum",
-            Exact::Rest => "rest",
-            Exact::Sliding => "sliding",
-            Exact::Ball => "ball",
-            Exact::Turntable => "turntable",
-            Exact::RockingBlock => "rocking-block",
-            Exact::FallingRod => "falling-rod",
-            Exact::Ladder => "ladder",
-            Exact::RimlessWheel => "rimless-wheel",
-            Exact::Dome => "dome",
-            Exact::StickSlip => "stick-slip",
-        }
+    pub fn word(self) -> &'static str {
+        self.into()
     }
 
     /// A motion of bodies in contact; the others meet nothing.

@@ -4,7 +4,8 @@ use crate::yaml::{CUBE_IN_BOX, FREE_BAR, experiment, measured, run};
 use gotai::collide::approach::Approach;
 use gotai::collide::{Detector, Reach};
 use gotai::outcome::Outcome;
-use gotai::solve::problem::{ContactProblem, Twist};
+use gotai::solve::problem::ContactProblem;
+use gotai::solve::twist::Twist;
 use gotai::work::Work;
 use nalgebra::{SymmetricEigen, Vector3};
 

@@ -87,7 +87,7 @@ fn error(a: &State, b: &State) -> f64 {
 fn every_integrator_keeps_its_order_under_forces_air_and_pins() {
     for (scene, text) in SCENES {
         let reference = accurate(text).state;
-        for integrator in Integrator::ALL {
+        for &integrator in Integrator::ALL {
             let Some(order) = claim(integrator).order.filter(|order| *order < 8) else { continue };
             let coarsest = [1e-3, 2.5e-3, 1e-2, 1e-2][order as usize - 1];
             let points: Vec<(f64, f64)> = (0..4)
@@ -145,7 +145,7 @@ fn a_heavy_top_keeps_energy_and_momentum_and_its_pin() {
 #[test]
 fn pins_hold_with_every_integrator_at_any_step() {
     for (scene, text) in [("top", TOP), ("double pendulum", DOUBLE_PENDULUM)] {
-        for integrator in Integrator::ALL.into_iter().filter(|i| *i != Integrator::Exact) {
+        for integrator in Integrator::ALL.iter().copied().filter(|i| *i != Integrator::Exact) {
             for step in ["0.05", "0.001"] {
                 let sets = [format!("method.free.integrator={}", integrator.word()), format!("time.step_s={step}")];
                 let gap = measured(text, &[&sets[0], &sets[1]]).pin_gap_max_m.unwrap();

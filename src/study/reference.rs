@@ -6,6 +6,7 @@
 use crate::build_info::BUILD;
 use crate::case;
 use crate::clock::Clock;
+use crate::digest::{sealed, unsealed};
 use crate::experiment::tolerances::SMALLEST_GLOBAL;
 use crate::experiment::types::{EventDriven, Experiment, Limits, Method, Record, ReferenceRun, SteppingMethod, Time};
 use crate::files::{self, FileError, make_folder, write_whole};
@@ -60,7 +61,8 @@ pub fn path(dir: &Path, experiment: &Experiment) -> Option<PathBuf> {
 pub fn of(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> Result<Option<Reference>, FileError> {
     static WRITING: Mutex<()> = Mutex::new(());
     let Some(path) = path(dir, experiment) else { return Ok(None) };
-    if let Some(reference) = read(&path) {
+    let is_it = |reference: &Reference| reference.build == BUILD && Some(&reference.id) == id(experiment).as_ref();
+    if let Some(reference) = read(&path).filter(is_it) {
         return Ok(Some(reference));
     }
     let made = made(experiment, model, start);
@@ -68,7 +70,7 @@ pub fn of(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> 
         // The name says of what it is: whoever writes last writes the same.
         let _one = WRITING.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         make_folder(dir)?;
-        write_whole(&path, &serde_json::to_vec(reference).unwrap_or_default())?;
+        write_whole(&path, sealed(reference).as_bytes())?;
     }
     Ok(made)
 }
@@ -78,9 +80,9 @@ pub fn of_or_made(dir: &Path, experiment: &Experiment, model: &Model, start: &St
     of(dir, experiment, model, start).unwrap_or_else(|_| made(experiment, model, start))
 }
 
-/// A file that is torn counts as missing.
+/// A file that is torn or changed counts as missing.
 fn read(path: &Path) -> Option<Reference> {
-    serde_json::from_slice(&files::read(path).ok()?).ok()
+    serde_json::from_str(&unsealed(&files::read(path).ok()?)?).ok()
 }
 
 /// Runs a reference; none: the experiment asks for none.

@@ -144,7 +144,7 @@ impl Job<'_> {
             self.progress.end();
             made?;
         }
-        remove(leftovers::older(self.dir, lock(store).recordings())?)
+        remove(lock(store).older_recordings())
     }
 
     /// The kinds of file that are not there, cut, changed, or show something else than what is asked for now.
@@ -179,12 +179,11 @@ impl Job<'_> {
 /// no recording.
 fn chosen<'a>(rule: RecordCases, cases: &'a [Planned], store: &Store) -> Vec<(&'a Planned, Option<Recorded>, Outcome)> {
     let measured: Vec<_> = cases.iter().map(|planned| store.measured(&planned.case.id)).collect();
-    let chosen = known_after(rule, &measured).into_iter();
-    let with_recording = chosen.filter_map(|i| {
-        let recorded = store.recorded(&cases[i].case.id).cloned();
-        Some((&cases[i], recorded, measured[i]?.outcome))
-    });
-    with_recording.filter(|(.., outcome)| *outcome != Outcome::Failed).collect()
+    let chosen = known_after(rule, &measured).into_iter().filter_map(|i| Some((&cases[i], measured[i]?.outcome)));
+    // The first of equal cases stands for all of them.
+    let mut seen = HashSet::new();
+    let first = chosen.filter(|(planned, outcome)| *outcome != Outcome::Failed && seen.insert(&planned.case.id));
+    first.map(|(planned, outcome)| (planned, store.recorded(&planned.case.id).cloned(), outcome)).collect()
 }
 
 /// The first of equal cases stands for all of them.
@@ -247,12 +246,14 @@ pub fn run_one(
     let measured = ended.measured.clone();
     let keep = || {
         store.add(&planned.case.id, measured)?;
-        if let Some(recorded) = written? {
-            store.add_recording(recorded)?;
-        }
+        let recorded = written.and_then(|recorded| match recorded {
+            Some(recorded) => Ok(store.add_recording(recorded)?),
+            None => Ok(()),
+        });
         store.write_tables(false)?;
+        recorded?;
         remove(leftovers::partial(places.recordings)?)?;
-        remove(leftovers::older(places.recordings, store.recordings())?)
+        remove(store.older_recordings())
     };
     let kept = keep();
     (ended, kept)

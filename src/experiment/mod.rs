@@ -7,7 +7,6 @@ mod accuracy;
 pub mod axes;
 pub mod bench;
 mod checks;
-mod chosen;
 pub mod copies;
 mod defaults;
 mod either;

@@ -5,7 +5,6 @@
 //! SI units stand last in the key. Unknown keys are errors.
 
 pub use super::accuracy::Accuracy;
-pub use super::chosen::SteppingMethod;
 use super::defaults::is_default;
 pub use super::facts::{About, Approach, ContactModel, Facts, MethodSettings, Restitution};
 pub use super::integrator::Integrator;

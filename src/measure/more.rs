@@ -62,21 +62,24 @@ pub fn cells(experiment: &Experiment, model: &Model, end: &State, watched: &Watc
             Measure::Sensitivity => Vec::new(),
         }
     };
-    names(experiment).into_iter().zip(experiment.measure.iter().flat_map(of)).collect()
+    // Measure by measure: what one of them leaves out shifts no column of another.
+    let named = |measure: &Measure| names_of(*measure, experiment).into_iter().zip(of(measure));
+    experiment.measure.iter().flat_map(named).collect()
 }
 
 /// Names of those columns, before anything has run.
 pub fn names(experiment: &Experiment) -> Vec<String> {
-    let bodies = &experiment.scene.bodies;
-    // Body by body, as their values come.
-    let of = |measure: &Measure| match headings(*measure) {
-        headings if headings.iter().any(|heading| heading.name.starts_with(EACH_BODY)) => {
-            let of_body = |body: &file::Body| headings.iter().flat_map(|h| h.names_of(&body.name)).collect::<Vec<_>>();
-            bodies.iter().flat_map(of_body).collect()
-        }
-        headings => columns::names(headings),
-    };
-    experiment.measure.iter().flat_map(of).collect()
+    experiment.measure.iter().flat_map(|measure| names_of(*measure, experiment)).collect()
+}
+
+/// Body by body, as their values come.
+fn names_of(measure: Measure, experiment: &Experiment) -> Vec<String> {
+    let headings = headings(measure);
+    if !headings.iter().any(|heading| heading.name.starts_with(EACH_BODY)) {
+        return columns::names(headings);
+    }
+    let of_body = |body: &file::Body| headings.iter().flat_map(|h| h.names_of(&body.name)).collect::<Vec<_>>();
+    experiment.scene.bodies.iter().flat_map(of_body).collect()
 }
 
 /// The columns that a word of `measure:` adds.

@@ -13,11 +13,13 @@ use crate::files::{self, FileError, make_folder, write_whole};
 use crate::measure::error::Errors;
 use crate::measure::reference::{PARTS, Reference, Sample};
 use crate::model::Model;
+use crate::outcome::Criterion;
 use crate::run::advance::Advance;
 use crate::run::ticks::Parts;
 use crate::state::{BodyState, State};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
+use std::time::Instant;
 
 /// From the tolerance of one run to that of the other.
 const SECOND: f64 = 10.0;
@@ -66,7 +68,9 @@ pub fn of(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> 
         return Ok(Some(reference));
     }
     let made = made(experiment, model, start);
-    if let Some(reference) = &made {
+    // How far one comes in a given time is another thing every time: nobody else is to find it.
+    let is_lasting = |reference: &&Reference| reference.criterion.as_deref() != Some(Criterion::Limit.name());
+    if let Some(reference) = made.as_ref().filter(is_lasting) {
         // The name says of what it is: whoever writes last writes the same.
         let _one = WRITING.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         make_folder(dir)?;
@@ -89,8 +93,13 @@ fn read(path: &Path) -> Option<Reference> {
 pub fn made(experiment: &Experiment, model: &Model, start: &State) -> Option<Reference> {
     let ReferenceRun { tolerance } = experiment.reference.clone()?;
     let second_tolerance = second(tolerance);
-    let [first, second] = [tolerance, second_tolerance]
-        .map(|tolerance| follow(by_events(experiment, tolerance), experiment, model, start));
+    let started = Instant::now();
+    let [first, second] = [tolerance, second_tolerance].map(|tolerance| {
+        // Both together have the wall time of a run.
+        let left_s = |wall_s: f64| (wall_s - started.elapsed().as_secs_f64()).max(0.0);
+        let limits = Limits { wall_s: experiment.limits.wall_s.map(left_s), ..Limits::default() };
+        follow(by_events(experiment, tolerance), &limits, experiment, model, start)
+    });
     let apart_m = |(a, b): (&State, &State)| Errors::between(a, b).position_m;
     let samples: Vec<Sample> =
         first.states.iter().zip(&second.states).map(|pair| Sample::new(pair.0, apart_m(pair))).collect();
@@ -123,12 +132,11 @@ struct Followed {
     criterion: Option<String>,
 }
 
-fn follow(settings: EventDriven, experiment: &Experiment, model: &Model, start: &State) -> Followed {
+fn follow(settings: EventDriven, limits: &Limits, experiment: &Experiment, model: &Model, start: &State) -> Followed {
     let end_s = experiment.time.end_s;
     let clock = Clock::new(end_s, end_s);
     let mut parts = Parts::new(PARTS, &clock, start);
-    let limits = Limits::default();
-    let mut advance = Advance::new(&SteppingMethod::EventDriven(settings), model, start.clone(), clock, &limits);
+    let mut advance = Advance::new(&SteppingMethod::EventDriven(settings), model, start.clone(), clock, limits);
     let mut states = vec![start.clone()];
     while let Some(shown) = advance.next(model) {
         parts.show(model, &shown, |_, state| states.push(state.clone()));

@@ -101,6 +101,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "experiment",
             "case",
             "rows",
+            "outcome",
             "work",
             "state",
             "clock",

@@ -71,6 +71,6 @@ impl Command {
 
 /// A replay that is under way holds its lock.
 fn refuse_running(replays: &[PathBuf]) -> Result<(), CliError> {
-    let locks = replays.iter().filter(|path| path.extension().is_some_and(|ending| ending == LOCK));
-    locks.map(|path| open_alone(path, path).map(drop)).collect::<Result<(), _>>().map_err(CliError::from)
+    let mut locks = replays.iter().filter(|path| path.extension().is_some_and(|ending| ending == LOCK));
+    Ok(locks.try_for_each(|path| open_alone(path, path).map(drop))?)
 }

@@ -43,7 +43,7 @@ impl Method {
     ///
     /// # Errors
     /// It leaves that to another one.
-    pub fn stepping(&self) -> Result<SteppingMethod, &Auto> {
+    pub fn stepping(&self) -> std::result::Result<SteppingMethod, &Auto> {
         Ok(match self {
             Method::Free(settings) => SteppingMethod::Free(settings.clone()),
             Method::Lecture(settings) => SteppingMethod::Lecture(settings.clone()),

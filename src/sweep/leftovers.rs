@@ -1,5 +1,5 @@
-//! Files of recordings that nobody needs: what a kill has left half written, what a newer one stands for. Only names that
-//! this program has written itself: a user's copies are his.
+//! Files of recordings that nobody needs: what a kill has left half written, what a newer one stands for. Only names
+//! that this program has written itself: a user's copies are his.
 
 use super::journal::Journal;
 use super::recorded::Recorded;

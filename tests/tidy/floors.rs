@@ -92,11 +92,9 @@ const ROOMS: &[(&str, &[&str])] = &[
         "study",
         &[
             "run",
-            "step",
             "record",
             "measure",
             "collide",
-            "plan",
             "model",
             "experiment",
             "case",

@@ -10,6 +10,7 @@ pub mod dome;
 mod dome_scene;
 mod facts;
 pub mod falling_rod;
+mod following;
 pub mod free_rotation;
 pub mod heavy_top;
 pub mod inverted_pendulum;

@@ -89,5 +89,6 @@ impl Turntable {
             }
             series
         })
+        .q_WB
     }
 }

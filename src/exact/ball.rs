@@ -15,10 +15,23 @@
 //! last time. Known limits: the error grows by some ulp with every impact before t.
 
 use super::arc::{self, Arc};
-use super::facts::SAME;
+use super::facts::{Lacks, SAME};
+use super::form::{ClosedForm, ExactMotion};
+use super::touching::{on_its_own, rounding_m, sphere};
+use crate::model::Model;
 use crate::state::BodyState;
+use crate::state::State;
 use nalgebra::Vector3;
 use std::cell::{OnceCell, RefCell};
+
+pub(super) const FORM: ClosedForm = ClosedForm {
+    what: "Flights, impacts with restitution (normal and tangential) and friction up to Zeno's point, sliding, \
+           rolling.",
+    source: "Walton 1993; Garwin, Am. J. Phys. 37 (1969) 88; Routh, Advanced Rigid Dynamics, 240",
+    scenes: "Gravity, constant forces of the world at the centre of mass; one sphere and a container of one plane; \
+           where it slips, along the line of slope or on a level plane.",
+    motion,
+};
 
 /// Impacts weaker than this part of the first one are left out: their times differ by less than rounding.
 const WEAKEST: f64 = 1e-18;
@@ -305,4 +318,30 @@ impl Setting {
         arcs.push(arc(t_s, at, if needed <= limit { rolling } else { rolling * (limit / needed) }));
         arcs
     }
+}
+
+fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
+    let at = &start.bodies[index];
+    let (face, acceleration_m_s2) = on_its_own(model, index)?;
+    let body = &model.bodies[index];
+    let (radius_m, inertia) = sphere(body)?;
+    let gap_m = face.gap_m(&at.p_WB) - radius_m;
+    let near_m = rounding_m(radius_m, at);
+    if gap_m < -near_m {
+        return Err(format!("`{}` outside the plane", body.name));
+    }
+    let surface = model.pair(index, None);
+    let setting = Setting {
+        normal: face.normal,
+        acceleration_m_s2,
+        radius_m,
+        inertia,
+        friction: surface.friction,
+        restitution: surface.restitution,
+        tangential_restitution: surface.tangential_restitution,
+    };
+    let height_m = if gap_m <= near_m { 0.0 } else { gap_m };
+    let ball = Ball::new(setting, at, height_m)
+        .ok_or_else(|| format!("`{}` slipping along the line of slope, or on a level plane", body.name))?;
+    Ok(ExactMotion::new(move |t_s| ball.at(t_s)))
 }

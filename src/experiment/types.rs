@@ -138,96 +138,52 @@ impl Stream {
     pub const ALL: [Stream; 4] = [Stream::Bodies, Stream::Contacts, Stream::Forces, Stream::Energy];
 }
 
-/// Closed forms, by name; of which scenes: `exact/scene.rs`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// Closed forms, by name; what each is and of which scenes stands in its file, `exact/<name>.rs`.
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Serialize,
+    Deserialize,
+    strum::VariantArray,
+    strum::IntoStaticStr,
+)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Exact {
-    /// Parabola, with constant and harmonic forces, and torque-free rotation of every body.
+    // Bodies that meet nothing.
     FreeMotion,
-    /// The same without forces, of bodies of revolution, by elementary functions.
     SymmetricBody,
-    /// Gravity and linear drag.
     LinearDrag,
-    /// Gravity and quadratic drag along one line.
     QuadraticDrag,
-    /// A body of revolution on a pin.
     HeavyTop,
-    /// A body on a pin that swings in a plane.
     Pendulum,
-    /// Bodies that stay where they are.
+    // Bodies in contact, from here on: `touches`.
     Rest,
-    /// A body that slides on a plane without turning.
     Sliding,
-    /// A ball that bounces, slides and rolls on a plane.
     Ball,
-    /// A ball that rolls on a level table that turns.
     Turntable,
-    /// A box that rocks on two edges.
     RockingBlock,
-    /// A capsule that falls over on a smooth floor.
     FallingRod,
-    /// A capsule that slides down a smooth wall, on a smooth floor.
     Ladder,
-    /// A regular prism that rolls over its edges.
     RimlessWheel,
-    /// A ball that slides or rolls off a fixed ball.
     Dome,
-    /// A body on a plane under a harmonic force.
     StickSlip,
 }
 
 impl Exact {
-    /// All of them, as written above; a test holds this against the parser's own list.
-    pub const ALL: [Exact; 16] = [
-        Exact::FreeMotion,
-        Exact::SymmetricBody,
-        Exact::LinearDrag,
-        Exact::QuadraticDrag,
-        Exact::HeavyTop,
-        Exact::Pendulum,
-        Exact::Rest,
-        Exact::Sliding,
-        Exact::Ball,
-        Exact::Turntable,
-        Exact::RockingBlock,
-        Exact::FallingRod,
-        Exact::Ladder,
-        Exact::RimlessWheel,
-        Exact::Dome,
-        Exact::StickSlip,
-    ];
-
     /// Its word in the file.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Exact::FreeMotion => "free-motion",
-            Exact::SymmetricBody => "symmetric-body",
-            Exact::LinearDrag => "linear-drag",
-            Exact::QuadraticDrag => "quadratic-drag",
-            Exact::HeavyTop => "heavy-top",
-            Exact::Pendulum => "pendulum",
-            Exact::Rest => "rest",
-            Exact::Sliding => "sliding",
-            Exact::Ball => "ball",
-            Exact::Turntable => "turntable",
-            Exact::RockingBlock => "rocking-block",
-            Exact::FallingRod => "falling-rod",
-            Exact::Ladder => "ladder",
-            Exact::RimlessWheel => "rimless-wheel",
-            Exact::Dome => "dome",
-            Exact::StickSlip => "stick-slip",
-        }
+    pub fn word(self) -> &'static str {
+        self.into()
     }
 
     /// A motion of bodies in contact; the others meet nothing.
-    pub const fn touches(self) -> bool {
-        match self {
-            Exact::FreeMotion | Exact::SymmetricBody | Exact::LinearDrag | Exact::QuadraticDrag => false,
-            Exact::HeavyTop | Exact::Pendulum => false,
-            Exact::Rest | Exact::Sliding | Exact::Ball => true,
-            Exact::Turntable | Exact::RockingBlock | Exact::FallingRod | Exact::Ladder => true,
-            Exact::RimlessWheel | Exact::Dome | Exact::StickSlip => true,
-        }
+    pub fn touches(self) -> bool {
+        self >= Exact::Rest
     }
 }
 

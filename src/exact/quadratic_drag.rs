@@ -19,8 +19,8 @@ use nalgebra::Vector3;
 pub(super) const FORM: ClosedForm = ClosedForm {
     what: "Newton's drag, tanh and ln cosh, and torque-free rotation.",
     source: "Parker, Am. J. Phys. 45 (1977) 606",
-    scenes: "Gravity, constant forces of the world at the centre of mass, air with a `drag_coefficient`; velocity along \
-           the line of the forces, or no forces.",
+    scenes: "Gravity, constant forces of the world at the centre of mass, air with a `drag_coefficient`; velocity \
+           along the line of the forces, or no forces.",
     motion,
 };
 

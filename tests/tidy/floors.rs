@@ -247,7 +247,6 @@ fn a_mod_rs_is_a_face() {
 const SHARED: &[&str] = &[
     "Axis",
     "Ball",
-    "Block",
     "Body",
     "BodyState",
     "Bounds",
@@ -264,7 +263,6 @@ const SHARED: &[&str] = &[
     "Inertia",
     "Law",
     "Lecture",
-    "Motion",
     "Order",
     "Pair",
     "Penalty",
@@ -277,7 +275,6 @@ const SHARED: &[&str] = &[
     "Series",
     "Start",
     "TimeStepping",
-    "Turning",
 ];
 
 #[test]

@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The lowest point of each sphere, along `-normal`.
+#[inline]
 pub(super) fn each_lowest(
     radius_m: f64,
     half_height_m: f64,
@@ -20,11 +21,13 @@ pub(super) fn each_lowest(
 }
 
 /// The core's point farthest along `d`.
+#[inline]
 pub(super) fn support(half_height_m: f64, d: &Vector3<f64>) -> Vector3<f64> {
     Vector3::y() * half_height_m.copysign(d.y)
 }
 
 /// An end of the core.
+#[inline]
 pub(super) fn end(half_height_m: f64, number: u32) -> Vector3<f64> {
     Vector3::y() * if number == 0 { -half_height_m } else { half_height_m }
 }

@@ -12,6 +12,7 @@ pub fn bounding_radius_m(hull: &Hull) -> f64 {
 }
 
 /// The corner farthest along `d`, the first of equals.
+#[inline]
 pub(super) fn support(hull: &Hull, d: &Vector3<f64>) -> Vector3<f64> {
     let mut farthest = (f64::NEG_INFINITY, Vector3::zeros());
     for vertex in &hull.vertices {

@@ -11,11 +11,13 @@ pub(super) const FACES: [[u32; 4]; 6] =
     [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
 /// A corner: bits 0, 1, 2 of its number say on which side in x, y, z.
+#[inline]
 pub(super) fn corner(half_m: &Vector3<f64>, number: u32) -> Vector3<f64> {
     Vector3::from_fn(|axis, _| if number >> axis & 1 == 1 { half_m[axis] } else { -half_m[axis] })
 }
 
 /// The corner farthest along `d`.
+#[inline]
 pub(super) fn support(half_m: &Vector3<f64>, d: &Vector3<f64>) -> Vector3<f64> {
     half_m.zip_map(d, f64::copysign)
 }

@@ -15,6 +15,7 @@ pub fn bounding_radius_m(radius_m: f64, half_height_m: f64) -> f64 {
 }
 
 /// Of each rim the lowest point and those a quarter turn on, along `-normal`.
+#[inline]
 pub(super) fn each_lowest(
     radius_m: f64,
     half_height_m: f64,
@@ -29,11 +30,13 @@ pub(super) fn each_lowest(
 }
 
 /// The point farthest along `d`.
+#[inline]
 pub(super) fn support(radius_m: f64, half_height_m: f64, d: &Vector3<f64>) -> Vector3<f64> {
     radial(d) * radius_m + Vector3::y() * half_height_m.copysign(d.y)
 }
 
 /// Second derivative of the support function at a unit d.
+#[inline]
 pub(super) fn curvature(radius_m: f64, d: &Vector3<f64>) -> Matrix3<f64> {
     let radial = Vector3::new(d.x, 0.0, d.z);
     let along = Matrix3::from_diagonal(&Vector3::new(1.0, 0.0, 1.0));
@@ -41,6 +44,7 @@ pub(super) fn curvature(radius_m: f64, d: &Vector3<f64>) -> Matrix3<f64> {
 }
 
 /// Radial unit vectors: the one nearest to `along`, then by quarter turns about y.
+#[inline]
 pub(super) fn rim_directions(along: &Vector3<f64>) -> [Vector3<f64>; 4] {
     let radial = Vector3::new(along.x, 0.0, along.z);
     let length = radial.norm();
@@ -50,6 +54,7 @@ pub(super) fn rim_directions(along: &Vector3<f64>) -> [Vector3<f64>; 4] {
 }
 
 /// However little of `d` is radial, as separations are measured with it; x if nothing is.
+#[inline]
 fn radial(d: &Vector3<f64>) -> Vector3<f64> {
     Vector3::new(d.x, 0.0, d.z).try_normalize(0.0).unwrap_or_else(Vector3::x)
 }

@@ -9,12 +9,14 @@ use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// The point farthest along `d`.
+#[inline]
 pub(super) fn support(semi_axes_m: &Vector3<f64>, d: &Vector3<f64>) -> Vector3<f64> {
     let scaled = semi_axes_m.component_mul(d);
     semi_axes_m.component_mul(&scaled) / scaled.norm()
 }
 
 /// Second derivative of the support function at a unit d.
+#[inline]
 pub(super) fn curvature(semi_axes_m: &Vector3<f64>, d: &Vector3<f64>) -> Matrix3<f64> {
     let squares = semi_axes_m.component_mul(semi_axes_m);
     let (h, point) = (semi_axes_m.component_mul(d).norm(), squares.component_mul(d));

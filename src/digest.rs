@@ -1,5 +1,6 @@
-//! SHA-256, in lower-case hexadecimal.
+//! SHA-256, in lower-case hexadecimal; JSON that says whether it is whole.
 
+use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::io::{self, BufRead};
 
@@ -24,6 +25,25 @@ pub fn sha256_of(mut content: impl BufRead) -> io::Result<(u64, String)> {
         content.consume(len);
         bytes += len as u64;
     }
+}
+
+/// Between what a sealed object says and its checksum.
+const SEAL: &str = ",\"sum\":\"";
+/// Of the checksum.
+const SEAL_BYTES: usize = 8;
+
+/// A JSON object with one more member, 64 bits of the SHA-256 of all before it.
+pub fn sealed(object: &impl Serialize) -> String {
+    let text = serde_json::to_string(object).unwrap_or_default();
+    let said = text.strip_suffix('}').unwrap_or_default();
+    format!("{said}{SEAL}{}\"}}", sha256(said, SEAL_BYTES))
+}
+
+/// What a sealed object said; none: it is not what was written. (The end of a line may have been translated.)
+pub fn unsealed(text: &[u8]) -> Option<String> {
+    let (said, sum) = std::str::from_utf8(text).ok()?.trim_end_matches(['\r', '\n']).rsplit_once(SEAL)?;
+    let is_whole = sum.strip_suffix("\"}")? == sha256(said, SEAL_BYTES);
+    is_whole.then(|| format!("{said}}}"))
 }
 
 pub fn hex(bytes: &[u8]) -> String {

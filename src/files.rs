@@ -1,5 +1,6 @@
 //! Whole files or none, and what is said when the machine fails.
 
+use std::fs::{File, Metadata};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -54,6 +55,18 @@ pub fn remove_empty_folder(path: &Path) -> Result<(), FileError> {
         }
         _ => Ok(()),
     }
+}
+
+/// Whether an open file is the one that is now at this path; where a system cannot tell, it is.
+pub fn is_at(file: &File, path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let same = |(a, b): (Metadata, Metadata)| (a.dev(), a.ino()) == (b.dev(), b.ino());
+        file.metadata().ok().zip(std::fs::metadata(path).ok()).is_some_and(same)
+    }
+    #[cfg(not(unix))]
+    true
 }
 
 /// What is in a file.

@@ -2,8 +2,7 @@
 //!
 //! A skip follows from a property that is checked, never from one mesh or scene, and changes no bit of the motion.
 
-use crate::collide::approach::Approach;
-use crate::experiment::types::{Auto, Impact, Method, Scheme};
+use crate::experiment::types::{Approach, ContactModel, Facts, Impact, Method, PositionCorrection};
 use crate::model::Model;
 
 /// Decided once a run.
@@ -32,35 +31,23 @@ pub struct Stage {
 
 impl Plan {
     pub fn new(model: &Model, method: &Method) -> Self {
-        let contact = contact(model, method);
-        let friction = friction(model, method, contact.runs);
+        let facts = method.facts();
+        let contact = contact(model, method.word(), facts.contact);
+        let friction = friction(model, &facts, contact.runs);
         let (has_contact, has_friction) = (contact.runs, friction.runs);
         let mut stages = vec![
             contact,
             friction,
-            gyroscopic(model, method),
-            position_correction(method, has_contact),
+            gyroscopic(model, facts.gyroscopic),
+            position_correction(facts.position_correction, has_contact),
             loads(model),
             pins(model),
         ];
-        stages.extend(events(model, method));
-        stages.extend(choice(method));
+        stages.extend(facts.follows_events.then(|| events(model)));
+        stages.extend(facts.tolerance.filter(|_| facts.chooses).map(choice));
         let newton = method.impact() == Impact::Newton;
-        let constraint = has_contact && !matches!(method, Method::Penalty(_));
-        Plan { contact: has_contact, constraint, friction: has_friction, approach: approach(method), newton, stages }
-    }
-}
-
-/// How a method steps through a contact.
-fn approach(method: &Method) -> Approach {
-    match method {
-        Method::TimeStepping(stepping) => match stepping.scheme {
-            Scheme::SemiImplicit => Approach::Start,
-            Scheme::Moreau => Approach::Middle,
-        },
-        // From event to event an impact takes no time, and forces do not act in it.
-        Method::EventDriven(_) | Method::Auto(_) => Approach::Inside,
-        Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) => Approach::Inside,
+        let constraint = has_contact && facts.contact == ContactModel::Law;
+        Plan { contact: has_contact, constraint, friction: has_friction, approach: facts.approach, newton, stages }
     }
 }
 
@@ -68,7 +55,7 @@ fn stage(name: &'static str, runs: bool, why: impl Into<String>) -> Stage {
     Stage { name, runs, why: why.into() }
 }
 
-fn contact(model: &Model, method: &Method) -> Stage {
+fn contact(model: &Model, method: &str, by: ContactModel) -> Stage {
     let name = "contact test";
     let feeling = model.bodies.iter().filter(|body| body.feels_container());
     let points: usize = feeling.map(|body| body.geometry.points()).sum();
@@ -78,7 +65,7 @@ fn contact(model: &Model, method: &Method) -> Stage {
         || format!("{points} points, {faces} faces; a face beyond the bounding radius costs one dot product");
     let with_others = || format!("{solids} bodies, of which only those with overlapping bounds are compared");
     match (faces > 0 && points > 0, model.touching_pairs) {
-        _ if matches!(method, Method::Free(_)) => stage(name, false, "`free` is motion without contact"),
+        _ if by == ContactModel::None => stage(name, false, format!("`{method}` is motion without contact")),
         (false, false) if faces == 0 && points > 0 => stage(name, false, "no container: nothing to hit"),
         (false, false) => stage(name, false, "no body has a shape"),
         (true, false) => stage(name, true, with_faces()),
@@ -87,28 +74,20 @@ fn contact(model: &Model, method: &Method) -> Stage {
     }
 }
 
-fn friction(model: &Model, method: &Method, contact: bool) -> Stage {
+fn friction(model: &Model, facts: &Facts, contact: bool) -> Stage {
     let name = "friction rows";
     let rough = model.is_rough();
-    match method {
+    match facts.tangents_anyway {
         _ if !contact => stage(name, false, "no contact test"),
-        Method::Lecture(_) if !rough => {
-            stage(name, true, "μ = 0, but the lecture corrects after the sweep: tangent rows are felt inside it")
-        }
-        _ if !rough => stage(name, false, "μ = 0: normal rows only"),
-        _ => stage(name, true, "μ > 0"),
+        _ if rough => stage(name, true, "μ > 0"),
+        Some(why) => stage(name, true, format!("μ = 0, but {why}")),
+        None => stage(name, false, "μ = 0: normal rows only"),
     }
 }
 
-fn gyroscopic(model: &Model, method: &Method) -> Stage {
-    use crate::experiment::types::Rotation::Literal;
+fn gyroscopic(model: &Model, has_it: bool) -> Stage {
     let name = "gyroscopic term";
-    let literal = match method {
-        Method::Lecture(s) => s.rotation == Literal,
-        Method::Penalty(s) => s.rotation == Literal,
-        _ => false,
-    };
-    if literal {
+    if !has_it {
         stage(name, false, "`rotation: literal` leaves it out, as the slides do")
     } else if model.bodies.iter().all(|b| b.isotropic) {
         stage(name, false, "all moments of inertia are equal")
@@ -117,46 +96,39 @@ fn gyroscopic(model: &Model, method: &Method) -> Stage {
     }
 }
 
-fn position_correction(method: &Method, contact: bool) -> Stage {
-    use crate::experiment::types::PositionCorrection::Projection;
+fn position_correction(by: Option<PositionCorrection>, contact: bool) -> Stage {
     let name = "position correction";
-    match method {
+    match by {
         _ if !contact => stage(name, false, "no contact test"),
-        Method::TimeStepping(s) if s.position_correction == Projection => {
-            stage(name, true, "only in steps that would end with a contact inside")
-        }
-        Method::TimeStepping(_) => stage(name, false, "position_correction: none"),
-        _ => stage(name, false, "the method has none"),
+        Some(PositionCorrection::Projection) => stage(name, true, "only in steps that would end with a contact inside"),
+        Some(PositionCorrection::None) => stage(name, false, "position_correction: none"),
+        None => stage(name, false, "the method has none"),
     }
 }
 
-/// What a method that follows events does between them; of other methods nothing.
-fn events(model: &Model, method: &Method) -> Option<Stage> {
-    if !method.follows_events() {
-        return None;
-    }
+/// What a method that follows events does between them.
+fn events(model: &Model) -> Stage {
     let name = "integration between events";
     let moving = || model.bodies.iter().enumerate().filter(|(_, body)| !body.driven);
     let pinned = moving().any(|(i, _)| model.pins.iter().any(|pin| pin.holds(i)));
     let loaded = moving().any(|(i, _)| model.constant_pull(i).is_none());
-    Some(match (pinned || loaded, moving().all(|(_, body)| body.is_centred_ball() || body.solid().is_none())) {
+    match (pinned || loaded, moving().all(|(_, body)| body.is_centred_ball() || body.solid().is_none())) {
         (true, _) => stage(name, true, "pins, or forces that change: no closed form"),
         (false, true) => stage(name, false, "flight, and balls that slide straight or roll, have closed forms"),
         (false, false) => {
             stage(name, true, "only while a body turns in contact; flight, rest and straight slips are closed")
         }
-    })
+    }
 }
 
-/// What `auto` considers; of other methods nothing.
-fn choice(method: &Method) -> Option<Stage> {
-    let Method::Auto(Auto { tolerance }) = method else { return None };
+/// What `auto` considers.
+fn choice(tolerance: f64) -> Stage {
     let why = format!(
         "event-driven at {tolerance:e} and finer, until two runs agree to {tolerance:e} m; where all stall or fall \
          back, time-stepping (moreau, newton), its step halved until two runs agree or a \
          budget is used up"
     );
-    Some(stage("choice of method", true, why))
+    stage("choice of method", true, why)
 }
 
 fn loads(model: &Model) -> Stage {

@@ -3,7 +3,6 @@
 
 use crate::yaml;
 use gotai::outcome::Outcome;
-use gotai::study::run;
 use gotai::sweep::plan::cases;
 use gotai::sweep::planned::Planned;
 use rayon::prelude::*;
@@ -30,13 +29,7 @@ fn map(sets: &[&str]) -> (BTreeMap<(String, String), u64>, f64) {
     let sets: Vec<&str> = sets.iter().copied().chain([seeds.as_str()]).collect();
     let cases = cases(&yaml::file(&text.unwrap(), &sets)).unwrap();
     assert_eq!(cases.len() as u64, 7 * 6 * SEEDS);
-    let measured: Vec<_> = cases
-        .par_iter()
-        .map(|Planned { case, .. }| {
-            let (model, start) = gotai::scene::build(&case.experiment).unwrap();
-            run(&case.experiment, &model, start, None).measured
-        })
-        .collect();
+    let measured: Vec<_> = cases.par_iter().map(|Planned { case, .. }| yaml::run(&case.experiment).measured).collect();
     let mut exploded = BTreeMap::new();
     let mut gain = 0.0_f64;
     for (Planned { case, .. }, m) in cases.iter().zip(&measured) {

@@ -4,7 +4,7 @@ use gotai::experiment::ExperimentFile;
 use gotai::experiment::types::Experiment;
 use gotai::rows::Measured;
 use gotai::run::Ended;
-use gotai::study;
+use gotai::study::{self, Place};
 use gotai::sweep::plan;
 use std::path::Path;
 
@@ -20,7 +20,7 @@ pub fn experiment(text: &str, sets: &[&str]) -> Experiment {
 /// Runs without recorders.
 pub fn run(experiment: &Experiment) -> Ended {
     let (model, start) = gotai::scene::build(experiment).unwrap();
-    study::run(experiment, &model, start, None)
+    study::measure(experiment, &model, start, &Place::default()).ended
 }
 
 pub fn measured(text: &str, sets: &[&str]) -> Measured {

@@ -7,17 +7,15 @@ use crate::experiment::key_path::{self, KeyPath, Segment};
 use crate::experiment::predicate::Column;
 use crate::experiment::types::{Accuracy, Experiment};
 use crate::experiment::{ExperimentError, ExperimentFile, Value};
-use crate::files::FileError;
 use crate::measure::more;
-use crate::measure::reference::Reference;
 use crate::model::Model;
 use crate::outcome::Outcome;
+use crate::panics;
 use crate::rows::trials::Trial;
 use crate::rows::{Measured, cells, finite};
 use crate::state::State;
-use crate::study::{choose, reference};
+use crate::study::{self, Place, Studied};
 use crate::sweep::build::build;
-use crate::{panics, study};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
@@ -32,8 +30,6 @@ pub struct Contender {
     pub experiment: Experiment,
     pub model: Model,
     pub start: State,
-    /// What errors are measured against if the experiment has a `reference`; none: each run makes its own.
-    pub reference: Option<Reference>,
 }
 
 /// The program failed: timed and judged run of a contender end in different states.
@@ -93,26 +89,7 @@ fn contender(file: &ExperimentFile, listed: &Listed, value: Option<(f64, KeyPath
     let (model, start) = build(file, &[], &experiment)?;
     let by_step = (accuracy == Accuracy::Step).then(|| experiment.clock().step_s);
     let tolerance = experiment.method.tolerance();
-    Ok(Contender {
-        method: listed.label.clone(),
-        step_s: by_step,
-        tolerance,
-        experiment,
-        model,
-        start,
-        reference: None,
-    })
-}
-
-/// Reads the references of all contenders from a folder, or makes them there.
-///
-/// # Errors
-/// The folder cannot be written.
-pub fn add_references(contenders: &mut [Contender], dir: &Path) -> std::result::Result<(), FileError> {
-    for contender in contenders {
-        contender.reference = reference::of(dir, &contender.experiment, &contender.model, &contender.start)?;
-    }
-    Ok(())
+    Ok(Contender { method: listed.label.clone(), step_s: by_step, tolerance, experiment, model, start })
 }
 
 /// Axes that mean nothing here.
@@ -132,24 +109,25 @@ fn check_error(experiment: &Experiment, bench: &Bench) -> Result<()> {
     Ok(())
 }
 
-/// Runs a contender: once judged, then as often as its time needs.
+/// Runs a contender: once judged, then as often as its time needs. References are kept in a folder, if there is one.
 ///
 /// # Errors
 /// The two end in different states.
-pub fn run(contender: &Contender, bench: &Bench, scene: &str) -> std::result::Result<Trial, NotDeterministic> {
+pub fn run(
+    contender: &Contender,
+    bench: &Bench,
+    scene: &str,
+    references: Option<&Path>,
+) -> std::result::Result<Trial, NotDeterministic> {
     let Contender { model, start, .. } = contender;
-    // The search for a method is not what is timed.
-    let choice = choose::choose(&contender.experiment, model, start);
-    let experiment = choice.as_ref().map_or(&contender.experiment, |choice| &choice.experiment);
+    let place = Place { references, recording: None };
     let judged = catch_unwind(AssertUnwindSafe(|| {
-        let made = contender.reference.is_none().then(|| reference::made(experiment, model, start)).flatten();
-        let reference = contender.reference.as_ref().or(made.as_ref());
-        study::run_as(choice.as_ref(), &contender.experiment, model, start.clone(), None, reference)
+        let Studied { ended, chosen, .. } = study::measure(&contender.experiment, model, start.clone(), &place);
+        (ended.measured, Some((ended.state, chosen)))
     }));
-    let (measured, end) = match judged {
-        Ok(ended) => (ended.measured, Some(ended.state)),
-        Err(panic) => (Measured::failed(panics::message(panic.as_ref()).to_string()), None),
-    };
+    let (measured, run) =
+        judged.unwrap_or_else(|panic| (Measured::failed(panics::message(panic.as_ref()).to_string()), None));
+    let experiment = run.as_ref().map_or(&contender.experiment, |(_, chosen)| &chosen.experiment);
     let steps = match experiment.method.accuracy() {
         Accuracy::Tolerance(_) if !experiment.method.follows_events() => measured.work.inner_steps,
         _ => measured.steps,
@@ -169,9 +147,10 @@ pub fn run(contender: &Contender, bench: &Bench, scene: &str) -> std::result::Re
         criterion: measured.criterion.clone(),
     };
     // Neither the error nor the time of half a motion can be compared.
-    if measured.outcome == Outcome::Finished {
-        let timed = super::timing::time(experiment, model, start, bench.repeats);
-        if end.is_none_or(|end| end != timed.end) {
+    if let (Outcome::Finished, Some((end, chosen))) = (measured.outcome, &run) {
+        // The search for a method is not what is timed.
+        let timed = super::timing::time(chosen, model, start, bench.repeats);
+        if *end != timed.end {
             return Err(NotDeterministic(format!("{scene}, {}", contender.method)));
         }
         row.error = cells(&measured).get(&bench.error).and_then(|x| x.as_f64()).map(f64::abs);

@@ -8,4 +8,4 @@ mod contender;
 pub mod peer;
 pub mod timing;
 
-pub use contender::{Contender, NotDeterministic, add_references, plan, run};
+pub use contender::{Contender, NotDeterministic, plan, run};

@@ -38,10 +38,10 @@ pub fn run(scene: &str, repeats: u32, step_s: f64, settings: &[String]) -> Resul
     let file = ExperimentFile::from_text(Path::new("scene"), &experiment.to_string(), &[])?;
     let written = single_case(&file)?.experiment;
     let (model, start) = build(&file, &[], &written)?;
-    let chosen = choose::choose(&written, &model, &start).map_or(written, |choice| choice.experiment);
+    let chosen = choose::method(&written, &model, &start);
     let timed = timing::time(&chosen, &model, &start, repeats.max(1));
     let end = &timed.end;
-    if end.time_s < chosen.time.end_s {
+    if end.time_s < chosen.experiment.time.end_s {
         return Err(PeerError::Stalled(end.time_s));
     }
     let step_s = end.time_s / end.step as f64;

@@ -1,11 +1,10 @@
 //! How long the steps of a run take, and nothing but the steps: no judge, no recorder, no allocation.
 
-use crate::clock::Clock;
-use crate::experiment::types::Experiment;
+use crate::experiment::types::Limits;
 use crate::model::Model;
-use crate::plan::Plan;
+use crate::run::advance::Advance;
 use crate::state::State;
-use crate::step::Stepper;
+use crate::study::choose::Chosen;
 use std::time::{Duration, Instant};
 
 /// Of one run.
@@ -22,13 +21,12 @@ const READABLE: Duration = Duration::from_micros(200);
 const MOST_TOGETHER: usize = 1 << 12;
 
 /// Times a run that reaches its end.
-pub fn time(experiment: &Experiment, model: &Model, start: &State, repeats: u32) -> Timed {
-    let clock = experiment.clock();
-    let plan = Plan::new(model, &experiment.method);
-    let fresh = || (Stepper::new(&experiment.method, &plan, model, start), start.clone());
+pub fn time(chosen: &Chosen, model: &Model, start: &State, repeats: u32) -> Timed {
+    let (clock, limits) = (chosen.experiment.clock(), Limits::default());
+    let fresh = || Advance::new(&chosen.method, model, start.clone(), clock, &limits);
     let together = |n: usize| {
         let mut runs: Vec<_> = (0..n).map(|_| fresh()).collect();
-        (all_steps(&mut runs, model, &clock), runs)
+        (all_steps(&mut runs, model), runs)
     };
     // The first ones also warm the caches and are not counted.
     let mut batch = 1;
@@ -45,18 +43,13 @@ pub fn time(experiment: &Experiment, model: &Model, start: &State, repeats: u32)
         samples.push(took.as_secs_f64() / batch as f64);
     }
     samples.sort_by(f64::total_cmp);
-    let (_, end) = runs.swap_remove(0);
-    Timed { best_s: samples[0], median_s: median(&samples), end }
+    Timed { best_s: samples[0], median_s: median(&samples), end: runs.swap_remove(0).state().clone() }
 }
 
 /// From the start to the end, run after run.
-fn all_steps(runs: &mut [(Stepper, State)], model: &Model, clock: &Clock) -> Duration {
+fn all_steps(runs: &mut [Advance], model: &Model) -> Duration {
     let started = Instant::now();
-    for (stepper, state) in runs {
-        while !stepper.is_done(state, clock) && stepper.stalled().is_none() {
-            stepper.step(model, state, clock);
-        }
-    }
+    runs.iter_mut().for_each(|run| run.run_out(model));
     started.elapsed()
 }
 

@@ -5,6 +5,8 @@ use crate::digest::sha256;
 use crate::experiment::types::RecordTo;
 use crate::experiment::{ExperimentFile, Given};
 use crate::record::writer::Target;
+use crate::sweep::folder::Folder;
+use crate::sweep::kept::EXPERIMENT;
 use crate::sweep::runner::targets;
 use clap::{ArgMatches, Args, FromArgMatches, ValueEnum};
 use std::path::{Component, Path, PathBuf};
@@ -152,9 +154,11 @@ impl ExperimentArgs {
     }
 
     /// recordings/<path of the config below configs/, without .yaml>, and what was set, so that no run overwrites the
-    /// table of another one.
+    /// table of another one. What a folder of results keeps goes on there.
     pub(super) fn default_out(&self, config: &Path) -> PathBuf {
-        let mut folder = Path::new("recordings").join(below_configs(config)).into_os_string();
+        let kept = config.parent().filter(|dir| config.ends_with(EXPERIMENT) && Folder::is_one(dir));
+        let own = || Path::new("recordings").join(below_configs(config));
+        let mut folder = kept.map_or_else(own, Path::to_path_buf).into_os_string();
         folder.push(suffix(&self.given));
         folder.into()
     }
@@ -181,7 +185,9 @@ fn suffix(given: &[Given]) -> String {
 
 /// Path below configs/, without .yaml; a config elsewhere goes by its own name.
 pub(super) fn below_configs(config: &Path) -> PathBuf {
-    let parts: Vec<_> = config.components().collect();
+    // However it is written, and from wherever.
+    let whole = std::fs::canonicalize(config).unwrap_or_else(|_| config.to_path_buf());
+    let parts: Vec<_> = whole.components().collect();
     let below = parts.iter().rposition(|part| *part == Component::Normal("configs".as_ref()));
     let name: PathBuf = match below {
         Some(at) if at + 1 < parts.len() => parts[at + 1..].iter().collect(),

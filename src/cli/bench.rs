@@ -12,6 +12,7 @@ use crate::experiment::bench::Bench;
 use crate::files::make_folder;
 use crate::report;
 use crate::rows::trials::{Trial, methods, order, pareto, to_csv};
+use crate::study::reference;
 use crate::sweep::runner::Progress;
 use clap::Args;
 use comfy_table::TableComponent;
@@ -42,12 +43,12 @@ struct PlannedBench {
 impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
         // Every trial of every file is checked before the first run.
-        let mut planned = self.planned()?;
+        let planned = self.planned()?;
         let mut all = Vec::new();
-        for planned in &mut planned {
+        for planned in &planned {
             let dir = planned.config.out(self.out.as_deref(), &self.experiment);
-            self.make_references(&mut planned.trials, &dir)?;
-            let rows = self.on_one_core(planned)?;
+            self.make_references(&planned.trials, &dir)?;
+            let rows = self.on_one_core(planned, &dir)?;
             write(&dir, &title(planned), &rows)?;
             if !self.output.json {
                 print(shown(&planned.config.path, &rows, &dir));
@@ -80,18 +81,20 @@ impl Command {
         Ok(planned)
     }
 
-    fn make_references(&self, trials: &mut [Contender], dir: &Path) -> Result<(), CliError> {
+    fn make_references(&self, trials: &[Contender], dir: &Path) -> Result<(), CliError> {
         if trials.iter().any(|trial| trial.experiment.reference.is_some()) {
             let bar = Bar::new(self.output.quiet);
             bar.begin("references", 1);
-            bench::add_references(trials, dir)?;
+            for Contender { experiment, model, start, .. } in trials {
+                reference::of(dir, experiment, model, start)?;
+            }
             bar.end();
         }
         Ok(())
     }
 
     /// All trials of a file, on a thread that stays where it is.
-    fn on_one_core(&self, planned: &PlannedBench) -> Result<Vec<Trial>, CliError> {
+    fn on_one_core(&self, planned: &PlannedBench, dir: &Path) -> Result<Vec<Trial>, CliError> {
         let work = || {
             if !timing::pin() && !self.output.quiet {
                 eprintln!("gotai: this system does not let a thread stay on one core: times may scatter more");
@@ -100,7 +103,7 @@ impl Command {
             let bar = Bar::new(self.output.quiet);
             bar.begin("trials", planned.trials.len());
             let rows = planned.trials.iter().map(|trial| {
-                let row = bench::run(trial, &planned.bench, &scene);
+                let row = bench::run(trial, &planned.bench, &scene, Some(dir));
                 bar.one_done();
                 row
             });

@@ -5,6 +5,7 @@ use crate::files::FileError;
 use crate::record::RecordError;
 use crate::sweep::folder::FolderError;
 use crate::sweep::runner::SweepError;
+use crate::sweep::store::StoreError;
 use std::process::ExitCode;
 
 /// Why a command failed; says its exit code.
@@ -17,7 +18,9 @@ pub enum CliError {
     #[error(transparent)]
     Record(#[from] RecordError),
     #[error(transparent)]
-    Store(#[from] FileError),
+    File(#[from] FileError),
+    #[error(transparent)]
+    Store(#[from] StoreError),
     #[error(transparent)]
     Folder(#[from] FolderError),
     #[error(transparent)]
@@ -30,7 +33,7 @@ impl CliError {
     pub fn exit_code(&self) -> ExitCode {
         let input_is_wrong = match self {
             CliError::Experiment(error) => !error.is_machine(),
-            CliError::Input(_) => true,
+            CliError::Input(_) | CliError::Store(StoreError::Foreign(_)) => true,
             CliError::Folder(error) => !matches!(error, FolderError::Experiment(error) if error.is_machine()),
             _ => false,
         };

@@ -3,13 +3,12 @@
 use super::args::{ExperimentArgs, OutputArgs};
 use super::error::CliError;
 use super::output::{print, print_json};
-use crate::experiment::types::{Method, Shape};
+use crate::experiment::types::Shape;
 use crate::plan::{Plan, Stage};
 use crate::record::sampler::steps_between;
 use crate::run::ticks::ticks;
 use crate::scene;
-use crate::step::Stepper;
-use crate::study::{reference, sensitivity};
+use crate::study::{reference, trial};
 use crate::sweep::plan::cases;
 use crate::sweep::planned::Planned;
 use crate::sweep::recordings::{FEW, known_before};
@@ -19,7 +18,6 @@ use serde_json::json;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
 
 #[derive(Args)]
 pub struct Command {
@@ -117,35 +115,22 @@ fn tallies(cases: &[Planned]) -> Vec<Tally> {
 /// Extrapolated from trials of a few cases, evenly through the plan.
 fn cost(cases: &[Planned]) -> Cost {
     const TRIALS: usize = 12;
+    /// Of all trials together: nobody waits longer for an estimate.
+    const MOMENT_S: f64 = 1.0;
     let steps = cases.iter().map(|planned| planned.case.experiment.clock().steps * runs(planned)).sum();
     let trials = cases.len().min(TRIALS);
     let tried = (0..trials).map(|i| &cases[i * cases.len() / trials]);
-    let seconds = tried.map(trial_s).sum::<f64>() * cases.len() as f64 / trials.max(1) as f64;
+    let seconds = tried.map(|planned| trial_s(planned, MOMENT_S / trials as f64)).sum::<f64>() * cases.len() as f64
+        / trials.max(1) as f64;
     let references: BTreeSet<_> = cases.iter().filter_map(|planned| reference::id(&planned.case.experiment)).collect();
     Cost { cases: cases.len(), references: references.len(), steps, seconds, bytes: bytes(cases) }
 }
 
-/// Time of the whole case, from as many of its steps as fit in a moment.
-fn trial_s(planned: &Planned) -> f64 {
-    let case = &planned.case;
-    const MOMENT: Duration = Duration::from_millis(200);
-    let Ok((model, mut state)) = scene::build(&case.experiment) else { return 0.0 };
-    let clock = case.experiment.clock();
-    let mut stepper =
-        Stepper::new(&case.experiment.method, &Plan::new(&model, &case.experiment.method), &model, &state);
-    let started = Instant::now();
-    while !stepper.is_done(&state, &clock) && stepper.stalled().is_none() && started.elapsed() < MOMENT {
-        stepper.step(&model, &mut state, &clock);
-    }
-    let part = if case.experiment.method.follows_events() {
-        state.time_s / clock.end_s
-    } else {
-        state.step as f64 / clock.steps as f64
-    };
-    // With three twins, and two more runs for what two runs agree in.
-    let twins = if sensitivity::is_wanted(&case.experiment) { 3.0 } else { 0.0 };
-    let tried = if matches!(case.experiment.method, Method::Auto(_)) { 2.0 } else { 0.0 };
-    started.elapsed().as_secs_f64() * (1.0 + twins + tried) * runs(planned) as f64 / part.max(1e-3)
+/// All runs of a case or a search.
+fn trial_s(planned: &Planned, moment_s: f64) -> f64 {
+    let experiment = &planned.case.experiment;
+    let Ok((model, start)) = scene::build(experiment) else { return 0.0 };
+    trial::seconds(experiment, &model, start, moment_s) * runs(planned) as f64
 }
 
 /// Of a search about how many; all counted with the steps of the first one, which is mostly the longest.

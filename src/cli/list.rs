@@ -5,8 +5,7 @@ use super::error::CliError;
 use super::output::{print, print_json};
 use super::table::table;
 use crate::exact::{ClosedForm, form};
-use crate::experiment::about::About;
-use crate::experiment::types::{Accuracy, Exact, Integrator, Measure, Method, Shape};
+use crate::experiment::types::{About, Accuracy, Exact, Integrator, Measure, Method, Shape};
 use crate::experiment::vocabulary::{Initial, SettingKey, Takes, Word, shown, words};
 use crate::heading::Heading;
 use crate::integrate::claims::{Kept, claim};
@@ -183,17 +182,18 @@ fn methods() -> Vec<Section> {
     );
     let mut sections = vec![Section { title: String::new(), lead, head: &[], rows: Vec::new() }];
     for Word { name, value, settings } in words::<Method>() {
-        let by = match (&value, value.accuracy()) {
-            (Method::Free(_), _) => "What makes it more accurate is the integrator's affair, as listed below.",
+        let facts = value.facts();
+        let by = match (facts.integrator, facts.accuracy) {
+            (Some(_), _) => "What makes it more accurate is the integrator's affair, as listed below.",
             (_, Accuracy::Step) => "A shorter `time.step_s` makes it more accurate.",
             (_, Accuracy::Tolerance(_)) => "A smaller `tolerance` makes it more accurate; it needs no `time.step_s`.",
             (_, Accuracy::Closed) => "It is a closed form.",
         };
         let rows = settings.iter().map(|setting| setting_row(&value, setting)).collect();
-        let lead = format!("{} {by}", sourced(&value.about()));
+        let lead = format!("{} {by}", sourced(&value.settings().about()));
         sections.push(Section { title: code(name), lead, head: &["setting", "takes", "default"], rows });
-        if let Method::Free(_) = value {
-            sections.push(integrators());
+        if facts.integrator.is_some() {
+            sections.push(integrators(name));
         }
     }
     sections
@@ -207,12 +207,12 @@ fn setting_row(method: &Method, SettingKey { name, takes, initial }: &SettingKey
     let initial = match initial {
         Initial::Needed => "(needed)".to_string(),
         Initial::Is(value) => code(&shown(value)),
-        Initial::Absent => method.unless_set(name),
+        Initial::Absent => method.settings().unless_set(name),
     };
     vec![code(name), takes, initial]
 }
 
-fn integrators() -> Section {
+fn integrators(method: &str) -> Section {
     let row = |word: Word<Integrator>| {
         let claim = claim(word.value);
         let (order, by) = match (word.value.accuracy(), claim.order) {
@@ -224,7 +224,7 @@ fn integrators() -> Section {
         vec![code(word.name), order, by.to_string(), kept(word.value), claim.source.to_string()]
     };
     Section {
-        title: "Integrators of `free`".to_string(),
+        title: format!("Integrators of `{method}`"),
         lead: "The order is of attitude and angular velocity, of the position too where the parabola is not kept; a \
                dash: none of its own. What is kept is so to rounding, of a body without torque, at any step. Tests \
                hold every line."
@@ -328,11 +328,11 @@ fn word_json<T>(Word { name, settings, .. }: &Word<T>, About { what, source }: &
 }
 
 fn method_json(method: &Word<Method>) -> Value {
-    let mut line = word_json(method, &method.value.about());
+    let mut line = word_json(method, &method.value.settings().about());
     for (i, setting) in method.settings.iter().enumerate().filter(|(_, setting)| setting.initial == Initial::Absent) {
-        line["settings"][i]["default"] = json!({ "is": method.value.unless_set(setting.name) });
+        line["settings"][i]["default"] = json!({ "is": method.value.settings().unless_set(setting.name) });
     }
-    if let Method::Free(_) = method.value {
+    if method.value.facts().integrator.is_some() {
         let named = |word: Word<Integrator>| json!({ "name": word.name, "claim": claim(word.value) });
         line["integrators"] = words::<Integrator>().into_iter().map(named).collect();
     }

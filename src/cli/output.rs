@@ -1,10 +1,17 @@
 //! What is printed.
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 
-/// Prints to stdout; a reader that has gone away is no error.
+/// Prints to stdout. A reader that has gone away is no error; a disk that is full is the machine's.
 pub(super) fn print(text: impl std::fmt::Display) {
-    let _ = writeln!(std::io::stdout(), "{text}");
+    let mut out = std::io::stdout();
+    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            eprintln!("gotai: cannot write the output: {error}");
+            std::process::exit(3);
+        }
+        _ => {}
+    }
 }
 
 pub(super) fn print_json(value: &impl serde::Serialize) {

@@ -7,17 +7,19 @@ use super::shown::{document, say_where, summary};
 use crate::build_info::BUILD;
 use crate::case::Case;
 use crate::experiment::types::{Experiment, Record};
-use crate::files::make_folder;
+use crate::files::{self, FileError, make_folder};
 use crate::outcome::Outcome;
 use crate::rows::columns::is_beside_the_run;
 use crate::rows::{Measured, Row, cells};
 use crate::sweep::build::build;
 use crate::sweep::folder::Folder;
-use crate::sweep::journal::Entry;
+use crate::sweep::journal::{Entry, open_alone};
 use crate::sweep::planned::Planned;
 use crate::sweep::runner::{Places, SweepError, run_case};
+use crate::sweep::unneeded::{LOCK, REPLAYS};
 use serde_json::{Value, json};
-use std::path::Path;
+use std::fs::File;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// A column of the row that the replay has not met.
@@ -34,8 +36,8 @@ pub(super) fn replay(dir: &Path, id: &str, run: &RunArgs, output: OutputArgs) ->
     let planned = Planned { case: at_every_step(found, row)?, ..found.clone() };
     let targets = run.targets(planned.case.experiment.record.to)?;
     let (model, start) = build(&folder.file, &planned.point, &planned.case.experiment)?;
-    let replays = dir.join("replays");
-    make_folder(&replays)?;
+    let replays = dir.join(REPLAYS);
+    let _alone = (!targets.is_empty()).then(|| Alone::with(&replays, &planned.case.id)).transpose()?;
     let places = Places { references: dir, recordings: &replays, targets: &targets };
     let (ended, written) = run_case(&planned, &model, start, places);
     let differing = row.map_or(Vec::new(), |row| differing(&row.measured, &ended.measured));
@@ -70,15 +72,40 @@ pub(super) fn replay(dir: &Path, id: &str, run: &RunArgs, output: OutputArgs) ->
     Ok(ExitCode::from(u8::from(ended.measured.outcome == Outcome::Failed)))
 }
 
-/// The one case whose id begins so.
-fn find<'a>(folder: &'a Folder, id: &str) -> Result<&'a Planned, CliError> {
+/// A file that is locked while a case is recorded, and gone after it.
+struct Alone {
+    path: PathBuf,
+    _lock: File,
+}
+
+impl Alone {
+    /// # Errors
+    /// Somebody else records this case at the same time, or the machine failed.
+    fn with(replays: &Path, case: &str) -> Result<Self, FileError> {
+        make_folder(replays)?;
+        let path = replays.join(format!("{case}.{LOCK}"));
+        Ok(Alone { _lock: open_alone(replays, &path)?, path })
+    }
+}
+
+impl Drop for Alone {
+    fn drop(&mut self) {
+        // What is left is empty, and dropped by `clean`.
+        let _ = files::remove(&self.path);
+    }
+}
+
+/// The one case whose id begins so; the name of its recording holds the id too.
+fn find<'a>(folder: &'a Folder, given: &str) -> Result<&'a Planned, CliError> {
     let dir = folder.dir.display();
-    let begins = |planned: &&Planned| !id.is_empty() && planned.case.id.starts_with(id);
+    let name = given.strip_suffix(".mcap").or(given.strip_suffix(".rrd")).unwrap_or(given);
+    let id = &name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
+    let begins = |planned: &&Planned| !id.is_empty() && planned.case.id.starts_with(id.as_str());
     let mut found: Vec<&Planned> = folder.cases.iter().filter(begins).collect();
     found.dedup_by_key(|planned| &planned.case.id);
     match found[..] {
         [only] => Ok(only),
-        [] if folder.journal.rows.keys().any(|case| !id.is_empty() && case.starts_with(id)) => {
+        [] if folder.journal.rows.keys().any(|case| !id.is_empty() && case.starts_with(id.as_str())) => {
             Err(CliError::Input(format!("--case {id}: this row is in the store of {dir}, but no longer in its plan")))
         }
         [] => Err(CliError::Input(format!(

@@ -4,8 +4,10 @@ use super::args::OutputArgs;
 use super::error::CliError;
 use super::output::{print, print_json};
 use super::table::table;
-use crate::experiment::filter::{Filter, shown_cell};
+use crate::experiment::filter::{Condition, Filter, is_same, shown_cell};
 use crate::experiment::nearest::nearest;
+use crate::outcome::Outcome;
+use crate::rows::plan_file::PlanFile;
 use crate::rows::table::Table;
 use crate::sweep::folder::Folder;
 use clap::Args;
@@ -59,8 +61,8 @@ impl Command {
         let folder = Folder::read(&self.dir)?;
         let rows = Table::new(&folder.plan.axes, &folder.rows());
         let known: Vec<&str> = rows.names().collect();
-        let filter = self.filter(&known)?;
-        let mut chosen: Vec<&Cells> = rows.rows().filter(|row| filter.takes(|name| row.get(name))).collect();
+        let filter = self.filter(&known, &folder.plan)?;
+        let mut chosen: Vec<&Cells> = rows.rows().filter(|row| takes(&filter, row)).collect();
         self.sort(&mut chosen, &known)?;
         let columns = self.columns(&folder, &known, &chosen)?;
         let cells = |row: &Cells| -> Vec<Value> {
@@ -85,9 +87,16 @@ impl Command {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn filter(&self, known: &[&str]) -> Result<Filter, CliError> {
+    fn filter(&self, known: &[&str], plan: &PlanFile) -> Result<Filter, CliError> {
+        if let Some(text) = self.filters.iter().find(|text| !text.contains(['=', '<', '>', '≤', '≥', '≠'])) {
+            let expected = "expected COLUMN=VALUE, or another sign: != < <= > >=";
+            return Err(CliError::Input(format!("--where: {expected}, found `{text}`")));
+        }
         let filter = Filter::of_texts(&self.filters)?;
-        filter.0.iter().try_for_each(|(name, _)| find("--where", name, known).map(drop))?;
+        for (name, condition) in &filter.0 {
+            find("--where", name, known)?;
+            refuse_unknown_value(name, condition, plan)?;
+        }
         Ok(filter)
     }
 
@@ -128,6 +137,31 @@ impl Command {
             **name == "case" || is_axis(name) || (TELLING.contains(*name) && (says(name) || **name == "outcome"))
         };
         Ok(known.iter().filter(is_shown).copied().collect())
+    }
+}
+
+/// Of an id its first digits are enough.
+fn takes(filter: &Filter, row: &Cells) -> bool {
+    let begins = |id: &str, values: &[Value]| values.iter().any(|value| id.starts_with(&shown_cell(value)));
+    let holds = |(name, condition): &(String, Condition)| match (name.as_str(), condition, row.get(name)) {
+        ("case", Condition::Is(values), Some(Value::String(id))) => begins(id, values),
+        (.., Some(cell)) => condition.holds(cell),
+        (.., None) => false,
+    };
+    filter.0.iter().all(holds)
+}
+
+/// A value that is not on its axis, or no outcome, is a slip.
+fn refuse_unknown_value(name: &str, condition: &Condition, plan: &PlanFile) -> Result<(), CliError> {
+    let on_axis = plan.axes.iter().find(|axis| axis.path == name).map(|axis| axis.values.clone());
+    let outcomes = || (name == "outcome").then(|| Outcome::ALL.map(|outcome| Value::from(outcome.name())).to_vec());
+    let (Condition::Is(values), Some(known)) = (condition, on_axis.or_else(outcomes)) else { return Ok(()) };
+    match values.iter().find(|value| !known.iter().any(|known| is_same(known, value))) {
+        None => Ok(()),
+        Some(value) => {
+            let known: Vec<String> = known.iter().map(shown_cell).collect();
+            Err(CliError::Input(format!("--where {name}={}: expected one of {}", shown_cell(value), known.join(", "))))
+        }
     }
 }
 

@@ -69,6 +69,9 @@ impl Command {
         let dir = self.run.out.clone().unwrap_or_else(|| self.experiment.default_out(&self.config));
         let (model, start) = build(&file, &planned.point, &case.experiment)?;
         let mut store = Store::open(&dir, &plan, false)?;
+        if let Some(edited) = store.edited().filter(|_| !self.output.quiet) {
+            eprintln!("{}: {edited}", dir.display());
+        }
         if self.output.verbose {
             describe_plan(&Plan::new(&model, &case.experiment.method));
         }
@@ -113,6 +116,12 @@ impl Command {
             return Err(CliError::Input(format!(
                 "{path}: expected an experiment file, found a folder; run all experiments in it with `gotai sweep \
                  {path}`"
+            )));
+        }
+        if self.config.extension().is_some_and(|ending| ending == "rrd") {
+            return Err(CliError::Input(format!(
+                "{path}: expected an experiment file or an .mcap, found an .rrd; the .mcap beside it holds the \
+                 configuration for programs"
             )));
         }
         let is_recording = self.config.extension().is_some_and(|ending| ending == "mcap") && self.config.exists();

@@ -1,12 +1,12 @@
 //! What `run` shows of a run: a summary, or one JSON document with its columns, bodies and contacts.
 
-use crate::collide::SolvedContact;
 use crate::model::{self, Model};
 use crate::outcome::Outcome;
 use crate::plan::Plan;
 use crate::record::writer::Target;
 use crate::rows::{Measured, Row};
 use crate::run::Ended;
+use crate::shown::ContactForce;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -15,16 +15,15 @@ use std::path::Path;
 pub(super) fn document(row: &Row, model: &Model, ended: &Ended) -> Value {
     let mut document = serde_json::to_value(row).unwrap_or_default();
     document["bodies"] = bodies(model, ended);
-    document["contacts"] = ended.contacts.iter().map(|solved| contact(model, ended, solved)).collect();
+    document["contacts"] = ended.forces.iter().map(|force| contact(model, force)).collect();
     document
 }
 
 fn bodies(model: &Model, ended: &Ended) -> Value {
+    let ends = || ended.forces.iter().flat_map(|force| force.contact.ends().map(move |end| (end, force.force_W)));
     let force_n = |i: usize| {
-        let ends =
-            ended.contacts.iter().flat_map(|solved| solved.contact.ends().map(move |end| (end, solved.impulse_W)));
-        let on_body = ends.filter(|((body, ..), _)| *body == i);
-        on_body.map(|((.., sign), impulse_W)| impulse_W * sign).sum::<Vector3<f64>>() / ended.step_s
+        let on_body = ends().filter(|((body, ..), _)| *body == i);
+        on_body.map(|((.., sign), force_W)| force_W * sign).sum::<Vector3<f64>>()
     };
     let body = |(i, (body, at)): (usize, (&model::Body, &crate::state::BodyState))| {
         json!({
@@ -41,14 +40,14 @@ fn bodies(model: &Model, ended: &Ended) -> Value {
     model.bodies.iter().zip(&ended.state.bodies).enumerate().map(body).collect()
 }
 
-fn contact(model: &Model, ended: &Ended, solved: &SolvedContact) -> Value {
-    let other = solved.contact.other.map_or("container", |other| &model.bodies[other].name);
+fn contact(model: &Model, ContactForce { contact, force_W }: &ContactForce) -> Value {
+    let other = contact.other.map_or("container", |other| &model.bodies[other].name);
     json!({
-        "bodies": [model.bodies[solved.contact.body].name, other],
-        "point_m": numbers(&solved.contact.p_WC),
-        "normal": numbers(&solved.contact.normal),
-        "force_n": numbers(&(solved.impulse_W / ended.step_s)),
-        "gap_m": solved.contact.gap_m,
+        "bodies": [model.bodies[contact.body].name, other],
+        "point_m": numbers(&contact.p_WC),
+        "normal": numbers(&contact.normal),
+        "force_n": numbers(force_W),
+        "gap_m": contact.gap_m,
     })
 }
 

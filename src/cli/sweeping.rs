@@ -116,6 +116,7 @@ impl Config {
     /// Of several files every one has a folder of its own, also below `--out`.
     pub fn out(&self, given: Option<&Path>, experiment: &ExperimentArgs) -> PathBuf {
         match given {
+            Some(out) if self.below.as_os_str().is_empty() => out.to_path_buf(),
             Some(out) => out.join(&self.below),
             None => experiment.default_out(&self.path),
         }
@@ -157,7 +158,7 @@ fn files_of(given: &Path) -> Result<Vec<PathBuf>, CliError> {
         let entries = std::fs::read_dir(&folder);
         let entries = entries.map_err(|error| CliError::Machine(format!("{}: {error}", folder.display())))?;
         for path in entries.flatten().map(|entry| entry.path()) {
-            if path.is_dir() {
+            if path.is_dir() && !path.is_symlink() {
                 // What results keep of their question is no question of its own.
                 folders.extend((!Folder::is_one(&path)).then_some(path));
             } else if path.extension().is_some_and(|ending| ending == "yaml" || ending == "yml") {

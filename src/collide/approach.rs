@@ -3,21 +3,9 @@
 //! as in D. E. Stewart, J. C. Trinkle, Int. J. Numer. Meth. Engng 39 (1996) 2673).
 
 use super::Contact;
+pub use crate::experiment::types::Approach;
 use crate::model::Model;
 use nalgebra::Vector3;
-
-/// How a method steps through a contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Approach {
-    /// What is inside is reflected, as the lecture's slides have it.
-    Inside,
-    /// Nothing is asked for but that it does not come nearer.
-    Touching,
-    /// Contacts are seen at the start of the step and the new velocity lasts for all of it.
-    Start,
-    /// Contacts are seen in the middle of the step and the new velocity lasts to the middle of the next one.
-    Middle,
-}
 
 /// Leaves those contacts that may close in the step: of every body and face (or other body) none beyond twice the way
 /// that the fastest of them closes by itself, as one that touches may turn the body toward the others. `velocities`: of

@@ -10,7 +10,7 @@ use super::forces::{Forces, Held, Mode, NO_SLIP, Rows, Slip, direction, edge, me
 use super::touch::{Here, Touch};
 use crate::math::full_pivot::Selection;
 use crate::model::Model;
-use crate::solve::problem::Block;
+use crate::solve::block::Block;
 use crate::solve::{Impulse, newton};
 use crate::state::State;
 use crate::work::Work;

@@ -4,7 +4,7 @@ use super::forces::{Forces, Held, NO_SLIP};
 use super::motion::Motion;
 use crate::exact::arc::Arc;
 use crate::model::Model;
-use crate::solve::problem::Twist;
+use crate::solve::twist::Twist;
 use crate::state::State;
 use nalgebra::Vector3;
 

@@ -87,7 +87,7 @@ impl Border {
     }
 }
 
-pub struct Shown {
+pub struct Facing {
     pub spot: Spot,
     pub face: Option<Face>,
 }
@@ -99,10 +99,10 @@ const ALONG: f64 = 1e-9;
 const AT: f64 = 2e-10;
 
 /// At a point with this outward normal.
-pub fn shown(body: &Body, p_B: &Vector3<f64>, out_B: &Vector3<f64>) -> Option<Shown> {
+pub fn shown(body: &Body, p_B: &Vector3<f64>, out_B: &Vector3<f64>) -> Option<Facing> {
     let (solid, centre) = body.solid()?;
     let (y, own, near) = (Vector3::y(), p_B - centre, AT * body.bounding_radius_m);
-    let only = |spot: Spot| Shown { spot, face: None };
+    let only = |spot: Spot| Facing { spot, face: None };
     // Of something about the axis y, at this height.
     let side = |y_m: f64, radius_m: f64, half_m: f64| {
         Spot::Line(Line {
@@ -133,7 +133,7 @@ pub fn shown(body: &Body, p_B: &Vector3<f64>, out_B: &Vector3<f64>) -> Option<Sh
             if (out_B - normal_B).norm() <= ALONG {
                 let border = Border::Round { centre_B: *centre, radius_m: *radius_m };
                 let face = Face { normal_B, offset_m: normal_B.dot(&end), border };
-                Shown { spot: Spot::Inside, face: Some(face) }
+                Facing { spot: Spot::Inside, face: Some(face) }
             } else if out_B.y.abs() <= ALONG {
                 only(side(own.y.clamp(-half_height_m, *half_height_m), *radius_m, *half_height_m))
             } else {
@@ -155,7 +155,7 @@ fn of_box(
     own: &Vector3<f64>,
     out_B: &Vector3<f64>,
     near: f64,
-) -> Option<Shown> {
+) -> Option<Facing> {
     let axis = out_B.iamax();
     let normal_B = Vector3::ith(axis, out_B[axis].signum());
     let is_face = (out_B - normal_B).norm() <= ALONG;
@@ -185,10 +185,10 @@ fn of_box(
         _ if is_face => Spot::Inside,
         _ => return None,
     };
-    Some(Shown { spot, face })
+    Some(Facing { spot, face })
 }
 
-fn of_hull(hull: &Hull, centre: &Vector3<f64>, own: &Vector3<f64>, out_B: &Vector3<f64>, near: f64) -> Option<Shown> {
+fn of_hull(hull: &Hull, centre: &Vector3<f64>, own: &Vector3<f64>, out_B: &Vector3<f64>, near: f64) -> Option<Facing> {
     let vertex = |i: u32| hull.vertices[i as usize];
     let offset_m = |f: &Polygon| f.normal.dot(&(vertex(f.corners[0]) + centre));
     let which = hull.faces.iter().position(|face| (face.normal - out_B).norm() <= ALONG);
@@ -205,7 +205,7 @@ fn of_hull(hull: &Hull, centre: &Vector3<f64>, own: &Vector3<f64>, out_B: &Vecto
     if let Some(i) = (0..hull.vertices.len() as u32).find(|i| (vertex(*i) - own).norm() <= near) {
         let away =
             |(_, from, to): &(&Polygon, u32, u32)| (*from == i).then(|| (vertex(*from) - vertex(*to)).normalize());
-        return Some(Shown { spot: ball(centre + vertex(i), 0.0, edges.iter().filter_map(away).collect()), face });
+        return Some(Facing { spot: ball(centre + vertex(i), 0.0, edges.iter().filter_map(away).collect()), face });
     }
     let line = edges.iter().find_map(|(f, i, j)| {
         let (from, to) = (vertex(*i), vertex(*j));
@@ -224,8 +224,8 @@ fn of_hull(hull: &Hull, centre: &Vector3<f64>, own: &Vector3<f64>, out_B: &Vecto
         })
     });
     match line {
-        Some(line) => Some(Shown { spot: Spot::Line(line), face }),
-        None if face.is_some() => Some(Shown { spot: Spot::Inside, face }),
+        Some(line) => Some(Facing { spot: Spot::Line(line), face }),
+        None if face.is_some() => Some(Facing { spot: Spot::Inside, face }),
         None => None,
     }
 }

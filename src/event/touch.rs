@@ -6,7 +6,7 @@
 //! contact changes by β = ω_A × ṙ_A − ω_B × ṙ_B, and its normal part by n·β + ṅ·u: for a rolling sphere ṙ = 0, for a
 //! corner ṙ = ω × r (F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996, ch. 4).
 
-use super::shown::{Ball, Border, Face, Line, Part, Shown, Spot, shown, within_m};
+use super::shown::{Ball, Border, Face, Facing, Line, Part, Spot, shown, within_m};
 use crate::collide::{Contact, Key};
 use crate::model::{Body, Geometry, Model};
 use crate::shape::solid::Solid;
@@ -449,11 +449,11 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
     };
     match (&a, &b) {
         // What is a corner or an edge of one is held by the face of the other.
-        (Shown { face: Some(face), spot: Spot::Inside }, Shown { spot, .. }) if *spot != Spot::Inside => {
+        (Facing { face: Some(face), spot: Spot::Inside }, Facing { spot, .. }) if *spot != Spot::Inside => {
             Some(on(1, face, 0))
         }
-        (_, Shown { face: Some(face), .. }) => Some(on(0, face, 1)),
-        (Shown { face: Some(face), .. }, _) => Some(on(1, face, 0)),
+        (_, Facing { face: Some(face), .. }) => Some(on(0, face, 1)),
+        (Facing { face: Some(face), .. }, _) => Some(on(1, face, 0)),
         _ => round(&a.spot, &b.spot),
     }
 }

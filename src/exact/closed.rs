@@ -6,7 +6,7 @@ use super::{
     ball, dome, falling_rod, free_motion, heavy_top, ladder, linear_drag, pendulum, quadratic_drag, rest,
     rimless_wheel, rocking_block, sliding, stick_slip, symmetric_body, turntable,
 };
-use crate::experiment::types::{Exact, Experiment, Integrator, Method};
+use crate::experiment::types::{Accuracy, Exact, Experiment};
 use crate::model::Model;
 use crate::state::State;
 
@@ -73,9 +73,7 @@ fn motion(which: Exact, model: &Model, start: &State, index: usize) -> Result<Ex
 /// The closed forms that an experiment names, and where.
 pub fn named(experiment: &Experiment) -> Vec<(&'static str, Exact)> {
     let mut named: Vec<_> = experiment.exact.iter().map(|exact| ("exact", *exact)).collect();
-    if let Method::Free(free) = &experiment.method
-        && free.integrator == Integrator::Exact
-    {
+    if experiment.method.accuracy() == Accuracy::Closed {
         named.push(("method.free.integrator", Exact::FreeMotion));
     }
     named

@@ -4,7 +4,7 @@ use super::axes::read_list;
 use super::checks::{Result, positive, unexpected};
 use super::error::number;
 use super::key_path::{KeyPath, Path};
-use super::types::{Free, Method};
+use super::types::Method;
 use super::value_de::from_value;
 use serde_yaml::Value;
 
@@ -98,8 +98,8 @@ fn listed(items: &[Value], at: Path) -> Result<Vec<Listed>> {
 
 /// The method's word and the settings that are written; an integrator says all by its name.
 fn label(method: &Method, written: Option<&Value>) -> String {
-    if let Method::Free(Free { integrator, .. }) = method {
-        return format!("free {}", integrator.word());
+    if let Some(integrator) = method.facts().integrator {
+        return format!("{} {}", method.word(), integrator.word());
     }
     let settings = written.and_then(|value| value.get(method.word())).and_then(Value::as_mapping);
     let shown = settings.into_iter().flatten().map(|(key, value)| match (key.as_str().unwrap_or_default(), value) {

@@ -2,11 +2,26 @@
 
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
+use super::tolerances::SMALLEST_GLOBAL;
 
 pub(super) type Result<T> = std::result::Result<T, ExperimentError>;
 
 pub(super) fn unexpected(at: Path, expected: &str, found: &str) -> ExperimentError {
     ExperimentError::unexpected(at.to_key_path(), expected, found)
+}
+
+/// «a, b and c».
+pub(super) fn series(items: &[impl AsRef<str>], last: &str) -> String {
+    let items: Vec<&str> = items.iter().map(AsRef::as_ref).collect();
+    match &items[..] {
+        [first @ .., end] if !first.is_empty() => format!("{} {last} {end}", first.join(", ")),
+        _ => items.concat(),
+    }
+}
+
+/// Words of the file, in a sentence.
+pub(super) fn listed(words: impl Iterator<Item = &'static str>) -> String {
+    series(&words.map(|word| format!("`{word}`")).collect::<Vec<_>>(), "and")
 }
 
 pub(super) fn positive(x: f64, at: Path) -> Result<()> {
@@ -34,6 +49,18 @@ pub(super) fn relaxation(x: f64, at: Path) -> Result<()> {
 pub(super) fn holds_a_face(contacts: u32, at: Path) -> Result<()> {
     let expected = "a whole number of at least 3, as fewer contacts hold no face";
     if contacts >= 3 { Ok(()) } else { Err(unexpected(at, expected, &contacts.to_string())) }
+}
+
+/// A tolerance of the whole motion.
+pub(super) fn reachable(tolerance: f64, at: Path) -> Result<()> {
+    if tolerance >= SMALLEST_GLOBAL {
+        return Ok(());
+    }
+    let expected = format!(
+        "a number of at least {SMALLEST_GLOBAL:e}: positions of some metres are known to 1e-16 of them, and events to \
+         some hundred times that"
+    );
+    Err(unexpected(at, &expected, &number(tolerance)))
 }
 
 pub(super) fn sizes(sizes: &[f64; 3], at: Path) -> Result<()> {

@@ -158,7 +158,8 @@ fn cell(value: &Value) -> Cell {
 pub fn is_same(a: &Cell, b: &Cell) -> bool {
     match (a.as_f64(), b.as_f64()) {
         (Some(a), Some(b)) => a == b || (a - b).abs() <= SAME * a.abs().max(b.abs()),
-        _ => a == b,
+        // A label may look like a number.
+        _ => shown_cell(a) == shown_cell(b),
     }
 }
 

@@ -1,12 +1,24 @@
 //! The vocabulary of `method:`: every method with its settings, defaults with their reasons. A part of `types.rs`.
 
+use super::accuracy::Accuracy;
+use super::checks::{
+    Result, at_least_one, holds_a_face, listed, not_negative, positive, reachable, relaxation, series, unexpected,
+};
 use super::defaults::is_default;
-use super::tolerances::DEFAULT_TOLERANCE;
+use super::error::number;
+use super::facts::{About, Approach, ContactModel, Facts, MethodSettings, Restitution, about};
+use super::integrator::Integrator;
+use super::key_path::Path;
+use super::solver::Solver;
+use super::tolerances::{DEFAULT_TOLERANCE, SMALLEST_GLOBAL, SMALLEST_TOLERANCE};
+use super::variants::*;
 use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
 /// The exchangeable unit is the whole step. One word, or one key with settings.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Method {
     Free(Free),
     Lecture(Lecture),
@@ -24,30 +36,45 @@ impl Default for Method {
 }
 
 impl Method {
-    /// The law of its impacts; of a method without one, Newton's.
-    pub fn impact(&self) -> Impact {
+    /// The one `match` of the vocabulary: whatever else is asked of a method, its settings answer.
+    pub fn settings(&self) -> &dyn MethodSettings {
         match self {
-            Method::TimeStepping(stepping) => stepping.impact,
-            Method::EventDriven(settings) => settings.impact,
-            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::Auto(_) => Impact::Newton,
+            Method::Free(settings) => settings,
+            Method::Lecture(settings) => settings,
+            Method::Penalty(settings) => settings,
+            Method::TimeStepping(settings) => settings,
+            Method::EventDriven(settings) => settings,
+            Method::Auto(settings) => settings,
         }
+    }
+
+    pub fn facts(&self) -> Facts {
+        self.settings().facts()
+    }
+
+    /// What makes it more accurate.
+    pub fn accuracy(&self) -> Accuracy {
+        self.facts().accuracy
+    }
+
+    /// What it controls its error by.
+    pub fn tolerance(&self) -> Option<f64> {
+        self.facts().tolerance
     }
 
     /// It goes from event to event, and the clock says only when to end.
     pub fn follows_events(&self) -> bool {
-        matches!(self, Method::EventDriven(_) | Method::Auto(_))
+        self.facts().follows_events
+    }
+
+    /// The law of its impacts; of a method that has no choice of them, Newton's.
+    pub fn impact(&self) -> Impact {
+        self.facts().impact.unwrap_or(Impact::Newton)
     }
 
     /// Its word in the file.
     pub fn word(&self) -> &'static str {
-        match self {
-            Method::Free(_) => "free",
-            Method::Lecture(_) => "lecture",
-            Method::Penalty(_) => "penalty",
-            Method::TimeStepping(_) => "time-stepping",
-            Method::EventDriven(_) => "event-driven",
-            Method::Auto(_) => "auto",
-        }
+        self.into()
     }
 }
 
@@ -62,58 +89,60 @@ pub struct Free {
     pub tolerance: Option<f64>,
 }
 
-/// What each promises: `integrate::claims`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Integrator {
-    /// The slide's formula (L5): u uses the old v.
-    ExplicitEuler,
-    /// The slide's C program (L5): u uses the new v.
-    #[default]
-    SemiImplicitEuler,
-    /// The trapezoidal rule.
-    CrankNicolson,
-    /// Keeps energy and angular momentum.
-    ImplicitMidpoint,
-    /// The classical Runge–Kutta method.
-    Rk4,
-    /// Keeps energy and angular momentum, and the symplectic form.
-    MoserVeselov,
-    /// Dormand and Prince's 8(5,3) with error control.
-    Dop853,
-    /// Taylor's series, of as high an order as the tolerance asks for.
-    Taylor,
-    /// The closed form: a parabola and elliptic functions, from the start in one leap to every time.
-    Exact,
+impl MethodSettings for Free {
+    fn facts(&self) -> Facts {
+        Facts {
+            accuracy: self.integrator.accuracy(),
+            tolerance: self.controls_its_error().then(|| self.tolerance.unwrap_or(DEFAULT_TOLERANCE)),
+            follows_events: false,
+            chooses: false,
+            contact: ContactModel::None,
+            approach: Approach::Inside,
+            impact: None,
+            restitution: Restitution::All,
+            needs_mesh: false,
+            pins: true,
+            tangents_anyway: None,
+            gyroscopic: true,
+            position_correction: None,
+            integrator: Some(self.integrator),
+        }
+    }
+
+    fn about(&self) -> About {
+        about(
+            "Motion without contact, with pins; `tolerance` is of one inner step of dop853 and taylor, relative and \
+             absolute.",
+            "lecture L4, L5, L24",
+        )
+    }
+
+    fn unless_set(&self, _: &str) -> String {
+        format!("{DEFAULT_TOLERANCE:e}")
+    }
+
+    fn check(&self, at: Path) -> Result<()> {
+        let Some(tolerance) = self.tolerance else { return Ok(()) };
+        let refused = |expected: String| Err(unexpected(at.key("tolerance"), &expected, &number(tolerance)));
+        if !self.controls_its_error() {
+            let with = |integrator: &&Integrator| Free { integrator: **integrator, tolerance: None };
+            let others = Integrator::ALL.iter().filter(|integrator| with(integrator).controls_its_error());
+            return refused(format!(
+                "no tolerance, as `{}` does not control its error ({} do)",
+                self.integrator.word(),
+                listed(others.map(|integrator| integrator.word()))
+            ));
+        }
+        if tolerance < SMALLEST_TOLERANCE {
+            return refused(format!("a number of at least {SMALLEST_TOLERANCE:e}"));
+        }
+        Ok(())
+    }
 }
 
-impl Integrator {
-    /// All of them, as written above; a test holds this against the parser's own list.
-    pub const ALL: [Integrator; 9] = [
-        Integrator::ExplicitEuler,
-        Integrator::SemiImplicitEuler,
-        Integrator::CrankNicolson,
-        Integrator::ImplicitMidpoint,
-        Integrator::Rk4,
-        Integrator::MoserVeselov,
-        Integrator::Dop853,
-        Integrator::Taylor,
-        Integrator::Exact,
-    ];
-
-    /// Its word in the file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Integrator::ExplicitEuler => "explicit-euler",
-            Integrator::SemiImplicitEuler => "semi-implicit-euler",
-            Integrator::CrankNicolson => "crank-nicolson",
-            Integrator::ImplicitMidpoint => "implicit-midpoint",
-            Integrator::Rk4 => "rk4",
-            Integrator::MoserVeselov => "moser-veselov",
-            Integrator::Dop853 => "dop853",
-            Integrator::Taylor => "taylor",
-            Integrator::Exact => "exact",
-        }
+impl Free {
+    fn controls_its_error(&self) -> bool {
+        matches!(self.integrator.accuracy(), Accuracy::Tolerance(_))
     }
 }
 
@@ -146,66 +175,36 @@ impl Default for Lecture {
     }
 }
 
-/// First guess of the constraint force (L20).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Start {
-    /// F = 0.
-    None,
-    /// F = −A⁻¹ b by LU; a non-finite start is replaced by 0.
-    Direct,
-    /// The same with the inverse matrix.
-    Inverse,
-    /// The same with the Moore–Penrose inverse.
-    PseudoInverse,
-}
+impl MethodSettings for Lecture {
+    fn facts(&self) -> Facts {
+        Facts {
+            accuracy: Accuracy::Step,
+            tolerance: None,
+            follows_events: false,
+            chooses: false,
+            contact: ContactModel::Law,
+            approach: Approach::Inside,
+            impact: None,
+            restitution: Restitution::Normal,
+            needs_mesh: true,
+            pins: false,
+            tangents_anyway: Some("the lecture corrects after the sweep: tangent rows are felt inside it"),
+            gyroscopic: self.rotation != Rotation::Literal,
+            position_correction: None,
+            integrator: None,
+        }
+    }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Iteration {
-    /// The printed formula.
-    Jacobi,
-    /// In place.
-    GaussSeidel,
-}
+    fn about(&self) -> About {
+        about(
+            "The lecture's constraint method, of order 1; unstable at long steps and with many nodes.",
+            "lecture L16–L21",
+        )
+    }
 
-/// When forces are put back into the friction cone.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Correction {
-    /// All contacts, once a sweep.
-    AfterSweep,
-    /// Right after the contact's three rows: this is projected Gauss–Seidel.
-    PerContact,
-}
-
-/// What |f_c2, f_c3| < μ |f_c1| bounds (L19).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Cone {
-    /// The length of (f₂, f₃): Coulomb's law.
-    #[default]
-    Disc,
-    /// f₂ and f₃ each, as the line can be read: up to √2 times the friction, by the direction.
-    Box,
-}
-
-/// Which velocity moves the position (L5).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Update {
-    Explicit,
-    #[default]
-    SemiImplicit,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Rotation {
-    /// I dω/dt = τ, R ← dR R: the slide's, without the gyroscopic term.
-    Literal,
-    /// World-frame angular momentum conserved, midpoint rotation.
-    Momentum,
+    fn check(&self, at: Path) -> Result<()> {
+        at_least_one(self.sweeps, at.key("sweeps"))
+    }
 }
 
 /// Spring and damper per penetrating node (L15).
@@ -222,6 +221,37 @@ pub struct Penalty {
     pub update: Update,
     #[serde(default = "momentum")]
     pub rotation: Rotation,
+}
+
+impl MethodSettings for Penalty {
+    fn facts(&self) -> Facts {
+        Facts {
+            accuracy: Accuracy::Step,
+            tolerance: None,
+            follows_events: false,
+            chooses: false,
+            contact: ContactModel::Springs,
+            approach: Approach::Inside,
+            impact: None,
+            restitution: Restitution::None { instead: "`damping_n_s_m` dissipates" },
+            needs_mesh: true,
+            pins: false,
+            tangents_anyway: None,
+            gyroscopic: self.rotation != Rotation::Literal,
+            position_correction: None,
+            integrator: None,
+        }
+    }
+
+    fn about(&self) -> About {
+        about("A spring and a damper in every penetrating node, of order 1; critical step 2/√λmax.", "lecture L15")
+    }
+
+    fn check(&self, at: Path) -> Result<()> {
+        positive(self.stiffness_n_m, at.key("stiffness_n_m"))?;
+        not_negative(self.damping_n_s_m, at.key("damping_n_s_m"))?;
+        positive(self.slip_speed_m_s, at.key("slip_speed_m_s"))
+    }
 }
 
 /// A thousandth of the speeds met in the lecture's scene (some m/s): slower slip counts as sticking, larger values
@@ -263,36 +293,6 @@ pub struct TimeStepping {
     pub contacts_per_face: Option<u32>,
 }
 
-/// Motion from event to event: impacts, and changes between sliding, sticking and flight, are found as roots in time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct EventDriven {
-    /// Wanted error at the end, of positions in metres, unless the motion itself lets errors grow.
-    pub tolerance: f64,
-    pub impact: Impact,
-}
-
-impl Default for EventDriven {
-    fn default() -> Self {
-        EventDriven { tolerance: DEFAULT_TOLERANCE, impact: Impact::Newton }
-    }
-}
-
-/// The cheapest method and step that meet a tolerance in this scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Auto {
-    /// Wanted error of positions at the end, in metres.
-    pub tolerance: f64,
-}
-
-impl Default for Auto {
-    /// A micrometre: what no engine with a fixed step reaches through an impact.
-    fn default() -> Self {
-        Auto { tolerance: 1e-6 }
-    }
-}
-
 fn is_one(x: &f64) -> bool {
     *x == 1.0
 }
@@ -315,108 +315,188 @@ impl Default for TimeStepping {
 }
 
 impl TimeStepping {
-    /// Given, or the solver's own: `newton` mostly needs none, and in a pile of 125 cubes more than 200 in one step of
-    /// 150.
+    /// Given, or the solver's own.
     pub fn sweeps(&self) -> u32 {
-        self.sweeps.unwrap_or(match self.solver {
-            Solver::Pgs | Solver::Nncg => 50,
-            Solver::Newton => 500,
-        })
+        self.sweeps.unwrap_or(self.solver.facts().sweeps)
     }
 
-    /// Given, or the solver's own: what is left of a sweep's change at 1e-12 is below the rounding of a step; a
-    /// residual of 1e-10 is met even where 400 contacts share a force or masses are 1 : 10⁶, and `newton` mostly ends
-    /// at 1e-15.
+    /// Given, or the solver's own.
     pub fn tolerance(&self) -> f64 {
-        let own = if self.solver == Solver::Newton { 1e-10 } else { 1e-12 };
-        self.tolerance.unwrap_or(own)
+        self.tolerance.unwrap_or(self.solver.facts().tolerance)
     }
-}
 
-/// What a contact does at its turn in a sweep.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Local {
-    /// The normal row, then both tangents by one step length, then the disc.
-    #[default]
-    Common,
-    /// Every tangent row by its own diagonal (the common textbook form): it settles away from the solution.
-    Rows,
-    /// Its 3×3 problem solved exactly (nonlinear Gauss–Seidel).
-    Exact,
-}
-
-/// In which order a sweep visits the contacts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Order {
-    /// That of the contact test.
-    #[default]
-    Fixed,
-    /// Another one every sweep, the same in every step.
-    Shuffled,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Solver {
-    /// Projected Gauss–Seidel, disc per contact.
-    Pgs,
-    /// Its sweeps as gradients of a nonlinear conjugate gradient method.
-    Nncg,
-    /// The law of contact to rounding, the smallest of all impulses that obey it.
-    Newton,
-}
-
-impl Solver {
-    /// Its word in the file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Solver::Pgs => "pgs",
-            Solver::Nncg => "nncg",
-            Solver::Newton => "newton",
+    /// Settings of sweeps mean nothing to a solver of all contacts at once.
+    fn only_what_the_solver_reads(&self, at: Path) -> Result<()> {
+        let TimeStepping { local, relaxation, order, .. } = Default::default();
+        let given = [
+            ("local", self.local != local),
+            ("relaxation", self.relaxation != relaxation),
+            ("order", self.order != order),
+        ];
+        match given.iter().find(|(_, given)| *given) {
+            Some((key, _)) if !self.solver.facts().by_contact => {
+                let sweep = Solver::ALL.iter().filter(|solver| solver.facts().by_contact);
+                let expected = format!(
+                    "nothing, as the solver `{}` solves all contacts at once ({} sweep)",
+                    self.solver.word(),
+                    listed(sweep.map(|solver| solver.word()))
+                );
+                Err(unexpected(at.key(key), &expected, "a setting of sweeps"))
+            }
+            _ => Ok(()),
         }
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Scheme {
-    /// Contacts and forces at the old position, position with the new velocity. Order 1.
-    SemiImplicit,
-    /// Half of the motion, contacts and forces there, the other half with the new velocity (J. J. Moreau 1999; θ = ½).
-    /// Order 2 between impacts; without friction and with e = 1 the energy is kept.
-    Moreau,
-}
-
-/// What happens to the normal velocity of an approaching contact.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Impact {
-    /// Multiplied by −e, all contacts at once (Moreau). With friction it may gain energy.
-    Newton,
-    /// All contacts at once, compression and expansion (Glocker & Pfeiffer). Never gains energy.
-    Poisson,
-    /// One contact after the other, the fastest approach first, by the energy of its own compression (Stronge). Never
-    /// gains energy.
-    Sequential,
-}
-
-impl Impact {
-    /// Its word in the file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Impact::Newton => "newton",
-            Impact::Poisson => "poisson",
-            Impact::Sequential => "sequential",
+impl MethodSettings for TimeStepping {
+    fn facts(&self) -> Facts {
+        Facts {
+            // The tolerance of `time-stepping` is its solver's, not the motion's.
+            accuracy: Accuracy::Step,
+            tolerance: None,
+            follows_events: false,
+            chooses: false,
+            contact: ContactModel::Law,
+            approach: match self.scheme {
+                Scheme::SemiImplicit => Approach::Start,
+                Scheme::Moreau => Approach::Middle,
+            },
+            impact: Some(self.impact),
+            restitution: Restitution::of(self.impact),
+            needs_mesh: false,
+            pins: self.impact.has_all(),
+            tangents_anyway: None,
+            gyroscopic: true,
+            position_correction: Some(self.position_correction),
+            integrator: None,
         }
+    }
+
+    fn about(&self) -> About {
+        let solvers: Vec<&str> = Solver::ALL.iter().map(|solver| solver.facts().about).collect();
+        about(
+            format!(
+                "Velocity and impulse, by {}; gaps close to zero and no further; free rotation in closed form; of \
+                 order 1, with `moreau` of order 2 between impacts.",
+                series(&solvers, "or")
+            ),
+            "Moreau 1988, 1999; Stewart & Trinkle 1996; Anitescu & Potra 1997; Glocker & Pfeiffer 1995; Stronge 1990",
+        )
+    }
+
+    fn unless_set(&self, setting: &str) -> String {
+        match setting {
+            "sweeps" => Solver::default_of(|solver| solver.sweeps.to_string()),
+            "tolerance" => Solver::default_of(|solver| format!("{:e}", solver.tolerance)),
+            _ => "all".to_string(),
+        }
+    }
+
+    fn check(&self, at: Path) -> Result<()> {
+        self.sweeps.map_or(Ok(()), |sweeps| at_least_one(sweeps, at.key("sweeps")))?;
+        self.tolerance.map_or(Ok(()), |tolerance| not_negative(tolerance, at.key("tolerance")))?;
+        relaxation(self.relaxation, at.key("relaxation"))?;
+        self.only_what_the_solver_reads(at)?;
+        self.contacts_per_face.map_or(Ok(()), |count| holds_a_face(count, at.key("contacts_per_face")))
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum PositionCorrection {
-    /// Split impulse: penetration is removed by a pseudo-velocity that is forgotten after the step.
-    Projection,
-    None,
+/// Motion from event to event: impacts, and changes between sliding, sticking and flight, are found as roots in time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EventDriven {
+    /// Wanted error at the end, of positions in metres, unless the motion itself lets errors grow.
+    pub tolerance: f64,
+    pub impact: Impact,
+}
+
+impl Default for EventDriven {
+    fn default() -> Self {
+        EventDriven { tolerance: DEFAULT_TOLERANCE, impact: Impact::Newton }
+    }
+}
+
+impl MethodSettings for EventDriven {
+    fn facts(&self) -> Facts {
+        Facts {
+            accuracy: Accuracy::Tolerance(&["method", "event-driven", "tolerance"]),
+            tolerance: Some(self.tolerance),
+            follows_events: true,
+            chooses: false,
+            contact: ContactModel::Law,
+            approach: Approach::Inside,
+            impact: Some(self.impact),
+            restitution: Restitution::of(self.impact),
+            needs_mesh: false,
+            pins: self.impact.has_all(),
+            tangents_anyway: None,
+            gyroscopic: true,
+            position_correction: None,
+            integrator: None,
+        }
+    }
+
+    fn about(&self) -> About {
+        about(
+            format!(
+                "Closed forms between events, else order 8 with a continuous extension of order 7; impacts, ends and \
+                 beginnings of slips, and openings are roots in time; where events lead no further, short steps of \
+                 `time-stepping` (column `work_fallbacks`). `tolerance` is of positions at the end, in metres, times \
+                 the column `sensitivity` where that is above 1; at least {SMALLEST_GLOBAL:e}."
+            ),
+            "Dormand & Prince 8(5,3); Glocker 2001; Mirtich 1996",
+        )
+    }
+
+    fn check(&self, at: Path) -> Result<()> {
+        reachable(self.tolerance, at.key("tolerance"))
+    }
+}
+
+/// The cheapest method and step that meet a tolerance in this scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Auto {
+    /// Wanted error of positions at the end, in metres.
+    pub tolerance: f64,
+}
+
+impl Default for Auto {
+    /// A micrometre: what no engine with a fixed step reaches through an impact.
+    fn default() -> Self {
+        Auto { tolerance: 1e-6 }
+    }
+}
+
+impl MethodSettings for Auto {
+    fn facts(&self) -> Facts {
+        Facts {
+            accuracy: Accuracy::Tolerance(&["method", "auto", "tolerance"]),
+            tolerance: Some(self.tolerance),
+            follows_events: true,
+            chooses: true,
+            contact: ContactModel::Law,
+            approach: Approach::Inside,
+            impact: None,
+            restitution: Restitution::All,
+            needs_mesh: false,
+            pins: true,
+            tangents_anyway: None,
+            gyroscopic: true,
+            position_correction: None,
+            integrator: None,
+        }
+    }
+
+    fn about(&self) -> About {
+        about(
+            "`event-driven`, or `time-stepping` where that stalls or falls back: whatever two runs say is accurate \
+             enough (columns `method_used`, `error_estimate_m`). `tolerance` is of positions at the end, in metres.",
+            "",
+        )
+    }
+
+    fn check(&self, at: Path) -> Result<()> {
+        reachable(self.tolerance, at.key("tolerance"))
+    }
 }

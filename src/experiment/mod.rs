@@ -2,11 +2,12 @@
 //!
 //! `ExperimentFile::load` reads a file with its `--set`s; `experiment` and `case` give resolved `Experiment`s.
 
-pub mod about;
+mod about;
 mod accuracy;
 pub mod axes;
 pub mod bench;
 mod checks;
+mod chosen;
 pub mod copies;
 mod defaults;
 mod either;
@@ -14,9 +15,11 @@ mod emit;
 pub mod error;
 pub mod expect;
 mod extends;
+mod facts;
 pub mod file;
 pub mod filter;
 mod given;
+mod integrator;
 pub mod key_path;
 mod later;
 mod limits;
@@ -30,6 +33,7 @@ pub mod predicate;
 mod reading;
 mod scene;
 pub mod search;
+mod solver;
 mod source;
 mod sweep;
 pub mod tolerances;
@@ -38,6 +42,7 @@ mod validate;
 mod validate_body;
 mod validate_loads;
 pub mod value_de;
+mod variants;
 pub mod vocabulary;
 
 pub use emit::to_yaml;

@@ -5,13 +5,19 @@
 //! SI units stand last in the key. Unknown keys are errors.
 
 pub use super::accuracy::Accuracy;
+pub use super::chosen::SteppingMethod;
 use super::defaults::is_default;
+pub use super::facts::{About, Approach, ContactModel, Facts, MethodSettings, Restitution};
+pub use super::integrator::Integrator;
 pub use super::limits::{Limits, ReferenceRun};
 pub use super::loads::*;
 pub use super::method::*;
 pub use super::scene::*;
+pub use super::solver::{Solver, SolverFacts};
+pub use super::variants::*;
 use crate::clock::Clock;
 use serde::{Deserialize, Serialize};
+use strum::{IntoStaticStr, VariantArray};
 
 /// One resolved experiment: no axes left in it, every default filled in. What a file holds besides (`sweep`, `expect`,
 /// `bench`) is taken out by `file.rs` before.
@@ -125,7 +131,7 @@ pub enum RecordCases {
     Sample(u32),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, VariantArray)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stream {
     Bodies,
@@ -135,23 +141,11 @@ pub enum Stream {
 }
 
 impl Stream {
-    pub const ALL: [Stream; 4] = [Stream::Bodies, Stream::Contacts, Stream::Forces, Stream::Energy];
+    pub const ALL: &'static [Stream] = Stream::VARIANTS;
 }
 
 /// Closed forms, by name; what each is and of which scenes stands in its file, `exact/<name>.rs`.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    PartialEq,
-    Eq,
-    PartialOrd,
-    Ord,
-    Serialize,
-    Deserialize,
-    strum::VariantArray,
-    strum::IntoStaticStr,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, IntoStaticStr, VariantArray)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Exact {
@@ -176,6 +170,8 @@ pub enum Exact {
 }
 
 impl Exact {
+    pub const ALL: &'static [Exact] = Exact::VARIANTS;
+
     /// Its word in the file.
     pub fn word(self) -> &'static str {
         self.into()

@@ -1,17 +1,14 @@
 //! What the types cannot say: bounds, and words that must fit together. The body's part is `validate_body.rs`.
 
-use super::checks::{
-    Result, a_part, at_least_one, direction, holds_a_face, not_negative, positive, relaxation, sizes, unexpected,
-};
+use super::checks::{Result, a_part, at_least_one, direction, not_negative, positive, reachable, sizes, unexpected};
 use super::error::{ExperimentError, number};
 use super::key_path::{KeyPath, Path};
-use super::tolerances::{SMALLEST_GLOBAL, SMALLEST_TOLERANCE};
 use super::types::{
-    Accuracy, Body, CONTAINER, Container, Diverge, EventDriven, Experiment, Free, Impact, Limits, Measure, Method,
-    Pair, Penalty, Plane, Random, Record, RecordCases, Scene, Shape, Solver, Time, TimeStepping,
+    Accuracy, Body, CONTAINER, ContactModel, Container, Diverge, EventDriven, Experiment, Limits, Measure, Method,
+    Pair, Plane, Random, Record, RecordCases, Restitution, Scene, Shape, Time,
 };
 use super::validate_body::validate_body;
-use super::validate_loads::validate_loads;
+use super::validate_loads::{validate_loads, who_lacks};
 
 /// More steps than a machine makes in weeks: a slip in a unit.
 const MOST_STEPS: f64 = 1e12;
@@ -21,12 +18,13 @@ pub fn validate(experiment: &Experiment) -> Result<()> {
     let base = KeyPath::default();
     let root = Path::Base(&base);
     validate_scene(&experiment.scene, root.key("scene"))?;
-    validate_method(&experiment.method, root.key("method"))?;
+    let method = &experiment.method;
+    method.settings().check(root.key("method").key(method.word()))?;
     validate_contact(experiment, root.key("scene"))?;
     validate_loads(experiment, root.key("scene"))?;
     validate_exact(experiment, root.key("exact"))?;
     validate_reference(experiment, root)?;
-    validate_time(&experiment.time, &experiment.method, root.key("time"))?;
+    validate_time(&experiment.time, method, root.key("time"))?;
     validate_diverge(&experiment.diverge, root.key("diverge"))?;
     validate_limits(&experiment.limits, root.key("limits"))?;
     validate_record(&experiment.record, root.key("record"))?;
@@ -145,97 +143,19 @@ fn validate_place(scene: &Scene, at: Path) -> Result<()> {
     Ok(())
 }
 
-fn validate_method(method: &Method, at: Path) -> Result<()> {
-    match method {
-        Method::Free(free) => validate_free(free, at.key("free")),
-        Method::Lecture(lecture) => at_least_one(lecture.sweeps, at.key("lecture").key("sweeps")),
-        Method::Penalty(penalty) => validate_penalty(penalty, at.key("penalty")),
-        Method::TimeStepping(stepping) => validate_time_stepping(stepping, at.key("time-stepping")),
-        Method::EventDriven(settings) => reachable(settings.tolerance, at.key("event-driven").key("tolerance")),
-        Method::Auto(settings) => reachable(settings.tolerance, at.key("auto").key("tolerance")),
-    }
-}
-
-/// A tolerance of the whole motion.
-fn reachable(tolerance: f64, at: Path) -> Result<()> {
-    if tolerance >= SMALLEST_GLOBAL {
-        return Ok(());
-    }
-    let expected = format!(
-        "a number of at least {SMALLEST_GLOBAL:e}: positions of some metres are known to 1e-16 of them, and events to \
-         some hundred times that"
-    );
-    Err(unexpected(at, &expected, &number(tolerance)))
-}
-
-fn validate_time_stepping(stepping: &TimeStepping, at: Path) -> Result<()> {
-    stepping.sweeps.map_or(Ok(()), |sweeps| at_least_one(sweeps, at.key("sweeps")))?;
-    stepping.tolerance.map_or(Ok(()), |tolerance| not_negative(tolerance, at.key("tolerance")))?;
-    relaxation(stepping.relaxation, at.key("relaxation"))?;
-    if stepping.solver == Solver::Newton {
-        whole_law(stepping, at)?;
-    }
-    stepping.contacts_per_face.map_or(Ok(()), |count| holds_a_face(count, at.key("contacts_per_face")))
-}
-
-/// Settings of sweeps mean nothing to a solver of all contacts at once.
-fn whole_law(stepping: &TimeStepping, at: Path) -> Result<()> {
-    let TimeStepping { local, relaxation, order, .. } = Default::default();
-    let given = [
-        ("local", stepping.local != local),
-        ("relaxation", stepping.relaxation != relaxation),
-        ("order", stepping.order != order),
-    ];
-    match given.iter().find(|(_, given)| *given) {
-        Some((key, _)) => {
-            let expected = "nothing, as the solver `newton` solves all contacts at once (`pgs` and `nncg` sweep)";
-            Err(unexpected(at.key(key), expected, "a setting of sweeps"))
-        }
-        None => Ok(()),
-    }
-}
-
-fn validate_free(free: &Free, at: Path) -> Result<()> {
-    let Some(tolerance) = free.tolerance else { return Ok(()) };
-    let at = at.key("tolerance");
-    if !matches!(free.integrator.accuracy(), Accuracy::Tolerance(_)) {
-        let expected = format!(
-            "no tolerance, as `{}` does not control its error (`dop853` and `taylor` do)",
-            free.integrator.word()
-        );
-        return Err(unexpected(at, &expected, &number(tolerance)));
-    }
-    if tolerance < SMALLEST_TOLERANCE {
-        let expected = format!("a number of at least {SMALLEST_TOLERANCE:e}");
-        return Err(unexpected(at, &expected, &number(tolerance)));
-    }
-    Ok(())
-}
-
-fn validate_penalty(penalty: &Penalty, at: Path) -> Result<()> {
-    positive(penalty.stiffness_n_m, at.key("stiffness_n_m"))?;
-    not_negative(penalty.damping_n_s_m, at.key("damping_n_s_m"))?;
-    positive(penalty.slip_speed_m_s, at.key("slip_speed_m_s"))
-}
-
 /// What the method can do with the scene's contacts.
 fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
-    let scene = &experiment.scene;
-    match &experiment.method {
-        Method::Free(_) | Method::Auto(_) => Ok(()),
-        Method::TimeStepping(_) | Method::EventDriven(_) => match experiment.method.impact() {
-            Impact::Newton => Ok(()),
-            Impact::Poisson => no_tangential_restitution("the law of impact `poisson`", scene, at),
-            Impact::Sequential => no_tangential_restitution("the law of impact `sequential`", scene, at),
-        },
-        Method::Lecture(_) => {
-            needs_meshes("lecture", scene, at)?;
-            no_tangential_restitution("the method `lecture`", scene, at)
-        }
-        Method::Penalty(_) => {
-            needs_meshes("penalty", scene, at)?;
-            no_restitution(scene, at)?;
-            no_tangential_restitution("the method `penalty`", scene, at)
+    let (scene, method) = (&experiment.scene, &experiment.method);
+    if method.facts().needs_mesh {
+        needs_meshes(method.word(), scene, at)?;
+    }
+    match method.facts().restitution {
+        Restitution::All => Ok(()),
+        Restitution::Normal => no_tangential_restitution(&who_lacks(method), scene, at),
+        Restitution::None { instead } => {
+            let who = who_lacks(method);
+            no_restitution(&format!("0, as {who} has no restitution ({instead})"), scene, at)?;
+            no_tangential_restitution(&who, scene, at)
         }
     }
 }
@@ -244,11 +164,12 @@ fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
 fn validate_exact(experiment: &Experiment, at: Path) -> Result<()> {
     let scene = &experiment.scene;
     let touches = scene.container.is_some() && scene.bodies.iter().any(|body| body.shape != Shape::None);
-    let free = matches!(experiment.method, Method::Free(_));
+    let free = experiment.method.facts().contact == ContactModel::None;
+    let word = experiment.method.word();
     match experiment.exact {
         Some(exact) if exact.touches() && free => {
-            let expected = "a motion without contact, or a method with contact: `free` has none";
-            Err(unexpected(at, expected, &format!("`{}`", exact.word())))
+            let expected = format!("a motion without contact, or a method with contact: `{word}` has none");
+            Err(unexpected(at, &expected, &format!("`{}`", exact.word())))
         }
         Some(exact) if !exact.touches() && touches && !free => {
             let expected = "an exact motion with contact, none, or the method `free`: a body may touch the container";
@@ -268,13 +189,17 @@ fn validate_reference(experiment: &Experiment, root: Path) -> Result<()> {
         return Err(unexpected(at, expected, &format!("`exact: {}` beside it", exact.word())));
     }
     let scene = &experiment.scene;
-    if matches!(experiment.method, Method::Free(_)) && scene.bodies.iter().any(|body| body.shape != Shape::None) {
-        let expected =
-            "bodies of shape `none`, or a method with contact: the reference has contact and `free` has none";
-        return Err(unexpected(at, expected, "bodies that may touch"));
+    let method = &experiment.method;
+    let without = method.facts().contact == ContactModel::None;
+    if without && scene.bodies.iter().any(|body| body.shape != Shape::None) {
+        let expected = format!(
+            "bodies of shape `none`, or a method with contact: the reference has contact and `{}` has none",
+            method.word()
+        );
+        return Err(unexpected(at, &expected, "bodies that may touch"));
     }
     let tolerance = reference.tolerance;
-    let method = Method::EventDriven(EventDriven { tolerance, impact: experiment.method.impact() });
+    let method = Method::EventDriven(EventDriven { tolerance, impact: method.impact() });
     let followed = Experiment { method, ..experiment.clone() };
     validate_contact(&followed, root.key("scene"))?;
     validate_loads(&followed, root.key("scene"))
@@ -292,8 +217,7 @@ fn needs_meshes(method: &str, scene: &Scene, at: Path) -> Result<()> {
     Ok(())
 }
 
-fn no_restitution(scene: &Scene, at: Path) -> Result<()> {
-    let expected = "0, as the method `penalty` has no restitution (`damping_n_s_m` dissipates)";
+fn no_restitution(expected: &str, scene: &Scene, at: Path) -> Result<()> {
     if scene.restitution != 0.0 {
         return Err(unexpected(at.key("restitution"), expected, &number(scene.restitution)));
     }
@@ -366,9 +290,10 @@ fn validate_record(record: &Record, at: Path) -> Result<()> {
 
 fn validate_measure(experiment: &Experiment, at: Path) -> Result<()> {
     let critical = experiment.measure.iter().position(|measure| *measure == Measure::CriticalStep);
-    match (critical, &experiment.method) {
-        (None, _) | (_, Method::Penalty(_)) => Ok(()),
-        (Some(i), _) => {
+    match critical {
+        None => Ok(()),
+        Some(_) if experiment.method.facts().contact == ContactModel::Springs => Ok(()),
+        Some(i) => {
             let expected = "what every method has, as only the step of the method `penalty` is critical";
             Err(unexpected(at.item(i, None), expected, "`critical-step`"))
         }

@@ -1,10 +1,10 @@
 //! What must be true of `forces:`, `air:`, `pins:` and of bodies that move as they are told.
 
-use super::checks::{Result, not_negative, unexpected};
+use super::checks::{Result, listed, not_negative, unexpected};
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
-use super::method::{Impact, Integrator, Method};
-use super::types::{Air, Body, Course, Experiment, Force, Pin, Scene, Shape};
+use super::types::{Air, Body, Course, Experiment, Force, Integrator, Method, Pin, Scene, Shape};
+use super::vocabulary::{Word, words};
 
 pub fn validate_loads(experiment: &Experiment, at: Path) -> Result<()> {
     let scene = &experiment.scene;
@@ -16,19 +16,29 @@ pub fn validate_loads(experiment: &Experiment, at: Path) -> Result<()> {
 }
 
 fn fits_the_method(method: &Method, scene: &Scene, at: Path) -> Result<()> {
-    let refused = |feature: &str| Err(ExperimentError::feature_not_available(at.key("pins").to_key_path(), feature));
-    match method {
-        Method::Free(free) if free.integrator == Integrator::Taylor => no_quadratic_drag(scene, at.key("air")),
-        _ if scene.pins.is_empty() => Ok(()),
-        Method::Free(_) | Method::Auto(_) => Ok(()),
-        Method::TimeStepping(_) | Method::EventDriven(_) => match method.impact() {
-            Impact::Newton => Ok(()),
-            law => refused(&format!("a pin with the law of impact `{}` (`newton` has pins)", law.word())),
-        },
-        Method::Lecture(_) | Method::Penalty(_) => refused(&format!(
-            "a pin with the method `{}` (`free`, `time-stepping`, `event-driven` and `auto` have pins)",
-            method.word()
-        )),
+    let facts = method.facts();
+    if facts.integrator.is_some_and(Integrator::needs_series) {
+        no_quadratic_drag(scene, at.key("air"))?;
+    }
+    if facts.pins || scene.pins.is_empty() {
+        return Ok(());
+    }
+    let others = match facts.impact {
+        Some(law) if !law.has_all() => "`newton` has pins".to_string(),
+        _ => {
+            let have = |word: &Word<Method>| word.value.facts().pins;
+            format!("{} have pins", listed(words::<Method>().iter().filter(|word| have(word)).map(|word| word.name)))
+        }
+    };
+    let feature = format!("a pin with {} ({others})", who_lacks(method));
+    Err(ExperimentError::feature_not_available(at.key("pins").to_key_path(), &feature))
+}
+
+/// Who lacks what other methods have: the law of impact, if there is one that has it.
+pub(super) fn who_lacks(method: &Method) -> String {
+    match method.facts().impact {
+        Some(law) if !law.has_all() => format!("the law of impact `{}`", law.word()),
+        _ => format!("the method `{}`", method.word()),
     }
 }
 

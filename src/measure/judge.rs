@@ -7,14 +7,18 @@ use super::momentum::MomentumLedger;
 use super::more::Watched;
 use super::push::Push;
 use super::residual::ResidualLedger;
+use crate::collide::approach::Approach;
 use crate::collide::{self, SolvedContact};
 use crate::experiment::types::Diverge;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::plan::Plan;
-use crate::shown::Moment;
+use crate::shown::{Acted, ContactForce, Moment, Shown};
 use crate::state::State;
 use nalgebra::Vector3;
+
+/// An impact, or a force: in no time.
+const AT_ONCE: (Approach, f64) = (Approach::Inside, 0.0);
 
 /// Watches a run, step by step.
 pub struct Judge {
@@ -42,7 +46,7 @@ impl Judge {
         Judge {
             energy: EnergyLedger::new(energy),
             momentum: MomentumLedger::new(model, start),
-            residual: ResidualLedger::new(plan.constraint, plan.approach, plan.newton, model),
+            residual: ResidualLedger::new(plan.constraint, plan.newton, model),
             penetration_max_m: plan.contact.then_some(0.0),
             contacts_max: 0,
             pin_gap_max_m: model.pin_gap_m(&start.bodies),
@@ -54,17 +58,36 @@ impl Judge {
         }
     }
 
-    /// Judges the step from `before` to `after`, in which `contacts` acted at the state `kicked`; says if the run has
-    /// diverged, and by which criterion.
-    pub fn observe(
+    /// Judges a step; says if the run has diverged, and by which criterion. A step that could not be made is none.
+    pub fn observe(&mut self, model: &Model, shown: &Shown) -> Option<Criterion> {
+        if shown.stalled.is_some() {
+            return None;
+        }
+        let Shown { before, after, .. } = *shown;
+        let energy = Energy::of(model, after);
+        let depth_m = match shown.acted {
+            Acted::Kick { kicked, contacts, step_s, approach } => {
+                self.observe_kick(model, [before, kicked, after], contacts, (approach, step_s), energy)
+            }
+            Acted::Blow { contacts } => self.observe_blow(model, [before, after], contacts, energy),
+            Acted::Motion(way) => {
+                self.observe_motion(model, [before, after], &way.moments(model, [before, after]), energy)
+            }
+        };
+        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
+        self.divergence.judge(model, after, &energy, depth_m)
+    }
+
+    /// Impulses at the state `kicked`; the depth of the deepest contact.
+    fn observe_kick(
         &mut self,
         model: &Model,
         [before, kicked, after]: [&State; 3],
         contacts: &[SolvedContact],
-        step_s: f64,
-    ) -> Option<Criterion> {
+        (approach, step_s): (Approach, f64),
+        energy: Energy,
+    ) -> f64 {
         self.gather_pushes(contacts);
-        let energy = Energy::of(model, after);
         if !contacts.is_empty() {
             self.energy.observe_contacts(model, kicked, &self.pushes, step_s);
             self.watched.observe(kicked, contacts);
@@ -72,63 +95,58 @@ impl Judge {
         if step_s > 0.0 {
             self.watched.observe_step(before, after, step_s);
         }
-        self.residual.observe(model, [kicked, after], contacts, &self.pushes, step_s);
+        self.residual.observe(model, [kicked, after], contacts, &self.pushes, (approach, step_s));
         let pivot = |state: &State| self.momentum.pivot_m(model, state);
         let done = loads::done(model, [before, after], &mut self.middle, pivot, step_s);
         self.energy.observe(energy, done.work_j);
         let pushes = (!contacts.is_empty()).then_some(&self.pushes[..]);
         self.momentum.observe(model, [before, kicked, after], pushes, &done, step_s);
-        let gap_m = model.pin_gap_m(&after.bodies);
-        self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
-        let depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max);
-        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
-        self.contacts_max = self.contacts_max.max(contacts.len() as u64);
-        self.divergence.judge(model, after, &energy, depth_m)
+        self.observe_pins(model, after);
+        self.observe_contacts(contacts)
     }
 
-    /// Judges an impact, which takes no time: `contacts` changed only the velocities.
-    pub fn observe_blow(
+    /// An impact, which takes no time: `contacts` changed only the velocities.
+    fn observe_blow(
         &mut self,
         model: &Model,
         [before, after]: [&State; 2],
         contacts: &[SolvedContact],
-    ) -> Option<Criterion> {
+        energy: Energy,
+    ) -> f64 {
         self.gather_pushes(contacts);
-        let energy = Energy::of(model, after);
         self.energy.observe_blow(model, [before, after], &self.pushes);
         self.watched.observe(before, contacts);
-        self.residual.observe(model, [before, after], contacts, &self.pushes, 0.0);
+        self.residual.observe(model, [before, after], contacts, &self.pushes, AT_ONCE);
         self.energy.observe(energy, 0.0);
         let done = loads::done(model, [before, after], &mut self.middle, |_| Vector3::zeros(), 0.0);
         self.momentum.observe(model, [before, before, after], Some(&self.pushes), &done, 0.0);
-        let depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max);
-        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
-        self.contacts_max = self.contacts_max.max(contacts.len() as u64);
-        self.divergence.judge(model, after, &energy, depth_m)
+        self.observe_contacts(contacts)
     }
 
-    /// Judges a smooth motion, of which `moments` show the forces of contact: their weights are those of a quadrature.
-    pub fn observe_motion(
+    /// A smooth motion, of which `moments` show the forces of contact: their weights are those of a quadrature.
+    fn observe_motion(
         &mut self,
         model: &Model,
         [before, after]: [&State; 2],
         moments: &[Moment],
-    ) -> Option<Criterion> {
+        energy: Energy,
+    ) -> f64 {
         let span_s = after.time_s - before.time_s;
-        let energy = Energy::of(model, after);
         let mut depth_m = 0.0_f64;
         for Moment { state, contacts, weight_s } in moments.iter().filter(|moment| !moment.contacts.is_empty()) {
-            self.gather_pushes(contacts);
+            let impulse =
+                |force: &ContactForce| SolvedContact { contact: force.contact, impulse_W: force.force_W * *weight_s };
+            let contacts: Vec<SolvedContact> = contacts.iter().map(impulse).collect();
+            self.gather_pushes(&contacts);
             self.energy.observe_forces(model, state, &self.pushes);
             self.momentum.observe_pushes(model, state, &self.pushes);
             self.pushes.fill(Push::NONE);
             // Forces, as impulses that velocities can be held against.
             let longer = self.moment_s.max(*weight_s) / weight_s;
             let forces = contacts.iter().map(|s| SolvedContact { impulse_W: s.impulse_W * longer, ..*s });
-            self.residual.observe(model, [state, state], &forces.collect::<Vec<_>>(), &self.pushes, 0.0);
-            self.watched.observe(state, contacts);
-            depth_m = contacts.iter().map(|s| -s.contact.gap_m).fold(depth_m, f64::max);
-            self.contacts_max = self.contacts_max.max(contacts.len() as u64);
+            self.residual.observe(model, [state, state], &forces.collect::<Vec<_>>(), &self.pushes, AT_ONCE);
+            self.watched.observe(state, &contacts);
+            depth_m = depth_m.max(self.observe_contacts(&contacts));
         }
         if span_s > 0.0 {
             self.watched.observe_step(before, after, span_s);
@@ -143,10 +161,19 @@ impl Judge {
         }
         self.energy.observe(energy, done.work_j);
         self.momentum.observe(model, [before, before, after], None, &done, span_s);
+        self.observe_pins(model, after);
+        depth_m
+    }
+
+    fn observe_pins(&mut self, model: &Model, after: &State) {
         let gap_m = model.pin_gap_m(&after.bodies);
         self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
-        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
-        self.divergence.judge(model, after, &energy, depth_m)
+    }
+
+    /// Their number; the depth of the deepest.
+    fn observe_contacts(&mut self, contacts: &[SolvedContact]) -> f64 {
+        self.contacts_max = self.contacts_max.max(contacts.len() as u64);
+        contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max)
     }
 
     /// Depth of the deepest point in the last state, which no step has looked at.

@@ -5,6 +5,7 @@
 //! those of the last of these times that a run has met before.
 
 use super::error::Errors;
+use crate::rows::{Measured, finite};
 use crate::state::{BodyState, State};
 use nalgebra::{Quaternion, UnitQuaternion, Vector4};
 use serde::{Deserialize, Serialize};
@@ -118,6 +119,15 @@ impl<'a> Against<'a> {
         if let Some(sample) = self.good.get(part as usize) {
             let errors = Errors::between(state, &sample.state());
             self.last = Some(Met { time_s: sample.time_s, uncertainty_m: sample.uncertainty_m, errors });
+        }
+    }
+
+    /// Writes the errors at the last time that the run has met, and how far the reference is good.
+    pub fn write(&self, measured: &mut Measured) {
+        measured.reference_until_s = finite(self.until_s);
+        if let Some(met) = self.last {
+            met.errors.write(met.time_s, measured);
+            measured.reference_uncertainty_m = finite(met.uncertainty_m);
         }
     }
 }

@@ -183,7 +183,6 @@ fn in_cone(z: &Vector3<f64>, normal: &Vector3<f64>, friction: f64) -> Vector3<f6
 pub struct ResidualLedger {
     /// The method claims to solve the law of contact.
     judged: bool,
-    approach: Approach,
     /// Impacts obey Newton's law; else all that is asked of one is that it stays in its cone and stops the approach.
     newton: bool,
     moved: Vec<Moved>,
@@ -194,11 +193,10 @@ pub struct ResidualLedger {
 }
 
 impl ResidualLedger {
-    pub fn new(judged: bool, approach: Approach, newton: bool, model: &Model) -> Self {
+    pub fn new(judged: bool, newton: bool, model: &Model) -> Self {
         let bodies = model.bodies.len();
         ResidualLedger {
             judged,
-            approach,
             newton,
             moved: Vec::with_capacity(bodies),
             island_of: Vec::with_capacity(bodies),
@@ -207,19 +205,14 @@ impl ResidualLedger {
         }
     }
 
-    /// How the next steps go through a contact.
-    pub fn steps_as(&mut self, approach: Approach) {
-        self.approach = approach;
-    }
-
-    /// `states`: where the impulses acted, and after the step.
+    /// `states`: where the impulses acted, and after the step; how it went through contacts, and its length.
     pub fn observe(
         &mut self,
         model: &Model,
         states: [&State; 2],
         contacts: &[SolvedContact],
         pushes: &[Push],
-        step_s: f64,
+        (approach, step_s): (Approach, f64),
     ) {
         if !self.judged || contacts.is_empty() {
             return;
@@ -229,7 +222,7 @@ impl ResidualLedger {
         self.find_islands(model, contacts);
         self.stakes.clear();
         self.stakes.resize(pushes.len(), Stakes::default());
-        let seen = |contact: &Contact| Seen::new(model, contact, &self.moved, (self.approach, step_s));
+        let seen = |contact: &Contact| Seen::new(model, contact, &self.moved, (approach, step_s));
         for SolvedContact { contact, impulse_W } in contacts {
             let island = self.island(model, contact);
             self.stakes[island].weigh(&seen(contact), impulse_W);
@@ -239,7 +232,7 @@ impl ResidualLedger {
             let missed = if stakes.struck && !self.newton {
                 seen(contact).missed_by_impact(contact, impulse_W)
             } else {
-                seen(contact).missed(contact, impulse_W, self.approach)
+                seen(contact).missed(contact, impulse_W, approach)
             };
             relative(missed, stakes.scale())
         };

@@ -6,13 +6,13 @@ use super::RecordError;
 use super::sample::{BodySample, ContactSample, Ending, EnergySample, Event, Severity, Streams};
 use super::writer::Writer;
 use crate::clock::Clock;
-use crate::collide::SolvedContact;
 use crate::experiment::types::{Record, Stream};
 use crate::measure::deepest_m;
 use crate::measure::energy::Energy;
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::rows::Measured;
+use crate::shown::ContactForce;
 use crate::state::{BodyState, State};
 
 /// Samples of one run.
@@ -34,7 +34,7 @@ impl Sampler {
     }
 
     /// `contacts`: of the step that led to `state`.
-    pub fn sample(&mut self, model: &Model, state: &State, contacts: &[SolvedContact], step_s: f64) {
+    pub fn sample(&mut self, model: &Model, state: &State, contacts: impl ExactSizeIterator<Item = ContactForce>) {
         let batch = self.writer.batch();
         batch.step.push(state.step);
         batch.time_s.push(state.time_s);
@@ -43,7 +43,7 @@ impl Sampler {
         }
         if self.streams.any_contact() {
             batch.contacts_len.push(contacts.len() as u32);
-            batch.contacts.extend(contacts.iter().map(|solved| contact_sample(solved, step_s)));
+            batch.contacts.extend(contacts.map(contact_sample));
         }
         if self.streams.energy {
             let energy = Energy::of(model, state);
@@ -104,13 +104,13 @@ fn body_sample(at: &BodyState) -> BodySample {
     }
 }
 
-fn contact_sample(solved: &SolvedContact, step_s: f64) -> ContactSample {
+fn contact_sample(ContactForce { contact, force_W }: ContactForce) -> ContactSample {
     ContactSample {
-        body: solved.contact.body as u32,
-        other: solved.contact.other.map(|other| other as u32),
-        point_m: solved.contact.p_WC.into(),
-        normal: solved.contact.normal.into(),
-        force_n: (solved.impulse_W / step_s).into(),
-        gap_m: solved.contact.gap_m,
+        body: contact.body as u32,
+        other: contact.other.map(|other| other as u32),
+        point_m: contact.p_WC.into(),
+        normal: contact.normal.into(),
+        force_n: force_W.into(),
+        gap_m: contact.gap_m,
     }
 }

@@ -51,8 +51,8 @@ impl Table {
         self.rows.iter()
     }
 
-    /// SHA-256 of all columns but those that a clock makes or that say what was recorded, by name, row by row: the same of
-    /// the same rows, recorded or not.
+    /// SHA-256 of all columns but those that a clock makes or that say what was recorded, by name, row by row: the same
+    /// of the same rows, recorded or not.
     pub fn hash(&self) -> String {
         let names = self.columns.iter().map(|(name, _)| name.as_str());
         let hashed: Vec<&str> = names.filter(|name| !columns::is_beside_the_run(name)).collect();

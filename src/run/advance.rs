@@ -1,20 +1,119 @@
-//! The bare loop: only steps, no judge, no recorder.
+//! THE LOOP below every run: step after step, up to the end, a step that cannot be made, or a limit.
 
 use crate::clock::Clock;
-use crate::experiment::types::{Limits, Method};
+use crate::experiment::types::{Limits, Method, SteppingMethod};
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::plan::Plan;
+use crate::shown::{ContactForce, Shown};
 use crate::state::State;
 use crate::step::Stepper;
 use crate::work::Work;
 use std::time::{Duration, Instant};
 
-/// Whether a run that is not at its end has to stop.
-pub fn is_used_up(limits: &Limits, state: &State, work: &Work, stepping: Duration) -> bool {
-    limits.steps.is_some_and(|most| state.step >= most)
-        || limits.events.is_some_and(|most| work.events > most)
-        || limits.wall_s.is_some_and(|most_s| stepping.as_secs_f64() > most_s)
+/// A run on its way.
+pub struct Advance<'a> {
+    stepper: Stepper,
+    clock: Clock,
+    limits: &'a Limits,
+    before: State,
+    state: State,
+    is_timed: bool,
+    stepping: Duration,
+    stopped: Option<Criterion>,
+}
+
+impl<'a> Advance<'a> {
+    /// Of a method, from a first state. The clock on the wall is read for a limit alone.
+    pub fn new(method: &SteppingMethod, model: &Model, start: State, clock: Clock, limits: &'a Limits) -> Self {
+        let plan = Plan::new(model, &Method::from(method.clone()));
+        let stepper = Stepper::new(method, &plan, model, &start);
+        Advance {
+            stepper,
+            clock,
+            limits,
+            before: start.clone(),
+            state: start,
+            is_timed: limits.wall_s.is_some(),
+            stepping: Duration::ZERO,
+            stopped: None,
+        }
+    }
+
+    /// With the time that its steps take.
+    pub fn timed(self) -> Self {
+        Advance { is_timed: true, ..self }
+    }
+
+    /// Makes a step and shows it; none: there is none left.
+    pub fn next(&mut self, model: &Model) -> Option<Shown<'_>> {
+        if self.has_ended() {
+            return None;
+        }
+        self.before.copy_from(&self.state);
+        let started = self.is_timed.then(Instant::now);
+        self.stepper.step(model, &mut self.state, &self.clock);
+        self.stepping += started.map_or(Duration::ZERO, |started| started.elapsed());
+        let stalled = self.stepper.stalled();
+        if stalled.is_some() {
+            self.state.copy_from(&self.before);
+        }
+        self.stopped = stalled.or_else(|| self.limit());
+        Some(Shown {
+            before: &self.before,
+            after: &self.state,
+            acted: self.stepper.acted(&self.before, &self.clock),
+            way: self.stepper.way(),
+            stalled,
+            is_last: self.has_ended(),
+        })
+    }
+
+    /// The same to the end, seen by nobody.
+    pub fn run_out(&mut self, model: &Model) {
+        while self.next(model).is_some() {}
+    }
+
+    fn has_ended(&self) -> bool {
+        self.stopped.is_some() || self.stepper.is_done(&self.state, &self.clock)
+    }
+
+    /// What is not at its end may have used up what it is given.
+    fn limit(&self) -> Option<Criterion> {
+        let Limits { wall_s, steps, events } = self.limits;
+        let is_used_up = steps.is_some_and(|most| self.state.step >= most)
+            || events.is_some_and(|most| self.work().events > most)
+            || wall_s.is_some_and(|most_s| self.stepping.as_secs_f64() > most_s);
+        (is_used_up && !self.stepper.is_done(&self.state, &self.clock)).then_some(Criterion::Limit)
+    }
+
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    pub fn work(&self) -> &Work {
+        self.stepper.work()
+    }
+
+    /// Why it ended before its time.
+    pub fn stopped(&self) -> Option<Criterion> {
+        self.stopped
+    }
+
+    /// Time that the steps took, of a timed run.
+    pub fn stepping(&self) -> Duration {
+        self.stepping
+    }
+
+    /// Of a method that makes its own steps, their mean.
+    pub fn step_used_s(&self) -> f64 {
+        self.stepper.step_used_s(&self.state, &self.clock)
+    }
+
+    /// Forces of contact at the end of the last step.
+    pub fn forces(&self, model: &Model) -> Vec<ContactForce> {
+        self.stepper.forces_at(model, &self.state, &self.clock)
+    }
 }
 
 /// Where a run came to that nobody watches.
@@ -26,22 +125,8 @@ pub struct Stepped {
 }
 
 /// Only steps: no judge, no recorder.
-pub fn only_step(method: &Method, model: &Model, start: State, clock: &Clock, limits: &Limits) -> Stepped {
-    let mut stepper = Stepper::new(method, &Plan::new(model, method), model, &start);
-    let (mut before, mut state) = (start.clone(), start);
-    let started = Instant::now();
-    let mut stopped = None;
-    while !stepper.is_done(&state, clock) && stopped.is_none() {
-        if is_used_up(limits, &state, stepper.work(), started.elapsed()) {
-            stopped = Some(Criterion::Limit);
-            break;
-        }
-        before.copy_from(&state);
-        stepper.step(model, &mut state, clock);
-        stopped = stepper.stalled();
-        if stopped.is_some() {
-            state.copy_from(&before);
-        }
-    }
-    Stepped { state, work: *stepper.work(), stopped }
+pub fn only_step(method: &SteppingMethod, model: &Model, start: State, clock: &Clock, limits: &Limits) -> Stepped {
+    let mut advance = Advance::new(method, model, start, *clock, limits);
+    advance.run_out(model);
+    Stepped { work: *advance.work(), stopped: advance.stopped, state: advance.state }
 }

@@ -1,13 +1,14 @@
-//! States at times that mean nothing to a method that goes from event to event: the motion is the same without.
+//! When someone looks between two steps. A method that makes steps of the clock is looked at after some of them; one
+//! that goes from event to event is asked where it was at a time: the motion is the same without.
 
 use crate::clock::Clock;
 use crate::experiment::types::Experiment;
 use crate::model::Model;
 use crate::record::sampler::Sampler;
+use crate::shown::{ContactForce, Passage, Shown};
 use crate::state::State;
-use crate::step::Stepper;
 
-/// States of a method that goes from event to event, at the times of a clock.
+/// The times of a clock, on the way of a run.
 pub struct Due {
     clock: Clock,
     /// Times that have passed.
@@ -30,8 +31,8 @@ impl Due {
         self.clock.end_s * (self.count + 1) as f64 / self.clock.steps as f64
     }
 
-    /// The next one in the last stretch of a run, which ends at `end`.
-    pub fn next(&mut self, stepper: &mut Stepper, model: &Model, end: &State) -> Option<DueAt<'_>> {
+    /// The next one on a way that ends at `end`.
+    pub fn next(&mut self, way: &dyn Passage, model: &Model, end: &State) -> Option<DueAt<'_>> {
         let due_s = self.next_s();
         if due_s > end.time_s {
             return None;
@@ -39,33 +40,81 @@ impl Due {
         self.count += 1;
         self.state.copy_from(end);
         self.state.time_s = due_s;
-        stepper.state_at(model, &mut self.state);
+        way.state_at(model, &mut self.state);
         Some(DueAt { part: self.count, state: &self.state })
     }
 }
 
-/// Samples for a recorder.
-pub struct Samples {
-    ticks: Due,
-    every_event: bool,
+/// Shows equal parts of a run's time to whoever compares it with another one.
+pub struct Parts {
+    due: Due,
+    steps: u64,
 }
 
-impl Samples {
-    pub fn new(experiment: &Experiment, start: &State) -> Self {
-        let every_event = experiment.record.every_s == 0.0;
-        Samples { ticks: Due::new(ticks(experiment), start), every_event }
+impl Parts {
+    /// Of a run by this clock, in so many parts.
+    pub fn new(parts: u64, clock: &Clock, start: &State) -> Self {
+        Parts { due: Due::new(Clock::new(clock.end_s / parts as f64, clock.end_s), start), steps: clock.steps }
     }
 
-    /// What is due in the last stretch, and its end if that is wanted.
-    pub fn show(&mut self, sampler: &mut Sampler, stepper: &mut Stepper, model: &Model, end: &State, last: bool) {
-        while !(self.every_event || last && self.ticks.next_s() == end.time_s) {
-            let Some(DueAt { state, .. }) = self.ticks.next(stepper, model, end) else { break };
-            let forces = stepper.forces_at(model, state);
-            sampler.sample(model, state, &forces, 1.0);
+    /// The parts that end in this step; those of a clock that end between two of its steps are left out.
+    pub fn show(&mut self, model: &Model, shown: &Shown, mut to: impl FnMut(u64, &State)) {
+        let (end, parts) = (shown.after, self.due.clock.steps);
+        match shown.way {
+            _ if shown.stalled.is_some() => {}
+            Some(way) => {
+                while let Some(at) = self.due.next(way, model, end) {
+                    to(at.part, at.state);
+                }
+            }
+            None if (end.step * parts).is_multiple_of(self.steps) => to(end.step * parts / self.steps, end),
+            None => {}
         }
-        if last || self.every_event {
-            let forces = stepper.forces_at(model, end);
-            sampler.sample(model, end, &forces, 1.0);
+    }
+}
+
+/// Shows samples to a recorder.
+pub struct Samples<'a> {
+    sampler: &'a mut Sampler,
+    ticks: Due,
+    /// Every step is wanted, whatever its length.
+    every_step: bool,
+    step_s: f64,
+}
+
+impl<'a> Samples<'a> {
+    /// The first of them is the start.
+    pub fn new(sampler: &'a mut Sampler, experiment: &Experiment, model: &Model, start: &State) -> Self {
+        sampler.sample(model, start, std::iter::empty());
+        let every_step = experiment.record.every_s == 0.0;
+        Samples { sampler, ticks: Due::new(ticks(experiment), start), every_step, step_s: experiment.clock().step_s }
+    }
+
+    /// What is due in a step, and its end if it is wanted or the `last` one.
+    pub fn show(&mut self, model: &Model, shown: &Shown, last: bool) {
+        match shown.way {
+            Some(way) => self.show_way(way, model, shown.after, last),
+            None => self.show_step(model, shown, last),
+        }
+    }
+
+    fn show_way(&mut self, way: &dyn Passage, model: &Model, end: &State, last: bool) {
+        while !(self.every_step || last && self.ticks.next_s() == end.time_s) {
+            let Some(DueAt { state, .. }) = self.ticks.next(way, model, end) else { break };
+            self.sampler.sample(model, state, way.forces_at(model, state).into_iter());
+        }
+        if last || self.every_step {
+            self.sampler.sample(model, end, way.forces_at(model, end).into_iter());
+        }
+    }
+
+    fn show_step(&mut self, model: &Model, shown: &Shown, last: bool) {
+        let due = self.sampler.is_due(shown.after.step);
+        // A stalled run is back at a state that has been sampled if it was due.
+        let wanted = if shown.stalled.is_some() { !due } else { due || last };
+        if wanted {
+            let forces = shown.impulses().iter().map(|solved| ContactForce::mean(solved, self.step_s));
+            self.sampler.sample(model, shown.after, forces);
         }
     }
 }

@@ -50,7 +50,7 @@ pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError
         potential_zero_m,
     };
     let state = State { step: 0, time_s: 0.0, bodies: states };
-    if !matches!(experiment.method, file::Method::Free(_)) && !scene.allow_overlap {
+    if experiment.method.facts().contact != file::ContactModel::None && !scene.allow_overlap {
         refuse_overlap(&model, &state, &depths_m)?;
     }
     Ok((model, state))

@@ -4,7 +4,9 @@
 //! solver `pgs` of time-stepping. `after-sweep` is the slide to the letter. As printed the slide's formula is Jacobi;
 //! Gauss–Seidel uses the values already updated.
 
-use super::problem::{Block, ContactProblem, Coupling, Memory};
+use super::block::Block;
+use super::coupling::{Coupling, Memory};
+use super::problem::ContactProblem;
 use super::{Impulse, corrected, exact_contact};
 use crate::experiment::types::{Cone, Correction, Iteration, Local, Order};
 use crate::work::Work;
@@ -47,8 +49,6 @@ pub struct Scratch {
     pub(super) before: Vec<Impulse>,
     pub(super) order: Vec<usize>,
     pub(super) coupling: Memory,
-    /// Of `nncg`.
-    pub(super) direction: Vec<Impulse>,
 }
 
 impl Scratch {
@@ -57,12 +57,9 @@ impl Scratch {
             before: Vec::with_capacity(contacts),
             order: Vec::with_capacity(contacts),
             coupling: Memory::with_capacity(bodies),
-            direction: Vec::with_capacity(contacts),
         }
     }
-}
 
-impl Scratch {
     /// The order of the first sweep.
     pub(super) fn restart(&mut self, sweeps: &Sweeps, contacts: usize) {
         self.order.clear();
@@ -81,7 +78,7 @@ pub fn iterate(
     work: &mut Work,
 ) -> bool {
     scratch.restart(sweeps, p.len());
-    let Scratch { before, order, coupling, .. } = scratch;
+    let Scratch { before, order, coupling } = scratch;
     if problem.is_dense() {
         sweep_until_done(problem, &mut problem.dense(), sweeps, p, before, order, work)
     } else {

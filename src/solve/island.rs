@@ -5,8 +5,10 @@
 //! σ, its own block of A having the trace 1/σ²: velocities are σ u, impulses p/σ, and Coulomb's cone stays what it is.
 
 use super::Impulse;
+use super::block::Block;
+use super::end::{End, Inertia};
 use super::law::{self, Law};
-use super::problem::{Block, ContactProblem, End, Inertia};
+use super::problem::ContactProblem;
 use crate::math::block_lu::{BlockMatrix, Factors, Pattern};
 use nalgebra::{DVector, Matrix3, Matrix3x6, Vector3};
 

@@ -1,6 +1,9 @@
 //! Contact solvers: a `ContactProblem` (plain data) becomes impulses, one method a file, each owning its scratch.
 
 mod active_set;
+pub mod block;
+mod coupling;
+pub mod end;
 pub mod exact_contact;
 pub mod gauss_seidel;
 pub mod impact;
@@ -10,10 +13,13 @@ pub mod island;
 pub mod law;
 pub mod newton;
 pub mod nncg;
+pub mod pins;
 pub mod position;
 pub mod problem;
 mod proximal;
 mod smallest;
+pub mod solver;
 pub mod start;
+pub mod twist;
 
 pub use impulse::{Impulse, corrected};

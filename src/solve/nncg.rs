@@ -3,9 +3,26 @@
 //! Fletcher and Reeves. It starts again whenever a gradient is longer than the one before.
 
 use super::Impulse;
-use super::gauss_seidel::{Scratch, Sweeps, has_settled, sweep};
-use super::problem::{ContactProblem, Coupling};
+use super::coupling::Coupling;
+use super::gauss_seidel::{self, Sweeps, has_settled, sweep};
+use super::problem::ContactProblem;
 use crate::work::Work;
+
+/// The solver's memory between steps, to spare the allocator.
+#[derive(Clone, Debug)]
+pub struct Scratch {
+    sweeps: gauss_seidel::Scratch,
+    direction: Vec<Impulse>,
+}
+
+impl Scratch {
+    pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
+        Scratch {
+            sweeps: gauss_seidel::Scratch::with_capacity(contacts, bodies),
+            direction: Vec::with_capacity(contacts),
+        }
+    }
+}
 
 /// Improves `p` by at most `sweeps.most` sweeps, the last of which leaves it in the cones. Whether it has settled.
 pub fn iterate(
@@ -15,13 +32,13 @@ pub fn iterate(
     scratch: &mut Scratch,
     work: &mut Work,
 ) -> bool {
-    scratch.restart(sweeps, p.len());
+    scratch.sweeps.restart(sweeps, p.len());
     if problem.is_dense() {
         return descend(problem, &mut problem.dense(), sweeps, p, scratch, work);
     }
-    let mut memory = std::mem::take(&mut scratch.coupling);
+    let mut memory = std::mem::take(&mut scratch.sweeps.coupling);
     let settled = descend(problem, &mut problem.through_bodies(p, &mut memory), sweeps, p, scratch, work);
-    scratch.coupling = memory;
+    scratch.sweeps.coupling = memory;
     settled
 }
 
@@ -33,7 +50,7 @@ fn descend(
     scratch: &mut Scratch,
     work: &mut Work,
 ) -> bool {
-    let Scratch { before, order, direction, .. } = scratch;
+    let Scratch { sweeps: gauss_seidel::Scratch { before, order, .. }, direction } = scratch;
     direction.clear();
     direction.resize(p.len(), Impulse::zeros());
     let mut last = f64::INFINITY;

@@ -6,7 +6,9 @@
 //! of the gap misses, and impacts that were seen late. A contact that loses no energy (e = 1) is left to leave by
 //! itself.
 
-use super::problem::{Block, ContactProblem, Twist};
+use super::block::Block;
+use super::problem::ContactProblem;
+use super::twist::Twist;
 use crate::collide::Contact;
 use crate::collide::approach::{rounding_m, size_m};
 use crate::model::{Body, Model};

@@ -8,7 +8,8 @@ use crate::experiment::types::Impact;
 use crate::model::Model;
 use crate::solve::Impulse;
 use crate::solve::impact::{self, Law, Plastic};
-use crate::solve::problem::{ContactProblem, Twist};
+use crate::solve::problem::ContactProblem;
+use crate::solve::twist::Twist;
 use crate::state::State;
 
 pub struct Blow {

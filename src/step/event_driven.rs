@@ -4,6 +4,7 @@
 //! that the run is the same with or without it.
 
 use super::stretch::{self, Stretch};
+use crate::collide::approach::Approach;
 use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, decide, margin};
@@ -21,9 +22,10 @@ use crate::math::quadrature;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::plan::Plan;
-use crate::shown::{Moment, Span};
+use crate::shown::{Acted, ContactForce, Moment, Passage};
 use crate::state::State;
 use crate::work::Work;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// What ends a stretch.
@@ -37,6 +39,17 @@ enum Event {
     Jam,
     /// A step of the integrator, and nothing else.
     Step,
+}
+
+/// What the last step was.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Span {
+    /// An impact, which takes no time.
+    Blow,
+    /// A step of equal length, between events that were too many.
+    Short { step_s: f64 },
+    /// A smooth motion.
+    Motion,
 }
 
 pub struct EventDriven {
@@ -56,7 +69,8 @@ pub struct EventDriven {
     next: Event,
     detector: Detector,
     found: Vec<Contact>,
-    forces: Forces,
+    /// Looked into from outside between two steps, too.
+    forces: RefCell<Forces>,
     /// When a contact had its last impact, if it may have more.
     struck_s: BTreeMap<Key, f64>,
     /// Of the projection.
@@ -69,7 +83,7 @@ pub struct EventDriven {
     trouble: bool,
     /// Steps of equal length instead.
     stretch: Option<Stretch>,
-    pub(super) span: Span,
+    span: Span,
     pub(super) stalled: Option<Criterion>,
     pub(super) solved: Vec<SolvedContact>,
     pub(super) work: Work,
@@ -108,7 +122,7 @@ impl EventDriven {
             next: Event::Start,
             detector: Detector::default(),
             found: Vec::with_capacity(16),
-            forces: Forces::default(),
+            forces: RefCell::default(),
             struck_s: BTreeMap::new(),
             placing: Forces::default(),
             scratch: start.clone(),
@@ -154,7 +168,7 @@ impl EventDriven {
             }
             Event::Jam => {
                 self.detect(model, state);
-                blow = impact::jam(model, state, &self.found, &mut self.forces, &mut self.solved, &mut self.work);
+                blow = impact::jam(model, state, &self.found, self.forces.get_mut(), &mut self.solved, &mut self.work);
                 self.stalled = (!blow).then_some(Criterion::Painleve);
                 self.next = Event::Change(Change::default());
             }
@@ -203,11 +217,6 @@ impl EventDriven {
         }
     }
 
-    /// Where the last step of equal length had its impulses.
-    pub fn kicked(&self) -> Option<&State> {
-        self.stretch.as_ref().and_then(Stretch::kicked)
-    }
-
     /// Fills `found` with what touches now.
     fn detect(&mut self, model: &Model, state: &State) {
         self.found.clear();
@@ -247,7 +256,7 @@ impl EventDriven {
                 self.found[k].tangential_restitution = 0.0;
             }
         }
-        let (forces, solved, work) = (&mut self.forces, &mut self.solved, &mut self.work);
+        let (forces, solved, work) = (self.forces.get_mut(), &mut self.solved, &mut self.work);
         if !impact::strike(model, state, &self.found, self.law, forces, solved, work) {
             work.unsolved += 1;
         }
@@ -292,7 +301,7 @@ impl EventDriven {
             return;
         }
         let change = &Change { slow_m_s: self.slow.fading_m_s, ..change.clone() };
-        match decide(model, state, touches, change, &mut self.forces, &mut self.work) {
+        match decide(model, state, touches, change, self.forces.get_mut(), &mut self.work) {
             Decision::Holds(held) => self.held = held,
             Decision::Jams => {
                 self.next = Event::Jam;
@@ -303,9 +312,9 @@ impl EventDriven {
                 return;
             }
         }
-        if project(model, state, &self.held, &mut self.placing) || self.held.len() != self.forces.here.len() {
-            self.forces.gather(model, state, self.held.iter().map(|held| &held.touch));
-            self.forces.hold(&self.held, Selection::Least);
+        if project(model, state, &self.held, &mut self.placing) || self.held.len() != self.forces.get_mut().here.len() {
+            self.forces.get_mut().gather(model, state, self.held.iter().map(|held| &held.touch));
+            self.forces.get_mut().hold(&self.held, Selection::Least);
         }
         self.settle(model, state);
     }
@@ -340,7 +349,7 @@ impl EventDriven {
 
     /// How everything moves from now on.
     fn settle(&mut self, model: &Model, state: &mut State) {
-        self.ends_s = settle(model, state, &self.held, &self.forces, &mut self.motions);
+        self.ends_s = settle(model, state, &self.held, self.forces.get_mut(), &mut self.motions);
         let is_dense = |i: &usize| matches!(self.motions[*i], Motion::Dense);
         let dense: Vec<usize> = (0..model.bodies.len()).filter(is_dense).collect();
         self.dense = match self.dense.take() {
@@ -366,7 +375,7 @@ impl EventDriven {
         }
         if self.held.iter().any(|held| self.dense.is_some() || held.touch.is_bounded()) {
             let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref() };
-            let (forces, at, work) = (&mut self.forces, &mut self.scratch, &mut self.work);
+            let (forces, at, work) = (self.forces.get_mut(), &mut self.scratch, &mut self.work);
             let mut looking = Looking { paths, held: &self.held, forces, at, work };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
                 (to_s, self.next) = (t_s, Event::Change(change));
@@ -389,8 +398,8 @@ impl EventDriven {
         self.scratch.copy_from(state);
         let mut most_s = self.longest_s;
         if self.held.iter().any(|held| held.slides().is_some()) {
-            margin(model, state, &self.held, &mut self.forces, &mut self.work);
-            most_s = most_s.min(slip::look(&self.slow, &mut self.held, state, &self.forces));
+            margin(model, state, &self.held, self.forces.get_mut(), &mut self.work);
+            most_s = most_s.min(slip::look(&self.slow, &mut self.held, state, self.forces.get_mut()));
         }
         dense.restart(state);
         let good = dense.step(&mut self.field(model), end_s, most_s);
@@ -404,7 +413,7 @@ impl EventDriven {
             model,
             motions: &self.motions,
             held: &self.held,
-            forces: &mut self.forces,
+            forces: self.forces.get_mut(),
             state: &mut self.scratch,
             choice: if sliding > 2 { Selection::Least } else { Selection::Any },
             work: &mut self.work,
@@ -427,31 +436,44 @@ impl EventDriven {
         }
     }
 
-    /// Puts the bodies where they are at the state's time, within the last stretch.
-    pub fn state_at(&mut self, model: &Model, state: &mut State) {
+    /// What the contacts of the last step did.
+    pub(super) fn acted<'a>(&'a self, before: &'a State) -> Acted<'a> {
+        match self.span {
+            Span::Blow => Acted::Blow { contacts: &self.solved },
+            Span::Motion => Acted::Motion(self),
+            Span::Short { step_s } => {
+                let kicked = self.stretch.as_ref().and_then(Stretch::kicked).unwrap_or(before);
+                Acted::Kick { kicked, contacts: &self.solved, step_s, approach: Approach::Middle }
+            }
+        }
+    }
+}
+
+impl Passage for EventDriven {
+    /// Within the last stretch.
+    fn state_at(&self, model: &Model, state: &mut State) {
         let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref() };
         if !self.motions.is_empty() {
             (0..state.bodies.len()).for_each(|i| state.bodies[i] = paths.at(i, state.time_s));
         }
     }
 
-    /// Forces of contact at a state of the last stretch.
-    pub fn forces_at(&mut self, model: &Model, state: &State) -> Vec<SolvedContact> {
+    fn forces_at(&self, model: &Model, state: &State) -> Vec<ContactForce> {
         if let Span::Short { step_s } = self.span {
-            let force = |s: &SolvedContact| SolvedContact { impulse_W: s.impulse_W / step_s, ..*s };
-            return self.solved.iter().map(force).collect();
+            return self.solved.iter().map(|solved| ContactForce::mean(solved, step_s)).collect();
         }
         if self.held.is_empty() {
             return Vec::new();
         }
-        margin(model, state, &self.held, &mut self.forces, &mut Work::default());
-        let Forces { here, problem, p, .. } = &self.forces;
+        let mut forces = self.forces.borrow_mut();
+        margin(model, state, &self.held, &mut forces, &mut Work::default());
+        let Forces { here, problem, p, .. } = &*forces;
         let of = here.iter().zip(&problem.blocks).zip(p);
-        of.map(|((here, block), p)| SolvedContact { contact: here.contact, impulse_W: block.in_world(p) }).collect()
+        of.map(|((here, block), p)| ContactForce { contact: here.contact, force_W: block.in_world(p) }).collect()
     }
 
     /// At the nodes of Gauss's quadrature with five points.
-    pub fn moments(&mut self, model: &Model, [before, after]: [&State; 2]) -> Vec<Moment> {
+    fn moments(&self, model: &Model, [before, after]: [&State; 2]) -> Vec<Moment> {
         let span_s = after.time_s - before.time_s;
         if span_s <= 0.0 || (self.held.is_empty() && !model.has_loads()) {
             return Vec::new();
@@ -460,8 +482,7 @@ impl EventDriven {
             let mut state = before.clone();
             state.time_s = before.time_s + node * span_s;
             self.state_at(model, &mut state);
-            let mut contacts = self.forces_at(model, &state);
-            contacts.iter_mut().for_each(|solved| solved.impulse_W *= weight * span_s);
+            let contacts = self.forces_at(model, &state);
             Moment { state, contacts, weight_s: weight * span_s }
         };
         quadrature::FIVE.into_iter().map(moment).collect()

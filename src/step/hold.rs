@@ -2,7 +2,7 @@
 
 use crate::model::Model;
 use crate::model::pins::Anchor;
-use crate::solve::problem::{Pin, PinEnd};
+use crate::solve::pins::{Pin, PinEnd};
 use crate::state::State;
 use nalgebra::Vector3;
 

@@ -6,19 +6,21 @@ use crate::collide::Reach;
 use crate::collide::approach::Approach;
 use crate::experiment::types::Lecture as Settings;
 use crate::model::Model;
-use crate::solve::gauss_seidel::{Sweeps, Variant, correct_all, iterate};
-use crate::solve::problem::Twist;
+use crate::solve::gauss_seidel::{self, Sweeps, Variant, correct_all, iterate};
 use crate::solve::start::first_guess;
+use crate::solve::twist::Twist;
 use crate::state::State;
 
 pub struct Lecture {
     settings: Settings,
+    iteration: gauss_seidel::Scratch,
     pub(super) scratch: Scratch,
 }
 
 impl Lecture {
     pub(super) fn new(settings: &Settings, scratch: Scratch) -> Self {
-        Lecture { settings: settings.clone(), scratch }
+        let iteration = gauss_seidel::Scratch::with_capacity(scratch.contacts(), scratch.free.capacity());
+        Lecture { settings: settings.clone(), iteration, scratch }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
@@ -53,7 +55,7 @@ impl Lecture {
                 friction: true,
                 variant: Variant::default(),
             };
-            iterate(&s.problem, &sweeps, &mut s.impulses, &mut s.solver, &mut s.work);
+            iterate(&s.problem, &sweeps, &mut s.impulses, &mut self.iteration, &mut s.work);
         }
         s.take_solution();
     }

@@ -5,7 +5,8 @@ use crate::clock::Clock;
 use crate::collide::{Contact, Reach, SolvedContact};
 use crate::experiment::types::Penalty as Settings;
 use crate::model::Model;
-use crate::solve::problem::{Inertia, Twist};
+use crate::solve::end::Inertia;
+use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 

@@ -5,8 +5,9 @@ use crate::experiment::types::{Rotation, Update};
 use crate::integrate::rotation::{turn_at_momentum, turn_literally, w_from_momentum};
 use crate::model::{Body, Model};
 use crate::plan::Plan;
-use crate::solve::problem::{ContactProblem, Twist};
-use crate::solve::{Impulse, gauss_seidel};
+use crate::solve::Impulse;
+use crate::solve::problem::ContactProblem;
+use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use crate::work::Work;
 
@@ -19,7 +20,6 @@ pub(super) struct Scratch {
     /// V[n] + M⁻¹ F_E Δt of every body.
     pub(super) free: Vec<Twist>,
     pub(super) impulses: Vec<Impulse>,
-    pub(super) solver: gauss_seidel::Scratch,
     /// M⁻¹ Jᵀ p of every body.
     pub(super) response: Vec<Twist>,
     pub(super) solved: Vec<SolvedContact>,
@@ -41,7 +41,6 @@ impl Scratch {
             problem: ContactProblem::with_capacity(contacts, bodies),
             free: Vec::with_capacity(bodies),
             impulses: Vec::with_capacity(contacts),
-            solver: gauss_seidel::Scratch::with_capacity(contacts, bodies),
             response: Vec::with_capacity(bodies),
             solved: Vec::with_capacity(contacts),
             work: Work::default(),

@@ -4,18 +4,21 @@ use super::scratch::Scratch;
 use super::{event_driven, free, lecture, penalty, time_stepping};
 use crate::clock::Clock;
 use crate::collide::SolvedContact;
-use crate::experiment::types::{EventDriven as EventSettings, Method as Settings};
+use crate::collide::approach::Approach;
+use crate::experiment::types::SteppingMethod as Settings;
 use crate::integrate::rotation::exponential;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::plan::Plan;
-use crate::shown::{Moment, Span};
+use crate::shown::{Acted, ContactForce, Passage};
 use crate::state::{BodyState, State};
 use crate::work::Work;
 
 /// A method, and the bodies that move as they are told.
 pub struct Stepper {
     method: Method,
+    /// How steps of the clock go through a contact.
+    approach: Approach,
     driven: Vec<Driven>,
 }
 
@@ -52,13 +55,9 @@ impl Stepper {
             Settings::EventDriven(settings) => {
                 Method::EventDriven(Box::new(event_driven::EventDriven::new(settings, plan, model, start)))
             }
-            Settings::Auto(settings) => {
-                let settings = EventSettings { tolerance: settings.tolerance, ..Default::default() };
-                Method::EventDriven(Box::new(event_driven::EventDriven::new(&settings, plan, model, start)))
-            }
         };
         let driven = model.bodies.iter().zip(&start.bodies).enumerate().filter(|(_, (body, _))| body.driven);
-        Stepper { method, driven: driven.map(|(i, (_, at))| Driven(i, *at)).collect() }
+        Stepper { method, approach: plan.approach, driven: driven.map(|(i, (_, at))| Driven(i, *at)).collect() }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
@@ -98,43 +97,34 @@ impl Stepper {
         }
     }
 
-    pub fn span(&self) -> Span {
-        match &self.method {
-            Method::EventDriven(method) => method.span,
-            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => Span::Step,
-        }
-    }
-
-    /// Puts the bodies where they were at the state's time, within the last step of a method that follows events.
-    pub fn state_at(&mut self, model: &Model, state: &mut State) {
-        match &mut self.method {
-            Method::EventDriven(method) => method.state_at(model, state),
-            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => {}
-        }
-    }
-
-    /// Forces of contact at a state within the last step of a method that follows events, as impulses of one second.
-    pub fn forces_at(&mut self, model: &Model, state: &State) -> Vec<SolvedContact> {
-        match &mut self.method {
-            Method::EventDriven(method) => method.forces_at(model, state),
-            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => Vec::new(),
-        }
-    }
-
-    /// States and forces of contact on the way of the last step, and the time that each of them stands for.
-    pub fn moments(&mut self, model: &Model, span: [&State; 2]) -> Vec<Moment> {
-        match &mut self.method {
-            Method::EventDriven(method) => method.moments(model, span),
-            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => Vec::new(),
-        }
-    }
-
-    /// Where the impulses of the last step acted; none: where it began.
-    pub fn kicked(&self) -> Option<&State> {
-        match &self.method {
+    /// What the contacts of the last step did, which began at `before`.
+    pub fn acted<'a>(&'a self, before: &'a State, clock: &Clock) -> Acted<'a> {
+        let kicked = match &self.method {
+            Method::EventDriven(method) => return method.acted(before),
             Method::TimeStepping(method) => method.kicked.as_ref(),
-            Method::EventDriven(method) => method.kicked(),
             Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) => None,
+        };
+        Acted::Kick {
+            kicked: kicked.unwrap_or(before),
+            contacts: self.contacts(),
+            step_s: clock.step_s,
+            approach: self.approach,
+        }
+    }
+
+    /// The way of the last step, of a method that follows events.
+    pub fn way(&self) -> Option<&dyn Passage> {
+        match &self.method {
+            Method::EventDriven(method) => Some(&**method),
+            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => None,
+        }
+    }
+
+    /// Forces of contact at the end of the last step.
+    pub fn forces_at(&self, model: &Model, end: &State, clock: &Clock) -> Vec<ContactForce> {
+        match self.way() {
+            Some(way) => way.forces_at(model, end),
+            None => self.contacts().iter().map(|solved| ContactForce::mean(solved, clock.step_s)).collect(),
         }
     }
 

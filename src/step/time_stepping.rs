@@ -16,16 +16,18 @@ use crate::clock::Clock;
 use crate::collide::approach::{Approach, foresee};
 use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, Reach, SolvedContact};
-use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, Solver, TimeStepping as Settings};
+use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
 use crate::integrate::rotation::{exponential, w_from_momentum};
 use crate::model::Model;
 use crate::plan::Plan;
-use crate::solve::gauss_seidel::{self, Sweeps, Variant};
+use crate::solve::Impulse;
+use crate::solve::gauss_seidel::{Sweeps, Variant};
+use crate::solve::pins::Pin;
 use crate::solve::position::Push;
-use crate::solve::problem::{ContactProblem, Pin, Twist};
-use crate::solve::{Impulse, newton, nncg};
+use crate::solve::problem::ContactProblem;
+use crate::solve::solver::ContactSolver;
+use crate::solve::twist::Twist;
 use crate::state::State;
-use crate::work::Work;
 use nalgebra::Vector3;
 
 /// Of the greatest friction: what is below it sticks.
@@ -35,7 +37,7 @@ const STUCK: f64 = 1.0 - 1e-9;
 const MARGIN: f64 = 1e-9;
 
 pub struct TimeStepping {
-    solver: Solver,
+    solver: ContactSolver,
     approach: Approach,
     sweeps: Sweeps,
     reduction: Option<Reduction>,
@@ -63,7 +65,7 @@ impl TimeStepping {
             variant: Variant { local: settings.local, relaxation: settings.relaxation, order: settings.order },
         };
         TimeStepping {
-            solver: settings.solver,
+            solver: ContactSolver::new(settings.solver, scratch.contacts(), scratch.free.capacity()),
             approach: plan.approach,
             sweeps,
             reduction: settings.contacts_per_face.map(|most| Reduction::new(most, scratch.contacts())),
@@ -124,11 +126,10 @@ impl TimeStepping {
             pins(model, state, step_s, &mut self.pins);
             s.problem.pin(model, state, &s.free, &self.pins);
         }
-        let solver = self.solver;
         let struck = self.blow.as_mut().filter(|_| !s.found.is_empty()).and_then(|blow| {
-            let (sweeps, scratch, work) = (&self.sweeps, &mut s.solver, &mut s.work);
+            let (solver, work) = (&mut self.solver, &mut s.work);
             let mut plastic =
-                |problem: &ContactProblem, p: &mut [Impulse]| solve(solver, problem, sweeps, p, scratch, work);
+                |problem: &ContactProblem, p: &mut [Impulse]| solver.solve(problem, &self.sweeps, p, work);
             let ended = blow.strike(model, state, &s.free, &s.found, step_s, &mut plastic)?;
             s.work.unsolved += u64::from(!ended);
             go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s));
@@ -145,9 +146,7 @@ impl TimeStepping {
         if s.problem.energy(&s.impulses, &s.response) > 0.0 {
             s.impulses.fill(Impulse::zeros());
         }
-        if !s.problem.blocks.is_empty()
-            && !solve(solver, &s.problem, &self.sweeps, &mut s.impulses, &mut s.solver, &mut s.work)
-        {
+        if !s.problem.blocks.is_empty() && !self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work) {
             s.work.unsolved += 1;
             s.problem.response(&s.impulses, &mut s.response);
             s.problem.take_back(&mut s.impulses, &s.response);
@@ -171,21 +170,6 @@ impl TimeStepping {
         let lost_j = || s.problem.dissipated_j(state, &s.free, &s.impulses, &s.response);
         self.position_correction == PositionCorrection::Projection
             && self.push.find(&s.problem, &s.found, model, (&s.response, step_s), lost_j, &mut s.work)
-    }
-}
-
-fn solve(
-    solver: Solver,
-    problem: &ContactProblem,
-    sweeps: &Sweeps,
-    p: &mut [Impulse],
-    scratch: &mut gauss_seidel::Scratch,
-    work: &mut Work,
-) -> bool {
-    match solver {
-        Solver::Pgs => gauss_seidel::iterate(problem, sweeps, p, scratch, work),
-        Solver::Nncg => nncg::iterate(problem, sweeps, p, scratch, work),
-        Solver::Newton => newton::solve(problem, sweeps, p, scratch, work),
     }
 }
 

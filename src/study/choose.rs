@@ -12,7 +12,9 @@
 
 use crate::clock::Clock;
 use crate::experiment::tolerances::SMALLEST_GLOBAL;
-use crate::experiment::types::{Auto, EventDriven, Experiment, Measure, Method, Scheme, Solver, TimeStepping};
+use crate::experiment::types::{
+    Auto, EventDriven, Experiment, Limits, Measure, Scheme, Solver, SteppingMethod, TimeStepping,
+};
 use crate::measure::error::Errors;
 use crate::model::Model;
 use crate::rows::{Measured, finite};
@@ -34,38 +36,58 @@ pub const HALVINGS: u32 = 12;
 /// Steps of one run times bodies.
 const MOST_WORK: f64 = 1e6;
 
-/// What is run in the place of `auto`.
-pub struct Choice {
+/// What runs: the experiment as it is, or as `auto` has chosen. Below there is no `auto`.
+#[derive(Clone, Debug)]
+pub struct Chosen {
     pub experiment: Experiment,
+    pub method: SteppingMethod,
+    /// None: the experiment said itself which method it wants.
+    searched: Option<Searched>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Searched {
     /// Of positions at the end; none: no two runs came there.
-    pub error_estimate_m: Option<f64>,
+    error_estimate_m: Option<f64>,
     search_s: f64,
 }
 
-impl Choice {
+impl Chosen {
     /// Fills the columns that say what was chosen.
     pub fn describe(&self, measured: &mut Measured) {
+        let Some(Searched { error_estimate_m, search_s }) = self.searched else { return };
         measured.method_used = Some(self.experiment.method.word().to_string());
         measured.tolerance_used = self.experiment.method.tolerance();
-        measured.error_estimate_m = self.error_estimate_m;
-        measured.wall_search_s = finite(self.search_s);
+        measured.error_estimate_m = error_estimate_m;
+        measured.wall_search_s = finite(search_s);
     }
 }
 
-/// None: the experiment says itself which method it wants.
-pub fn choose(experiment: &Experiment, model: &Model, start: &State) -> Option<Choice> {
-    let Method::Auto(Auto { tolerance }) = experiment.method else { return None };
-    let started = Instant::now();
-    let scene = Asked { experiment, model, start, tolerance };
-    let Candidate { method, step_s, estimate_m } = scene.best();
-    let mut chosen = Experiment { method, ..experiment.clone() };
+/// The method of an experiment; where it leaves that to `auto`, the one that follows this scene to its tolerance.
+pub fn method(experiment: &Experiment, model: &Model, start: &State) -> Chosen {
+    match experiment.method.stepping() {
+        Ok(method) => Chosen { experiment: experiment.clone(), method, searched: None },
+        Err(auto) => search(experiment, auto, model, start),
+    }
+}
+
+/// What runs first: the method itself, or what `auto` begins its search with.
+pub fn first_tried(experiment: &Experiment) -> SteppingMethod {
+    experiment.method.stepping().unwrap_or_else(|auto| by_events(auto.tolerance))
+}
+
+/// Within the time that the experiment's limits leave for search and run together.
+fn search(experiment: &Experiment, auto: &Auto, model: &Model, start: &State) -> Chosen {
+    let asked = Asked { experiment, model, start, tolerance: auto.tolerance, started: Instant::now() };
+    let Candidate { method, step_s, estimate_m } = asked.best();
+    let mut chosen = Experiment { method: method.clone().into(), limits: asked.limits(), ..experiment.clone() };
     chosen.time.step_s = step_s.or(chosen.time.step_s);
     // `auto` promises it, whatever it chooses.
     if !chosen.measure.contains(&Measure::Sensitivity) {
         chosen.measure.push(Measure::Sensitivity);
     }
-    let search_s = started.elapsed().as_secs_f64();
-    Some(Choice { experiment: chosen, error_estimate_m: finite(estimate_m), search_s })
+    let searched = Searched { error_estimate_m: finite(estimate_m), search_s: asked.started.elapsed().as_secs_f64() };
+    Chosen { experiment: chosen, method, searched: Some(searched) }
 }
 
 /// What is asked for.
@@ -75,18 +97,27 @@ pub struct Asked<'a> {
     pub start: &'a State,
     /// Of positions at the end, metres.
     pub tolerance: f64,
+    /// When the search began.
+    pub started: Instant,
 }
 
 /// What may be chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
-    pub method: Method,
+    pub method: SteppingMethod,
     pub step_s: Option<f64>,
     /// Infinite: unknown.
     pub estimate_m: f64,
 }
 
 impl Asked<'_> {
+    /// What is left of the experiment's.
+    fn limits(&self) -> Limits {
+        let left_s = |wall_s: f64| (wall_s - self.started.elapsed().as_secs_f64()).max(0.0);
+        let limits = &self.experiment.limits;
+        Limits { wall_s: limits.wall_s.map(left_s), ..limits.clone() }
+    }
+
     fn best(&self) -> Candidate {
         let (by_events, is_whole) = self.by_events();
         if is_whole {
@@ -158,9 +189,9 @@ impl Asked<'_> {
         self.run(&by_events(tolerance), self.experiment.time.end_s)
     }
 
-    fn run(&self, method: &Method, step_s: f64) -> Stepped {
+    fn run(&self, method: &SteppingMethod, step_s: f64) -> Stepped {
         let clock = Clock::new(step_s, self.experiment.time.end_s);
-        only_step(method, self.model, self.start.clone(), &clock, &self.experiment.limits)
+        only_step(method, self.model, self.start.clone(), &clock, &self.limits())
     }
 
     fn estimate_m(&self, rough: &Stepped, fine: &Stepped, safety: f64) -> f64 {
@@ -173,10 +204,14 @@ impl Asked<'_> {
     }
 }
 
-fn by_events(tolerance: f64) -> Method {
-    Method::EventDriven(EventDriven { tolerance, ..EventDriven::default() })
+fn by_events(tolerance: f64) -> SteppingMethod {
+    SteppingMethod::EventDriven(EventDriven { tolerance, ..EventDriven::default() })
 }
 
-fn by_steps() -> Method {
-    Method::TimeStepping(TimeStepping { scheme: Scheme::Moreau, solver: Solver::Newton, ..TimeStepping::default() })
+fn by_steps() -> SteppingMethod {
+    SteppingMethod::TimeStepping(TimeStepping {
+        scheme: Scheme::Moreau,
+        solver: Solver::Newton,
+        ..TimeStepping::default()
+    })
 }

@@ -1,57 +1,70 @@
-//! A case from its start to what was measured.
+//! ONE DOOR: a case from its start to what was measured. Sweep, search, run, check and bench all come through here, and
+//! nobody else chooses, refers or looks for twins.
 
-use super::choose::{self, Choice};
+use super::choose::{self, Chosen};
 use super::{reference, sensitivity};
+use crate::case::Case;
 use crate::experiment::types::Experiment;
-use crate::measure::reference::Reference;
 use crate::model::Model;
+use crate::record::RecordError;
+use crate::record::head::header;
+use crate::record::name::RecordingName;
 use crate::record::sampler::Sampler;
-use crate::run::{self, Ended};
+use crate::record::writer::{Target, open};
+use crate::run::{self, Ended, ticks};
 use crate::state::State;
+use std::path::Path;
 
-/// Runs one experiment from `start` to its end or its divergence; its reference, if it has one, is run before and lost.
-pub fn run(experiment: &Experiment, model: &Model, start: State, sampler: Option<&mut Sampler>) -> Ended {
-    let reference = reference::made(experiment, model, &start);
-    run_against(experiment, model, start, sampler, reference.as_ref())
+/// Where a run finds what it is measured against, and what it leaves beside its result.
+#[derive(Clone, Copy, Default)]
+pub struct Place<'a> {
+    /// Folder in which references are kept; none: they are made for this run alone.
+    pub references: Option<&'a Path>,
+    /// None: the run is not recorded.
+    pub recording: Option<Recording<'a>>,
 }
 
-/// The same against a reference that is there.
-pub fn run_against(
-    experiment: &Experiment,
-    model: &Model,
-    start: State,
-    sampler: Option<&mut Sampler>,
-    reference: Option<&Reference>,
-) -> Ended {
-    let choice = choose::choose(experiment, model, &start);
-    run_as(choice.as_ref(), experiment, model, start, sampler, reference)
+/// What a run is recorded into, and what its recording is called.
+#[derive(Clone, Copy)]
+pub struct Recording<'a> {
+    pub dir: &'a Path,
+    pub targets: &'a [Target],
+    pub case: &'a Case,
+    pub name: &'a RecordingName,
 }
 
-/// The same as what `auto` has chosen, if the experiment leaves that to it.
-pub fn run_as(
-    choice: Option<&Choice>,
-    experiment: &Experiment,
-    model: &Model,
-    start: State,
-    sampler: Option<&mut Sampler>,
-    reference: Option<&Reference>,
-) -> Ended {
-    let Some(choice) = choice else { return chosen(experiment, model, start, sampler, reference) };
-    let mut ended = chosen(&choice.experiment, model, start, sampler, reference);
-    choice.describe(&mut ended.measured);
-    ended
+/// A run that has been measured.
+pub struct Studied {
+    pub ended: Ended,
+    /// What has run.
+    pub chosen: Chosen,
+    /// A run that cannot be recorded still has its result.
+    pub recorded: Result<(), RecordError>,
 }
 
-fn chosen(
-    experiment: &Experiment,
-    model: &Model,
-    start: State,
-    sampler: Option<&mut Sampler>,
-    reference: Option<&Reference>,
-) -> Ended {
-    let mut ended = run::run(experiment, model, start.clone(), sampler, reference);
-    if sensitivity::is_wanted(experiment) {
-        ended.measured.sensitivity = sensitivity::sensitivity(experiment, model, &start, &ended.state);
+/// Runs an experiment from `start` to its end or its divergence.
+pub fn measure(experiment: &Experiment, model: &Model, start: State, place: &Place) -> Studied {
+    let reference = place.references.map_or_else(
+        || reference::made(experiment, model, &start),
+        |dir| reference::of_or_made(dir, experiment, model, &start),
+    );
+    let chosen = choose::method(experiment, model, &start);
+    let (mut sampler, opened) = match place.recording.map(|recording| recording.open(&chosen, model)).transpose() {
+        Ok(sampler) => (sampler, Ok(())),
+        Err(error) => (None, Err(error)),
+    };
+    let Chosen { experiment, method, .. } = &chosen;
+    let mut ended = run::run(experiment, method, model, start.clone(), sampler.as_mut(), reference.as_ref());
+    let recorded = opened.and_then(|()| sampler.map_or(Ok(()), Sampler::finish));
+    sensitivity::fill(&chosen, model, &start, &mut ended);
+    chosen.describe(&mut ended.measured);
+    Studied { ended, chosen, recorded }
+}
+
+impl Recording<'_> {
+    fn open(&self, chosen: &Chosen, model: &Model) -> Result<Sampler, RecordError> {
+        let clock = ticks::ticks(&chosen.experiment);
+        let writer = open(self.targets, self.dir, &header(self.case, self.name, model, &clock))?;
+        Ok(Sampler::new(writer, &chosen.experiment.record, &clock))
     }
-    ended
 }

@@ -4,5 +4,6 @@ pub mod choose;
 mod measure;
 pub mod reference;
 pub mod sensitivity;
+pub mod trial;
 
-pub use measure::{run, run_against, run_as};
+pub use measure::{Place, Recording, Studied, measure};

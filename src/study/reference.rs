@@ -6,16 +6,16 @@
 use crate::build_info::BUILD;
 use crate::case;
 use crate::clock::Clock;
+use crate::digest::{sealed, unsealed};
 use crate::experiment::tolerances::SMALLEST_GLOBAL;
-use crate::experiment::types::{EventDriven, Experiment, Limits, Method, Record, ReferenceRun, Time};
+use crate::experiment::types::{EventDriven, Experiment, Limits, Method, Record, ReferenceRun, SteppingMethod, Time};
 use crate::files::{self, FileError, make_folder, write_whole};
 use crate::measure::error::Errors;
 use crate::measure::reference::{PARTS, Reference, Sample};
 use crate::model::Model;
-use crate::plan::Plan;
-use crate::run::ticks::Due;
+use crate::run::advance::Advance;
+use crate::run::ticks::Parts;
 use crate::state::{BodyState, State};
-use crate::step::Stepper;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -33,7 +33,7 @@ pub fn id(experiment: &Experiment) -> Option<String> {
         question: None,
         scene: experiment.scene.clone(),
         seed: if random.is_some() { experiment.seed } else { 0 },
-        method: by_events(experiment, tolerance),
+        method: Method::EventDriven(by_events(experiment, tolerance)),
         time: Time {
             // Where it decides the start.
             step_s: experiment.time.step_s.filter(|_| random.is_some_and(|random| random.place.is_some())),
@@ -61,7 +61,8 @@ pub fn path(dir: &Path, experiment: &Experiment) -> Option<PathBuf> {
 pub fn of(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> Result<Option<Reference>, FileError> {
     static WRITING: Mutex<()> = Mutex::new(());
     let Some(path) = path(dir, experiment) else { return Ok(None) };
-    if let Some(reference) = read(&path) {
+    let is_it = |reference: &Reference| reference.build == BUILD && Some(&reference.id) == id(experiment).as_ref();
+    if let Some(reference) = read(&path).filter(is_it) {
         return Ok(Some(reference));
     }
     let made = made(experiment, model, start);
@@ -69,7 +70,7 @@ pub fn of(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> 
         // The name says of what it is: whoever writes last writes the same.
         let _one = WRITING.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         make_folder(dir)?;
-        write_whole(&path, &serde_json::to_vec(reference).unwrap_or_default())?;
+        write_whole(&path, sealed(reference).as_bytes())?;
     }
     Ok(made)
 }
@@ -79,9 +80,9 @@ pub fn of_or_made(dir: &Path, experiment: &Experiment, model: &Model, start: &St
     of(dir, experiment, model, start).unwrap_or_else(|_| made(experiment, model, start))
 }
 
-/// A file that is torn counts as missing.
+/// A file that is torn or changed counts as missing.
 fn read(path: &Path) -> Option<Reference> {
-    serde_json::from_slice(&files::read(path).ok()?).ok()
+    serde_json::from_str(&unsealed(&files::read(path).ok()?)?).ok()
 }
 
 /// Runs a reference; none: the experiment asks for none.
@@ -89,7 +90,7 @@ pub fn made(experiment: &Experiment, model: &Model, start: &State) -> Option<Ref
     let ReferenceRun { tolerance } = experiment.reference.clone()?;
     let second_tolerance = second(tolerance);
     let [first, second] = [tolerance, second_tolerance]
-        .map(|tolerance| follow(&by_events(experiment, tolerance), experiment, model, start));
+        .map(|tolerance| follow(by_events(experiment, tolerance), experiment, model, start));
     let apart_m = |(a, b): (&State, &State)| Errors::between(a, b).position_m;
     let samples: Vec<Sample> =
         first.states.iter().zip(&second.states).map(|pair| Sample::new(pair.0, apart_m(pair))).collect();
@@ -112,8 +113,8 @@ fn second(tolerance: f64) -> f64 {
 }
 
 /// The law of impact belongs to the physics.
-fn by_events(experiment: &Experiment, tolerance: f64) -> Method {
-    Method::EventDriven(EventDriven { tolerance, impact: experiment.method.impact() })
+fn by_events(experiment: &Experiment, tolerance: f64) -> EventDriven {
+    EventDriven { tolerance, impact: experiment.method.impact() }
 }
 
 /// States after equal parts of the time, as far as the run comes.
@@ -122,22 +123,20 @@ struct Followed {
     criterion: Option<String>,
 }
 
-fn follow(method: &Method, experiment: &Experiment, model: &Model, start: &State) -> Followed {
+fn follow(settings: EventDriven, experiment: &Experiment, model: &Model, start: &State) -> Followed {
     let end_s = experiment.time.end_s;
     let clock = Clock::new(end_s, end_s);
-    let mut stepper = Stepper::new(method, &Plan::new(model, method), model, start);
-    let mut due = Due::new(Clock::new(end_s / PARTS as f64, end_s), start);
-    let (mut states, mut state) = (vec![start.clone()], start.clone());
-    while !stepper.is_done(&state, &clock) && state.bodies.iter().all(BodyState::is_finite) {
-        stepper.step(model, &mut state, &clock);
-        if let Some(criterion) = stepper.stalled() {
-            return Followed { states, criterion: Some(criterion.name().to_string()) };
-        }
-        while let Some(at) = due.next(&mut stepper, model, &state) {
-            states.push(at.state.clone());
+    let mut parts = Parts::new(PARTS, &clock, start);
+    let limits = Limits::default();
+    let mut advance = Advance::new(&SteppingMethod::EventDriven(settings), model, start.clone(), clock, &limits);
+    let mut states = vec![start.clone()];
+    while let Some(shown) = advance.next(model) {
+        parts.show(model, &shown, |_, state| states.push(state.clone()));
+        if !shown.after.bodies.iter().all(BodyState::is_finite) {
+            break;
         }
     }
     let finite = states.iter().take_while(|state| state.bodies.iter().all(BodyState::is_finite)).count();
     states.truncate(finite);
-    Followed { states, criterion: None }
+    Followed { states, criterion: advance.stopped().map(|criterion| criterion.name().to_string()) }
 }

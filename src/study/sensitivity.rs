@@ -8,11 +8,13 @@
 //! A displacement is along what a body touches, never into it: ε is to be small against the motion, not against a
 //! closed gap. Bodies on pins, or driven ones, stay where they are.
 
+use super::choose::Chosen;
 use crate::clock::Clock;
 use crate::collide::{Contact, Detector, Reach};
 use crate::experiment::types::{Experiment, Limits, Measure};
 use crate::model::Model;
 use crate::rows::finite;
+use crate::run::Ended;
 use crate::run::advance::only_step;
 use crate::state::State;
 use crate::work::Work;
@@ -38,8 +40,15 @@ pub fn is_wanted(experiment: &Experiment) -> bool {
     experiment.method.follows_events() || experiment.measure.contains(&Measure::Sensitivity)
 }
 
+/// Writes the growth of errors into what was measured, if it is wanted.
+pub fn fill(chosen: &Chosen, model: &Model, start: &State, ended: &mut Ended) {
+    if is_wanted(&chosen.experiment) {
+        ended.measured.sensitivity = sensitivity(chosen, model, start, &ended.state);
+    }
+}
+
 /// Of the run from `start` to `end`; none if nothing can be displaced or no twin arrives.
-pub fn sensitivity(experiment: &Experiment, model: &Model, start: &State, end: &State) -> Option<f64> {
+pub fn sensitivity(chosen: &Chosen, model: &Model, start: &State, end: &State) -> Option<f64> {
     if end.step == 0 || end.time_s <= start.time_s {
         return None;
     }
@@ -48,7 +57,7 @@ pub fn sensitivity(experiment: &Experiment, model: &Model, start: &State, end: &
     let started = Instant::now();
     let arrived = (0..FRAME.len()).filter_map(|k| {
         let twin = displaced(start, |i| along(&held[i], &FRAME[(i + k) % 3]), size_m, end.time_s);
-        let apart_m = apart_m(&twin_end(experiment, model, twin?, end, started)?, end);
+        let apart_m = apart_m(&twin_end(chosen, model, twin?, end, started)?, end);
         finite(apart_m / size_m)
     });
     arrived.reduce(f64::max)
@@ -118,13 +127,14 @@ fn displaced(
 }
 
 /// At the time of the run's end, however the run has come to it. The twins together have the wall time of the run.
-fn twin_end(experiment: &Experiment, model: &Model, twin: State, end: &State, started: Instant) -> Option<State> {
+fn twin_end(chosen: &Chosen, model: &Model, twin: State, end: &State, started: Instant) -> Option<State> {
+    let Chosen { experiment, method, .. } = chosen;
     let follows_events = experiment.method.follows_events();
     let clock = if follows_events { Clock::new(end.time_s, end.time_s) } else { experiment.clock() };
     let most = if follows_events { end.step.saturating_mul(PATIENCE) } else { end.step };
     let left_s = |wall_s: f64| wall_s - started.elapsed().as_secs_f64();
     let limits = Limits { steps: Some(most), wall_s: experiment.limits.wall_s.map(left_s), ..Limits::default() };
-    let twin = only_step(&experiment.method, model, twin, &clock, &limits).state;
+    let twin = only_step(method, model, twin, &clock, &limits).state;
     let arrived = if follows_events { twin.time_s >= end.time_s } else { twin.step == end.step };
     arrived.then_some(twin)
 }

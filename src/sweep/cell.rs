@@ -9,7 +9,7 @@ use crate::experiment::{ExperimentError, ExperimentFile, Number};
 use crate::outcome::Outcome;
 use crate::rows::Measured;
 use crate::rows::columns::{self, SEARCH};
-use crate::study::{self, reference};
+use crate::study::{self, Place};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -102,8 +102,8 @@ impl Cell {
 
     fn run(&self, experiment: &Experiment, point: &[usize], dir: &Path) -> Result<Measured, ExperimentError> {
         let (model, start) = build(&self.file, point, experiment)?;
-        let reference = reference::of_or_made(dir, experiment, &model, &start);
-        Ok(study::run_against(experiment, &model, start, None, reference.as_ref()).measured)
+        let place = Place { references: Some(dir), recording: None };
+        Ok(study::measure(experiment, &model, start, &place).ended.measured)
     }
 
     /// The value to try next; none: the bracket is narrow enough.

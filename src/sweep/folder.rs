@@ -34,8 +34,9 @@ pub enum FolderError {
     /// Its plan, or a file of it.
     #[error(transparent)]
     File(#[from] FileError),
-    #[error("{dir}: {EXPERIMENT} does not make the plan of {PLAN}: expected hash {expected}, found {found}{why}")]
-    OtherPlan { dir: String, expected: String, found: String, why: String },
+    /// One of the two was changed, or belongs to another build.
+    #[error("{dir}: {PLAN} is not what {EXPERIMENT} beside it makes{why}; `{mend}` mends it")]
+    OtherPlan { dir: String, why: String, mend: String },
 }
 
 impl Folder {
@@ -51,15 +52,16 @@ impl Folder {
         }
         let plan = read_plan(dir)?;
         let file = ExperimentFile::load(&dir.join(EXPERIMENT), &[])?;
-        let SweepPlan { cases, file: again, .. } = SweepPlan::unbuilt(&file, &plan.name)?;
-        if again.hash != plan.hash {
-            let why = if plan.build == BUILD { "" } else { " (it was planned by another build of gotai)" };
-            return Err(FolderError::OtherPlan {
-                dir: dir.display().to_string(),
-                expected: plan.hash,
-                found: again.hash,
-                why: why.to_string(),
-            });
+        let SweepPlan { cases, file: made, .. } = SweepPlan::unbuilt(&file, &plan.name)?;
+        let PlanFile { program, build, .. } = plan.clone();
+        if (PlanFile { program, build, ..made }) != plan {
+            let why = match plan.build == BUILD {
+                true => String::new(),
+                false => format!(" (it was planned by the build {}, this is {BUILD})", plan.build),
+            };
+            let dir = dir.display().to_string();
+            let mend = format!("gotai sweep {dir}/{EXPERIMENT} --out {dir}");
+            return Err(FolderError::OtherPlan { dir, why, mend });
         }
         Ok(Folder { dir: dir.to_path_buf(), plan, file, cases, journal: Journal::read(dir)? })
     }
@@ -69,11 +71,11 @@ impl Folder {
         rows(&self.dir, &order(&self.cases), &self.journal)
     }
 
-    /// Writes the tables anew.
+    /// Writes the tables anew, one of text where there is one.
     ///
     /// # Errors
     /// The machine failed.
     pub fn write_tables(&self) -> Result<(), FileError> {
-        write_tables(&self.dir, &self.plan, &self.rows(), false)
+        write_tables(&self.dir, &self.plan, &self.rows(), self.dir.join("rows.csv").exists())
     }
 }

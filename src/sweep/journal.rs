@@ -6,8 +6,8 @@
 
 use super::recorded::Recorded;
 use crate::build_info::BUILD;
-use crate::digest::sha256;
-use crate::files::{FileError, write_whole};
+use crate::digest::{sealed, unsealed};
+use crate::files::{self, FileError, write_whole};
 use crate::rows::Measured;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -37,12 +37,18 @@ enum Line {
 pub struct Journal {
     pub rows: HashMap<String, Entry>,
     pub recordings: HashMap<String, Recorded>,
+    /// Recordings that later lines stand for.
+    pub superseded: Vec<Recorded>,
+    /// Lines that are torn, changed, or of another version.
+    pub unreadable: usize,
 }
 
 /// The journal of a folder, open for adding lines, by nobody else at the same time.
 pub struct JournalFile {
     path: PathBuf,
     file: File,
+    /// A killed run has left half a line: it is ended before the next one.
+    is_torn: bool,
 }
 
 impl Journal {
@@ -56,12 +62,15 @@ impl Journal {
 
     fn of(text: &[u8]) -> Self {
         let mut journal = Journal::default();
-        for said in text.split(|byte| *byte == b'\n').filter_map(said) {
-            match serde_json::from_str::<Line>(&said) {
-                Ok(Line::Recorded(recorded)) => drop(journal.recordings.insert(recorded.recorded.clone(), recorded)),
-                Ok(Line::Row(entry)) => drop(journal.rows.insert(entry.case.clone(), *entry)),
-                // Of another version.
-                Err(_) => {}
+        let lines = text.split(|byte| *byte == b'\n').filter(|line| !line.trim_ascii().is_empty());
+        for line in lines {
+            match unsealed(line).and_then(|said| serde_json::from_str::<Line>(&said).ok()) {
+                Some(Line::Recorded(recorded)) => {
+                    let before = journal.recordings.insert(recorded.recorded.clone(), recorded);
+                    journal.superseded.extend(before);
+                }
+                Some(Line::Row(entry)) => drop(journal.rows.insert(entry.case.clone(), *entry)),
+                None => journal.unreadable += 1,
             }
         }
         journal
@@ -87,13 +96,10 @@ impl JournalFile {
     /// The machine failed, or another program has it open.
     pub fn open(dir: &Path) -> Result<(Self, Journal), FileError> {
         let path = path(dir);
-        let mut journal = JournalFile { file: open_alone(dir, &path)?, path };
+        let file = open_alone(dir, &path)?;
         let text = read(dir)?;
-        // A killed run may have left half a line: end it, so that the next one starts at its beginning.
-        if text.last().is_some_and(|last| *last != b'\n') {
-            journal.write("\n")?;
-        }
-        Ok((journal, Journal::of(&text)))
+        let is_torn = text.last().is_some_and(|last| *last != b'\n');
+        Ok((JournalFile { path, file, is_torn }, Journal::of(&text)))
     }
 
     /// Appends a line at once.
@@ -101,7 +107,8 @@ impl JournalFile {
     /// # Errors
     /// The machine failed.
     pub fn add(&mut self, entry: &impl Serialize) -> Result<(), FileError> {
-        self.write(&line(entry))
+        let begin = if std::mem::take(&mut self.is_torn) { "\n" } else { "" };
+        self.write(&(begin.to_string() + &line(entry)))
     }
 
     /// Leaves these lines alone, in the order of the ids.
@@ -122,34 +129,32 @@ impl JournalFile {
     }
 }
 
-/// Locked until it is closed, by a kill too.
-fn open_alone(dir: &Path, path: &Path) -> Result<File, FileError> {
-    let opened = OpenOptions::new().create(true).append(true).open(path);
-    let journal = opened.map_err(|error| FileError::new(path, error))?;
-    match journal.try_lock() {
-        Ok(()) => Ok(journal),
-        Err(TryLockError::WouldBlock) => Err(FileError::new(dir, "another gotai is at work here")),
-        // A file system without locks, over a network for instance, has to be trusted.
-        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(journal),
-        Err(TryLockError::Error(error)) => Err(FileError::new(path, error)),
+/// A file for appending, made if it is not there, and locked until it is closed, by a kill too. `dir` is what messages
+/// call it.
+///
+/// # Errors
+/// Another program holds the lock, or the machine failed.
+pub fn open_alone(dir: &Path, path: &Path) -> Result<File, FileError> {
+    loop {
+        let opened = OpenOptions::new().create(true).append(true).open(path);
+        let file = opened.map_err(|error| FileError::new(path, error))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(FileError::new(dir, "another gotai is at work here")),
+            // A file system without locks, over a network for instance, has to be trusted.
+            Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
+            Err(TryLockError::Error(error)) => return Err(FileError::new(path, error)),
+        }
+        // Someone who cleaned up may have put another one in its place, between opening it and locking it.
+        if files::is_at(&file, path) {
+            return Ok(file);
+        }
     }
 }
 
-/// Between what a line of the journal says and its checksum.
-const SEAL: &str = ",\"sum\":\"";
-
-/// JSON, whose last member is 64 bits of the SHA-256 of all before it.
+/// A sealed object on a line of its own.
 pub fn line(entry: &impl Serialize) -> String {
-    let text = serde_json::to_string(entry).unwrap_or_default();
-    let said = text.strip_suffix('}').unwrap_or_default();
-    format!("{said}{SEAL}{}\"}}\n", sha256(said, 8))
-}
-
-/// What a line says; none: it is not what was written.
-fn said(line: &[u8]) -> Option<String> {
-    let (said, sum) = std::str::from_utf8(line).ok()?.rsplit_once(SEAL)?;
-    let is_whole = sum.strip_suffix("\"}")? == sha256(said, 8);
-    is_whole.then(|| format!("{said}}}"))
+    sealed(entry) + "\n"
 }
 
 fn path(dir: &Path) -> PathBuf {

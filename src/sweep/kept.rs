@@ -22,3 +22,9 @@ pub fn read_plan(dir: &Path) -> Result<PlanFile, FileError> {
     }
     serde_json::from_value(plan).map_err(|error| FileError::new(&path, error))
 }
+
+/// Whether a plan is one of ours, of whatever format.
+pub fn is_ours(plan: &Path) -> bool {
+    let said: Option<Value> = files::read(plan).ok().and_then(|text| serde_json::from_slice(&text).ok());
+    said.is_some_and(|said| said["program"].as_str().is_some_and(|program| program.starts_with("gotai")))
+}

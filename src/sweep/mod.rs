@@ -7,7 +7,7 @@ pub mod build;
 pub mod cell;
 pub mod folder;
 pub mod journal;
-mod kept;
+pub mod kept;
 pub mod leftovers;
 mod names;
 pub mod plan;

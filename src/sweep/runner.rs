@@ -11,14 +11,11 @@ use crate::files::{self, FileError};
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::record::RecordError;
-use crate::record::head::header;
-use crate::record::sampler::Sampler;
-use crate::record::writer::{Target, open};
+use crate::record::writer::Target;
 use crate::rows::Measured;
 use crate::run::Ended;
-use crate::run::ticks::ticks;
 use crate::state::State;
-use crate::study::{self, choose, reference};
+use crate::study::{self, Place, Recording, Studied, reference};
 use crate::{panics, scene};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashSet};
@@ -147,7 +144,7 @@ impl Job<'_> {
             self.progress.end();
             made?;
         }
-        remove(leftovers::older(self.dir, lock(store).recordings())?)
+        remove(lock(store).older_recordings())
     }
 
     /// The kinds of file that are not there, cut, changed, or show something else than what is asked for now.
@@ -182,12 +179,11 @@ impl Job<'_> {
 /// no recording.
 fn chosen<'a>(rule: RecordCases, cases: &'a [Planned], store: &Store) -> Vec<(&'a Planned, Option<Recorded>, Outcome)> {
     let measured: Vec<_> = cases.iter().map(|planned| store.measured(&planned.case.id)).collect();
-    let chosen = known_after(rule, &measured).into_iter();
-    let with_recording = chosen.filter_map(|i| {
-        let recorded = store.recorded(&cases[i].case.id).cloned();
-        Some((&cases[i], recorded, measured[i]?.outcome))
-    });
-    with_recording.filter(|(.., outcome)| *outcome != Outcome::Failed).collect()
+    let chosen = known_after(rule, &measured).into_iter().filter_map(|i| Some((&cases[i], measured[i]?.outcome)));
+    // The first of equal cases stands for all of them.
+    let mut seen = HashSet::new();
+    let first = chosen.filter(|(planned, outcome)| *outcome != Outcome::Failed && seen.insert(&planned.case.id));
+    first.map(|(planned, outcome)| (planned, store.recorded(&planned.case.id).cloned(), outcome)).collect()
 }
 
 /// The first of equal cases stands for all of them.
@@ -227,28 +223,15 @@ pub fn build_and_run(planned: &Planned, dir: &Path, targets: &[Target]) -> (Meas
 
 /// Runs one case and writes its recordings.
 pub fn run_case(planned: &Planned, model: &Model, start: State, places: Places) -> (Ended, Written) {
-    let case = &planned.case;
-    let reference = reference::of_or_made(places.references, &case.experiment, model, &start);
-    let choice = choose::choose(&case.experiment, model, &start);
-    let experiment = choice.as_ref().map_or(&case.experiment, |choice| &choice.experiment);
-    let run = |sampler: Option<&mut Sampler>| {
-        study::run_as(choice.as_ref(), &case.experiment, model, start, sampler, reference.as_ref())
-    };
-    if places.targets.is_empty() {
-        return (run(None), Ok(None));
-    }
-    let clock = ticks(experiment);
-    match open(places.targets, places.recordings, &header(case, &planned.name, model, &clock)) {
-        Ok(writer) => {
-            let mut sampler = Sampler::new(writer, &experiment.record, &clock);
-            let ended = run(Some(&mut sampler));
-            let name = planned.name.ended(ended.measured.outcome);
-            let recorded = |()| Ok(Some(Recorded::of(places.recordings, case, name, places.targets)?));
-            let written = sampler.finish().map_err(SweepError::from).and_then(recorded);
-            (ended, written)
-        }
-        Err(error) => (run(None), Err(error.into())),
-    }
+    let Places { references, recordings: dir, targets } = places;
+    let Planned { case, name, .. } = planned;
+    let recording = (!targets.is_empty()).then_some(Recording { dir, targets, case, name });
+    let place = Place { references: Some(references), recording };
+    let Studied { ended, recorded, .. } = study::measure(&case.experiment, model, start, &place);
+    let name = name.ended(ended.measured.outcome);
+    let of_files = |_| Recorded::of(dir, case, name, targets);
+    let written = recorded.map_err(SweepError::from).and_then(|()| Ok(recording.map(of_files).transpose()?));
+    (ended, written)
 }
 
 /// Runs the one case of a folder, its row there or not, and keeps row, recordings and tables.
@@ -263,12 +246,14 @@ pub fn run_one(
     let measured = ended.measured.clone();
     let keep = || {
         store.add(&planned.case.id, measured)?;
-        if let Some(recorded) = written? {
-            store.add_recording(recorded)?;
-        }
+        let recorded = written.and_then(|recorded| match recorded {
+            Some(recorded) => Ok(store.add_recording(recorded)?),
+            None => Ok(()),
+        });
         store.write_tables(false)?;
+        recorded?;
         remove(leftovers::partial(places.recordings)?)?;
-        remove(leftovers::older(places.recordings, store.recordings())?)
+        remove(store.older_recordings())
     };
     let kept = keep();
     (ended, kept)

@@ -4,7 +4,8 @@
 //! measured by case id, the plan holds the axes: a sweep whose axes have grown finds its old rows again.
 
 use super::journal::{Entry, Journal, JournalFile};
-use super::kept::{EXPERIMENT, PLAN, read_plan};
+use super::kept::{self, EXPERIMENT, PLAN, read_plan};
+use super::leftovers;
 use super::plan::SweepPlan;
 use super::planned::Planned;
 use super::recorded::Recorded;
@@ -15,6 +16,7 @@ use crate::record::writer::Target;
 use crate::rows::plan_file::PlanFile;
 use crate::rows::{Measured, Row, table};
 use serde_json::{Map, Value};
+use std::collections::HashSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -46,13 +48,23 @@ pub struct Edited {
     pub unplanned: usize,
 }
 
+/// Why a folder cannot be opened for adding rows.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    #[error(transparent)]
+    File(#[from] FileError),
+    #[error("{0}: expected a folder of results or a new one, found a file of this name that no gotai has written")]
+    Foreign(PathBuf),
+}
+
 impl Store {
     /// Opens or makes the folder and writes the plan. Rows of another build count as missing, unless `keep`.
     ///
     /// # Errors
-    /// The machine failed, or another program has the folder open.
-    pub fn open(dir: &Path, plan: &SweepPlan, keep: bool) -> Result<Self, FileError> {
+    /// The machine failed, another program has the folder open, or it holds files of the same names that are not ours.
+    pub fn open(dir: &Path, plan: &SweepPlan, keep: bool) -> Result<Self, StoreError> {
         files::make_folder(dir)?;
+        refuse_foreign(dir)?;
         let (journal, mut done) = JournalFile::open(dir)?;
         if !keep {
             done.retain_build();
@@ -66,12 +78,12 @@ impl Store {
     /// Of an edited plan that goes on in its folder; none: it is the same, or the first.
     pub fn edited(&self) -> Option<Edited> {
         let before = self.before.as_ref().filter(|before| before.hash != self.plan.hash)?;
-        let held = self.order.iter().filter(|(case, _)| self.done.rows.contains_key(case)).count();
+        let planned: HashSet<&String> = self.order.iter().map(|(case, _)| case).collect();
         Some(Edited {
             changes: self.plan.changes_from(before),
-            held,
+            held: self.order.iter().filter(|(case, _)| self.done.rows.contains_key(case)).count(),
             planned: self.order.len(),
-            unplanned: self.done.rows.len() - held,
+            unplanned: self.done.rows.keys().filter(|case| !planned.contains(case)).count(),
         })
     }
 
@@ -94,9 +106,9 @@ impl Store {
         self.done.recorded(case)
     }
 
-    /// All recordings that the folder knows of.
-    pub fn recordings(&self) -> impl Iterator<Item = &Recorded> {
-        self.done.recordings.values()
+    /// Files that the cases' recordings have had before.
+    pub fn older_recordings(&self) -> Vec<PathBuf> {
+        leftovers::older(&self.dir, &self.done)
     }
 
     /// Appends to the journal at once.
@@ -120,7 +132,8 @@ impl Store {
             None => recorded,
         };
         self.journal.add(&recorded)?;
-        self.done.recordings.insert(recorded.recorded.clone(), recorded);
+        let before = self.done.recordings.insert(recorded.recorded.clone(), recorded);
+        self.done.superseded.extend(before);
         Ok(())
     }
 
@@ -151,6 +164,17 @@ impl fmt::Display for Edited {
         }
         Ok(())
     }
+}
+
+/// What somebody else has written under our names would be lost.
+fn refuse_foreign(dir: &Path) -> Result<(), StoreError> {
+    let (plan, experiment) = (dir.join(PLAN), dir.join(EXPERIMENT));
+    if plan.exists() && !kept::is_ours(&plan) {
+        return Err(StoreError::Foreign(plan));
+    }
+    // A killed program has made a journal, and perhaps no plan.
+    let is_ours = plan.exists() || dir.join("journal.jsonl").exists();
+    if experiment.exists() && !is_ours { Err(StoreError::Foreign(experiment)) } else { Ok(()) }
 }
 
 /// Ids of cases with their values on the axes, in plan order.

@@ -3,12 +3,21 @@
 use super::folder::Folder;
 use super::leftovers;
 use crate::build_info::BUILD;
+use crate::digest::unsealed;
 use crate::files::{self, FileError};
-use crate::record::writer::Target;
+use crate::record::name::RecordingName;
+use crate::record::writer::{PARTIAL, Target};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
+
+/// Below a folder of results: what runs of single rows leave; and how their locks end.
+pub const REPLAYS: &str = "replays";
+pub const LOCK: &str = "lock";
+
+/// What a kill may leave of files that are written whole or not at all.
+const HALF_WRITTEN: [&str; 4] = ["experiment.partial", "plan.partial", "rows.partial", "journal.partial"];
 
 /// Bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -33,6 +42,8 @@ pub struct Unneeded {
     pub references: Vec<PathBuf>,
     /// Rows of other builds.
     pub rows: usize,
+    /// Lines of the journal that nobody can read.
+    pub lines: usize,
 }
 
 impl Unneeded {
@@ -41,7 +52,8 @@ impl Unneeded {
     pub fn of(folder: &Folder) -> Result<Self, FileError> {
         let Folder { dir, journal, .. } = folder;
         let mut leftovers = leftovers::partial(dir)?;
-        leftovers.extend(leftovers::older(dir, journal.recordings.values())?);
+        leftovers.extend(leftovers::older(dir, journal));
+        leftovers.extend(HALF_WRITTEN.map(|name| dir.join(name)).into_iter().filter(|path| path.exists()));
         let (ours, others): (Vec<_>, Vec<_>) =
             journal.recordings.values().partition(|recorded| recorded.build == BUILD);
         let ours: HashSet<&str> = ours.iter().map(|recorded| recorded.name.as_str()).collect();
@@ -49,12 +61,14 @@ impl Unneeded {
         let files = others.flat_map(|recorded| Target::ALL.map(|target| target.path(dir, &recorded.name)));
         let mut recordings: Vec<_> = files.filter(|path| path.exists()).collect();
         recordings.sort();
+        let replays = files_of(&dir.join(REPLAYS))?.into_iter().filter(|path| is_replay(path)).collect();
         Ok(Unneeded {
-            replays: files_of(&dir.join("replays"))?,
+            replays,
             leftovers,
             recordings,
             references: files_of(dir)?.into_iter().filter(|path| is_reference_of_another_build(path)).collect(),
             rows: journal.rows.values().filter(|entry| entry.build != BUILD).count(),
+            lines: journal.unreadable,
         })
     }
 
@@ -90,23 +104,36 @@ fn ends(path: &Path, ending: &str) -> bool {
     path.extension().is_some_and(|own| own == ending)
 }
 
-/// The build stands in the file.
-fn is_reference_of_another_build(path: &Path) -> bool {
-    let name = path.file_name().map(|name| name.to_string_lossy());
-    name.is_some_and(|name| name.starts_with("reference-") && name.ends_with(".json"))
-        && files::read(path)
-            .ok()
-            .and_then(|text| serde_json::from_slice::<Value>(&text).ok())
-            .is_none_or(|reference| reference["build"] != BUILD)
+/// A name that this program gives, of a recording or of the lock of a replay.
+fn is_replay(path: &Path) -> bool {
+    let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+    let Some((stem, ending)) = name.rsplit_once('.') else { return false };
+    let is_whole = RecordingName::values_of(stem).is_some() || stem.ends_with(PARTIAL.trim_end_matches('.'));
+    ending == LOCK || (is_whole && Target::ALL.iter().any(|target| target.extension() == ending))
 }
 
-/// In a folder, which need not be there, in the order of their names.
+/// The build stands in the file.
+fn is_reference_of_another_build(path: &Path) -> bool {
+    let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+    let id = name.strip_prefix("reference-").and_then(|rest| rest.split_once('.'));
+    let is_ours = |text: Vec<u8>| unsealed(&text).and_then(|text| serde_json::from_str::<Value>(&text).ok());
+    match id {
+        Some((id, "partial")) => leftovers::is_id(id),
+        Some((id, "json")) if leftovers::is_id(id) => {
+            files::read(path).ok().and_then(is_ours).is_none_or(|reference| reference["build"] != BUILD)
+        }
+        _ => false,
+    }
+}
+
+/// In a folder, which need not be there, in the order of their names. A link is followed nowhere.
 fn files_of(dir: &Path) -> Result<Vec<PathBuf>, FileError> {
-    if !dir.is_dir() {
+    if !dir.symlink_metadata().is_ok_and(|found| found.is_dir()) && !Folder::is_one(dir) {
         return Ok(Vec::new());
     }
     let entries = std::fs::read_dir(dir).map_err(|error| FileError::new(dir, error))?;
-    let mut files: Vec<_> = entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect();
+    let is_file = |path: &PathBuf| path.symlink_metadata().is_ok_and(|found| found.is_file());
+    let mut files: Vec<_> = entries.flatten().map(|entry| entry.path()).filter(is_file).collect();
     files.sort();
     Ok(files)
 }

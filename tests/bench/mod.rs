@@ -8,6 +8,7 @@ use crate::cli::run;
 use crate::{scratch, yaml};
 use gotai::bench::{self, timing};
 use gotai::rows::trials::{Trial, order, pareto};
+use gotai::study;
 use serde_json::Value;
 
 /// A body that turns about all its axes, and falls.
@@ -31,7 +32,7 @@ fn rows(text: &str, sets: &[&str]) -> Vec<Trial> {
     let file = yaml::file(text, sets);
     let bench = file.bench().unwrap();
     let trials = bench::plan(&file, bench).unwrap();
-    trials.iter().map(|trial| bench::run(trial, bench, "spin").unwrap()).collect()
+    trials.iter().map(|trial| bench::run(trial, bench, "spin", None).unwrap()).collect()
 }
 
 #[test]
@@ -72,8 +73,10 @@ fn the_fitted_orders_are_those_that_are_claimed() {
 fn the_timed_loop_ends_in_the_bits_of_the_judged_run() {
     let file = yaml::file(SPIN, &[]);
     for trial in bench::plan(&file, file.bench().unwrap()).unwrap() {
-        let timed = timing::time(&trial.experiment, &trial.model, &trial.start, 1).end;
-        let judged = gotai::study::run(&trial.experiment, &trial.model, trial.start.clone(), None).state;
+        let start = trial.start.clone();
+        let judged = study::measure(&trial.experiment, &trial.model, start, &study::Place::default());
+        let timed = timing::time(&judged.chosen, &trial.model, &trial.start, 1).end;
+        let judged = judged.ended.state;
         let bits = |state: &gotai::state::State| -> Vec<u64> {
             let at = &state.bodies[0];
             let numbers = [at.p_WB.as_slice(), at.q_WB.coords.as_slice(), at.v_WB.as_slice(), at.w_WB.as_slice()];

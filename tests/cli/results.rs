@@ -180,7 +180,7 @@ fn what_is_asked_wrongly_of_a_folder_is_said_clearly() {
     });
     let shared = shared.expect("of 12 ids two begin with the same digit");
     let both: Vec<&&str> = ids.iter().filter(|id| id.starts_with(shared)).take(2).collect();
-    let cases: [(&[&str], &[&str]); 9] = [
+    let cases: [(&[&str], &[&str]); 12] = [
         (&["run", out, "--case", shared], &["expected enough digits for one row", both[0], both[1]]),
         (&["run", out, "--case", "xyz"], &["expected the first digits of a row's id", "gotai rows"]),
         (&["run", out, "--case", ""], &["expected the first digits of a row's id"]),
@@ -189,6 +189,9 @@ fn what_is_asked_wrongly_of_a_folder_is_said_clearly() {
         (&["run", out, "--case", ids[0], "--set", "seed=1"], &["--set", "as it was"]),
         (&["run", "configs/lecture/demo.yaml", "--case", ids[0]], &["found no plan.json in it"]),
         (&["rows", out, "--where", "outcme=diverged"], &["--where", "`outcme`", "did you mean `outcome`?"]),
+        (&["rows", out, "--where", "outcome=fnished"], &["expected one of finished, diverged, stalled, failed"]),
+        (&["rows", out, "--where", "seed=7"], &["--where seed=7", "expected one of 0, 1"]),
+        (&["rows", out, "--where", "seed"], &["expected COLUMN=VALUE", "found `seed`"]),
         (&["sweep", out], &["found a folder of results", "experiment.yaml --out"]),
     ];
     for (args, messages) in cases {
@@ -203,7 +206,10 @@ fn what_is_asked_wrongly_of_a_folder_is_said_clearly() {
     let text = std::fs::read_to_string(&kept).unwrap();
     std::fs::write(&kept, text.replace("friction: 0.3", "friction: 0.2")).unwrap();
     let (code, _, err) = run(&["status", out]);
-    assert!(code == 2 && err.contains("experiment.yaml does not make the plan of plan.json"), "{code} {err}");
+    assert!(
+        code == 2 && err.contains("plan.json is not what experiment.yaml beside it makes; `gotai sweep "),
+        "{code} {err}"
+    );
 }
 
 #[test]
@@ -233,6 +239,8 @@ fn rows_are_chosen_sorted_and_printed() {
     };
     assert_eq!(count(&["time.step_s<=0.02", "seed=1"]), 4);
     assert_eq!(count(&["scene.bodies.body=ico 162"]), 6);
+    let id = json(&["rows", out, "--columns", "case", "--json"])[3]["case"].as_str().unwrap()[..8].to_string();
+    assert_eq!(count(&[&format!("case={id}")]), 1);
     assert_eq!(count(&["scene.bodies.body!=ico 162", "time.step_s>0.02"]), 2);
     assert_eq!(
         json(&["rows", out, "--columns", "all", "--json"])[0].as_object().unwrap().len(),
@@ -306,4 +314,93 @@ fn axes_on_the_command_line_are_in_the_name_of_the_folder() {
     let firsts: Vec<_> =
         rows.lines().map(|line| line.split(',').skip(1).take(2).collect::<Vec<_>>().join(" ")).collect();
     assert_eq!(firsts, ["method seed", "free 0", "free 1", "penalty 0", "penalty 1"]);
+}
+
+/// What it cannot read it says, what it does not know it leaves alone, and it makes no table emptier for nothing.
+#[test]
+fn clean_drops_what_gotai_has_left_and_nothing_else() {
+    let folder = scratch::folder();
+    let (dir, out) = (folder.path(), folder.path().to_str().unwrap());
+    json(&small_map(out, &["--json", "--record", "mcap", "--set", "time.end_s=0.1"]));
+    let recording = files(dir).into_keys().find(|name| name.ends_with(".mcap")).unwrap();
+    std::fs::create_dir(dir.join("replays")).unwrap();
+    let users =
+        ["replays/notes.txt", "reference-paper.json", "reference-0123.json", "Fig3.mcap"].map(|name| dir.join(name));
+    users.iter().for_each(|path| std::fs::write(path, "mine").unwrap());
+    std::fs::copy(dir.join(&recording), dir.join(format!("paper-{recording}"))).unwrap();
+    for half in ["0123456789abcdef.partial.mcap", "plan.partial", "reference-0123456789abcdef.json"] {
+        std::fs::write(dir.join(half), "half").unwrap();
+    }
+    assert_eq!(json(&["clean", out, "--json"])["files"], 3);
+    assert!(users.iter().all(|path| path.exists()) && dir.join(format!("paper-{recording}")).exists());
+    // Its journal on another system, with ends of lines translated, is the same journal.
+    let before = json(&["status", out, "--json"])["rows_hash"].clone();
+    let journal = dir.join("journal.jsonl");
+    let text = std::fs::read_to_string(&journal).unwrap();
+    std::fs::write(&journal, text.replace('\n', "\r\n")).unwrap();
+    let cleaned = json(&["clean", out, "--json"]);
+    assert_eq!((&cleaned["files"], &cleaned["rows"], &cleaned["unreadable_lines"]), (&0.into(), &0.into(), &0.into()));
+    assert_eq!(json(&["status", out, "--json"])["rows_hash"], before);
+    // Without it the tables are all there is.
+    std::fs::remove_file(&journal).unwrap();
+    json(&["clean", out, "--json"]);
+    assert_eq!(std::fs::read_to_string(dir.join("rows.csv")).unwrap().lines().count(), 13);
+    std::fs::write(&journal, text.replacen("finished", "FINISHED", 1)).unwrap();
+    assert_eq!(json(&["clean", out, "--json"])["unreadable_lines"], 1);
+}
+
+#[test]
+fn a_folder_of_somebody_else_is_left_alone() {
+    let folder = scratch::folder();
+    let out = folder.path().to_str().unwrap();
+    for name in ["experiment.yaml", "plan.json"] {
+        let mine = folder.path().join(name);
+        std::fs::write(&mine, "mine: 1 # with a comment").unwrap();
+        let (code, _, err) = run(&["sweep", "configs/smoke.yaml", "--out", out]);
+        assert!(code == 2 && err.contains("that no gotai has written"), "{code} {err}");
+        assert_eq!(std::fs::read_to_string(&mine).unwrap(), "mine: 1 # with a comment");
+        std::fs::remove_file(mine).unwrap();
+    }
+}
+
+/// Of two at once one is told so, and what is written is whole.
+#[test]
+fn a_row_is_shown_again_by_one_program_at_a_time() {
+    let folder = scratch::folder();
+    let out = folder.path().to_str().unwrap();
+    let long = ["--json", "--record", "none", "--axis", "seed=[0]", "--axis", "scene.bodies.body=[ico 162]"];
+    let steps = ["--axis", "time.step_s=[2e-5]", "--out", out];
+    let swept = json(&[&["sweep", STABILITY], &long[..], &steps[..]].concat());
+    let case = swept["rows"][0]["case"].as_str().unwrap();
+    let args = ["run", out, "--case", case, "--record", "mcap", "--quiet"];
+    let mut first = gotai(&args).stdout(Stdio::null()).spawn().unwrap();
+    let partial = folder.path().join(format!("replays/{case}.partial.mcap"));
+    while !partial.exists() && first.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let (code, _, err) = run(&args);
+    let (cleaned, _, busy) = run(&["clean", out]);
+    let was_running = first.try_wait().unwrap().is_none();
+    assert!(first.wait().unwrap().success());
+    if was_running {
+        assert!(code == 3 && err.contains("another gotai is at work here"), "{code} {err}");
+        assert!(cleaned == 3 && busy.contains("another gotai is at work here"), "{cleaned} {busy}");
+    }
+    let whole = folder.path().join(format!("replays/{}.mcap", json(&args_json(&args))["recording"].as_str().unwrap()));
+    assert!(mcap::Summary::read(&std::fs::read(whole).unwrap()).unwrap().is_some());
+}
+
+fn args_json<'a>(args: &[&'a str]) -> Vec<&'a str> {
+    args.iter().copied().chain(["--json"]).collect()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_exit_code_3() {
+    let folder = scratch::folder();
+    let out = folder.path().to_str().unwrap();
+    json(&small_map(out, &["--json", "--record", "none", "--set", "time.end_s=0.1"]));
+    let full = File::options().write(true).open("/dev/full").unwrap();
+    let output = gotai(&["rows", out, "--csv"]).stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(3));
 }

@@ -38,7 +38,7 @@ time: {{ step_s: 0.01, end_s: 1 }}
         let (model, start) = build(&experiment).unwrap();
         let clock = experiment.clock();
         let plan = Plan::new(&model, &experiment.method);
-        let mut stepper = Stepper::new(&experiment.method, &plan, &model, &start);
+        let mut stepper = Stepper::new(&experiment.method.stepping().unwrap(), &plan, &model, &start);
         let mut state = start.clone();
         while state.step < clock.steps {
             stepper.step(&model, &mut state, &clock);

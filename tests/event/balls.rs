@@ -87,7 +87,9 @@ fn elastic_impacts_run_backward() {
         for seed in seeds {
             let experiment = experiment(text, &[&format!("seed={seed}")]);
             let (model, start) = build(&experiment).unwrap();
-            let go = |from: State| only_step(&experiment.method, &model, from, &experiment.clock(), &Limits::default());
+            let go = |from: State| {
+                only_step(&experiment.method.stepping().unwrap(), &model, from, &experiment.clock(), &Limits::default())
+            };
             let there = go(start.clone());
             let grown = run(&experiment).measured.sensitivity.unwrap();
             let error = apart_m(&go(reversed(&there.state)).state, &start) / grown;

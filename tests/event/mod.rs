@@ -16,7 +16,7 @@ use gotai::measure::error::Errors;
 use gotai::outcome::Outcome;
 use gotai::plan::Plan;
 use gotai::rows::Measured;
-use gotai::shown::Span;
+use gotai::shown::Acted;
 use gotai::state::State;
 use gotai::step::Stepper;
 
@@ -37,11 +37,12 @@ fn apart_m(a: &State, b: &State) -> f64 {
 fn impacts(experiment: &Experiment, most: usize) -> Vec<State> {
     let (model, mut state) = gotai::scene::build(experiment).unwrap();
     let clock = Clock::new(experiment.time.end_s, experiment.time.end_s);
-    let mut stepper = Stepper::new(&experiment.method, &Plan::new(&model, &experiment.method), &model, &state);
+    let mut stepper =
+        Stepper::new(&experiment.method.stepping().unwrap(), &Plan::new(&model, &experiment.method), &model, &state);
     let mut found = Vec::new();
     while !stepper.is_done(&state, &clock) && stepper.stalled().is_none() && found.len() < most {
         stepper.step(&model, &mut state, &clock);
-        if stepper.span() == Span::Blow {
+        if matches!(stepper.acted(&state, &clock), Acted::Blow { .. }) {
             found.push(state.clone());
         }
     }

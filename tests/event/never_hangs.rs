@@ -45,7 +45,7 @@ fn what_rattles_comes_to_its_end() {
             let (model, start) = build(&experiment).unwrap();
             let limits = Limits { steps: Some(800), ..Limits::default() };
             let Stepped { state, work, stopped } =
-                only_step(&experiment.method, &model, start, &experiment.clock(), &limits);
+                only_step(&experiment.method.stepping().unwrap(), &model, start, &experiment.clock(), &limits);
             assert!(state.step <= 800 && work.fallbacks <= state.step);
             assert!(state.bodies.iter().all(BodyState::is_finite), "{what}, {e}");
             // measured: 13 … 681 steps; balls that come to lie against each other take all that they are given

@@ -90,7 +90,8 @@ time: {{ end_s: {:?} }}
         );
         let experiment = experiment(&text, &[]);
         let (model, start) = build(&experiment).unwrap();
-        let ended = only_step(&experiment.method, &model, start, &experiment.clock(), &Limits::default());
+        let ended =
+            only_step(&experiment.method.stepping().unwrap(), &model, start, &experiment.clock(), &Limits::default());
         self.back(&ended.state.bodies[0])
     }
 }

@@ -6,6 +6,7 @@ use crate::yaml::experiment;
 use gotai::experiment::types::Limits;
 use gotai::run::advance::only_step;
 use gotai::scene::build;
+use gotai::study::choose;
 use gotai::study::sensitivity::sensitivity;
 use rayon::prelude::*;
 
@@ -40,12 +41,14 @@ fn is_good(text: &str, tolerance: f64) -> Option<bool> {
     let least = experiment(text, &["method.event-driven.tolerance=1e-12"]);
     let (model, start) = build(&rough).unwrap();
     let limits = Limits { steps: Some(20_000), ..Limits::default() };
-    let [a, b] = [&rough, &least].map(|e| only_step(&e.method, &model, start.clone(), &e.clock(), &limits));
+    let [a, b] =
+        [&rough, &least].map(|e| only_step(&e.method.stepping().unwrap(), &model, start.clone(), &e.clock(), &limits));
     if a.stopped.is_some() || b.stopped.is_some() {
         return None;
     }
     let error = apart_m(&a.state, &b.state) / (10.0 * tolerance);
     // A sensitivity costs three runs.
+    let rough = choose::method(&rough, &model, &start);
     Some(error <= 1.0 || sensitivity(&rough, &model, &start, &a.state).is_some_and(|grown| error <= grown))
 }
 

@@ -5,7 +5,6 @@ use gotai::exact::Closed;
 use gotai::experiment::types::Exact;
 use gotai::state::BodyState;
 use gotai::sweep::plan;
-use strum::VariantArray;
 
 /// A scene of every closed form with contact.
 pub fn scene(which: Exact) -> String {
@@ -94,7 +93,7 @@ pub fn reference(text: &str, sets: &[&str]) -> impl Fn(f64) -> BodyState + use<>
 
 #[test]
 fn time_stepping_comes_near_every_closed_form() {
-    for which in Exact::VARIANTS.iter().copied().filter(|which| which.touches()) {
+    for which in Exact::ALL.iter().copied().filter(|which| which.touches()) {
         let errors = [0.001, 0.0001].map(|step_s| {
             let m = run(&experiment(&scene(which), &[&format!("time.step_s={step_s}")])).measured;
             m.error_position_m.unwrap().max(m.error_orientation_rad.unwrap())
@@ -199,7 +198,7 @@ fn motions_with_contact_need_a_method_with_contact_and_the_others_one_without() 
         .unwrap_err()
         .to_string()
     };
-    for which in Exact::VARIANTS.iter().copied().filter(|which| which.touches()) {
+    for which in Exact::ALL.iter().copied().filter(|which| which.touches()) {
         let message = refusal(which, &["method=free"]);
         assert!(message.contains("expected a motion without contact, or a method with contact"), "{message}");
     }

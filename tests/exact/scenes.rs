@@ -5,7 +5,6 @@ use gotai::exact::heavy_top::{HeavyTop, Top};
 use gotai::experiment::types::Exact;
 use gotai::sweep::plan;
 use nalgebra::{UnitQuaternion, Vector3};
-use strum::VariantArray;
 
 const TIME: &str = "time: { step_s: 0.05, end_s: 3 }\n";
 
@@ -50,7 +49,7 @@ fn scene(which: Exact) -> String {
 
 #[test]
 fn an_accurate_run_meets_every_closed_form() {
-    for which in Exact::VARIANTS.iter().copied().filter(|which| !which.touches()) {
+    for which in Exact::ALL.iter().copied().filter(|which| !which.touches()) {
         let sets = ["method.free={integrator: dop853, tolerance: 1e-14}"];
         let m = run(&experiment(&scene(which), &sets)).measured;
         let errors =
@@ -109,7 +108,7 @@ fn a_scene_that_is_not_the_closed_forms_is_refused() {
 
 #[test]
 fn the_list_of_closed_forms_has_every_word_that_the_parser_knows() {
-    let words = Exact::VARIANTS.iter().map(|which| which.word()).collect::<Vec<_>>();
+    let words: Vec<&str> = Exact::ALL.iter().map(|which| which.word()).collect();
     let error = plan::single_case(&file(&scene(Exact::Pendulum), &["exact=nonsense"])).unwrap_err().to_string();
     assert!(error.contains(&format!("expected one of {}, found", words.join(", "))), "{error}");
 }
@@ -131,7 +130,7 @@ fn a_sleeping_top_is_stable_above_its_critical_spin() {
         let (model, start) = gotai::scene::build(&experiment).unwrap();
         let clock = experiment.clock();
         let plan = gotai::plan::Plan::new(&model, &experiment.method);
-        let mut stepper = gotai::step::Stepper::new(&experiment.method, &plan, &model, &start);
+        let mut stepper = gotai::step::Stepper::new(&experiment.method.stepping().unwrap(), &plan, &model, &start);
         let (mut state, mut largest) = (start, 0.0_f64);
         while state.step < clock.steps {
             stepper.step(&model, &mut state, &clock);

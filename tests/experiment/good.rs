@@ -3,6 +3,7 @@
 use super::{BASE, experiment, file};
 use gotai::experiment::ExperimentFile;
 use gotai::experiment::types::*;
+use gotai::experiment::vocabulary::words;
 
 /// The complete example of the documentation.
 const COMPLETE: &str = "\
@@ -90,6 +91,27 @@ fn an_empty_section_has_its_defaults() {
 fn null_switches_the_energy_criterion_off() {
     let text = format!("{SMALLEST}diverge: {{ energy_factor: null }}\n");
     assert_eq!(experiment(&text, &[]).unwrap().diverge.energy_factor, None);
+}
+
+#[test]
+fn a_word_is_the_one_that_the_parser_reads() {
+    let methods = words::<Method>().into_iter().map(|word| (word.name, word.value.word()));
+    let solvers = words::<Solver>().into_iter().map(|word| (word.name, word.value.word()));
+    let laws = words::<Impact>().into_iter().map(|word| (word.name, word.value.word()));
+    let all: Vec<_> = methods.chain(solvers).chain(laws).collect();
+    assert_eq!(all.len(), 6 + Solver::ALL.len() + 3);
+    for (read, said) in all {
+        assert_eq!(read, said);
+    }
+}
+
+#[test]
+fn where_a_tolerance_is_a_method_says_its_own() {
+    for word in words::<Method>() {
+        if let Accuracy::Tolerance(path) = word.value.facts().accuracy {
+            assert_eq!(path, ["method", word.name, "tolerance"]);
+        }
+    }
 }
 
 #[test]

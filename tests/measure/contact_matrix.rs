@@ -8,7 +8,8 @@ use gotai::experiment::types::Experiment;
 use gotai::model::Model;
 use gotai::plan::Plan;
 use gotai::scene::build;
-use gotai::solve::problem::{ContactProblem, Twist};
+use gotai::solve::problem::ContactProblem;
+use gotai::solve::twist::Twist;
 use gotai::state::State;
 use gotai::step::Stepper;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -17,7 +18,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 fn whole_matrix(experiment: &Experiment, steps: u64) -> DMatrix<f64> {
     let (model, mut state) = build(experiment).unwrap();
     let (clock, plan) = (experiment.clock(), Plan::new(&model, &experiment.method));
-    let mut stepper = Stepper::new(&experiment.method, &plan, &model, &state);
+    let mut stepper = Stepper::new(&experiment.method.stepping().unwrap(), &plan, &model, &state);
     let mut most: (Vec<Contact>, State) = (Vec::new(), state.clone());
     while state.step < steps {
         let before = state.clone();

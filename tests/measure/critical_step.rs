@@ -7,7 +7,8 @@ use gotai::experiment::types::{Penalty, Rotation, Update};
 use gotai::measure::critical_step::critical_step_s;
 use gotai::plan::Plan;
 use gotai::scene::build;
-use gotai::solve::problem::{ContactProblem, Twist};
+use gotai::solve::problem::ContactProblem;
+use gotai::solve::twist::Twist;
 use gotai::step::Stepper;
 use nalgebra::SymmetricEigen;
 use serde_json::Value;
@@ -84,7 +85,7 @@ fn the_largest_eigenvalue_is_that_of_the_normal_rows() {
         let experiment = experiment(CUBE_IN_BOX, &sets);
         let (model, mut state) = build(&experiment).unwrap();
         let (clock, plan) = (experiment.clock(), Plan::new(&model, &experiment.method));
-        let mut stepper = Stepper::new(&experiment.method, &plan, &model, &state);
+        let mut stepper = Stepper::new(&experiment.method.stepping().unwrap(), &plan, &model, &state);
         let mut before = state.clone();
         while stepper.contacts().is_empty() {
             before = state.clone();

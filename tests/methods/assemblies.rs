@@ -3,13 +3,17 @@
 use crate::yaml::experiment;
 use gotai::collide::approach::Approach;
 use gotai::collide::{Contact, SolvedContact};
-use gotai::experiment::types::{Cone, Correction, Iteration};
+use gotai::experiment::types::{Cone, Correction, Iteration, Solver};
 use gotai::measure::Push;
 use gotai::measure::residual::ResidualLedger;
 use gotai::model::Model;
 use gotai::solve::Impulse;
-use gotai::solve::gauss_seidel::{Scratch, Sweeps, Variant};
-use gotai::solve::problem::{Block, ContactProblem, Pin, PinEnd, Twist};
+use gotai::solve::block::Block;
+use gotai::solve::gauss_seidel::{Sweeps, Variant};
+use gotai::solve::pins::{Pin, PinEnd};
+use gotai::solve::problem::ContactProblem;
+use gotai::solve::solver::ContactSolver;
+use gotai::solve::twist::Twist;
 use gotai::state::State;
 use gotai::work::Work;
 use nalgebra::Vector3;
@@ -144,14 +148,12 @@ pub fn sweeps(most: u32, tolerance: f64, friction: bool) -> Sweeps {
     }
 }
 
-pub type Solver = fn(&ContactProblem, &Sweeps, &mut [Impulse], &mut Scratch, &mut Work) -> bool;
-
 impl Gathered {
     /// From impulses `p`.
     pub fn solve_from(&self, mut p: Vec<Impulse>, solver: Solver, most: u32, tolerance: f64) -> Solved {
         let sweeps = sweeps(most, tolerance, self.assembly.friction > 0.0);
-        let (mut scratch, mut work) = (Scratch::with_capacity(0, 0), Work::default());
-        let says = solver(&self.problem, &sweeps, &mut p, &mut scratch, &mut work);
+        let (mut solver, mut work) = (ContactSolver::new(solver, 0, 0), Work::default());
+        let says = solver.solve(&self.problem, &sweeps, &mut p, &mut work);
         Solved { says, p, work }
     }
 
@@ -176,8 +178,8 @@ impl Gathered {
                 pushes[i].angular += r_W.cross(impulse_W) * sign;
             }
         }
-        let mut ledger = ResidualLedger::new(true, Approach::Inside, true, &self.model);
-        ledger.observe(&self.model, [&self.state; 2], &solved, &pushes, STEP_S);
+        let mut ledger = ResidualLedger::new(true, true, &self.model);
+        ledger.observe(&self.model, [&self.state; 2], &solved, &pushes, (Approach::Inside, STEP_S));
         ledger.max.unwrap()
     }
 

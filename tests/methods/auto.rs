@@ -9,6 +9,7 @@ use gotai::plan::Plan;
 use gotai::record::writer::Target;
 use gotai::rows::Measured;
 use gotai::study::choose::{Asked, HALVINGS};
+use std::time::Instant;
 
 /// Nothing to hit: one closed form from start to end.
 const THROWN: &str = "
@@ -71,9 +72,15 @@ exact: sliding
 fn a_step_is_halved_until_two_runs_agree() {
     let mut experiment = experiment(SLIDING, &[]);
     let (model, start) = gotai::scene::build(&experiment).unwrap();
-    let scene = Asked { experiment: &experiment.clone(), model: &model, start: &start, tolerance: 1e-4 };
+    let scene = Asked {
+        experiment: &experiment.clone(),
+        model: &model,
+        start: &start,
+        tolerance: 1e-4,
+        started: Instant::now(),
+    };
     let found = scene.by_steps();
-    (experiment.method, experiment.time.step_s) = (found.method.clone(), found.step_s);
+    (experiment.method, experiment.time.step_s) = (found.method.clone().into(), found.step_s);
     let error_m = run(&experiment).measured.error_position_m.unwrap();
     // measured: an error of 5.2e-6 at steps of 3.75 ms
     assert!(error_m <= found.estimate_m && found.estimate_m <= 1e-4, "{error_m:e} {:e}", found.estimate_m);
@@ -86,7 +93,8 @@ fn a_step_is_halved_until_two_runs_agree() {
 fn a_limit_ends_the_search_as_it_ends_a_run() {
     let experiment = experiment(SLIDING, &["limits.steps=150"]);
     let (model, start) = gotai::scene::build(&experiment).unwrap();
-    let scene = Asked { experiment: &experiment, model: &model, start: &start, tolerance: 1e-4 };
+    let scene =
+        Asked { experiment: &experiment, model: &model, start: &start, tolerance: 1e-4, started: Instant::now() };
     // 100 steps arrive, 200 do not: nothing to compare.
     assert_eq!(scene.by_steps().estimate_m, f64::INFINITY);
 }
@@ -97,7 +105,7 @@ fn a_bench_times_what_was_chosen() {
     let file = file(&text, &[]);
     let given = file.bench().unwrap();
     let rows: Vec<_> =
-        bench::plan(&file, given).unwrap().iter().map(|trial| bench::run(trial, given, "a").unwrap()).collect();
+        bench::plan(&file, given).unwrap().iter().map(|trial| bench::run(trial, given, "a", None).unwrap()).collect();
     let shown: Vec<_> = rows.iter().map(|row| (row.method.as_str(), row.tolerance, row.outcome.as_str())).collect();
     assert_eq!(shown, [("auto", Some(1e-6), "finished"), ("auto", Some(1e-9), "finished")]);
     assert!(rows.iter().all(|row| row.error.unwrap() < 1e-12 && row.wall_s.unwrap() > 0.0));

@@ -136,6 +136,6 @@ fn a_body_at_rest_stays_at_rest() {
     let p = m.state.bodies[0].p_WB;
     // measured: 0 m sideways, 8e-18 m down
     assert!(p.x.abs() + p.z.abs() + (p.y - 0.1).abs() < 1e-12, "{p}");
-    let force: f64 = m.contacts.iter().map(|c| c.impulse_W.y / m.step_s).sum();
+    let force: f64 = m.forces.iter().map(|c| c.force_W.y).sum();
     assert!((force - 2.0 * 9.8).abs() < 1e-9, "{force}");
 }

@@ -211,6 +211,6 @@ fn the_corners_of_a_face_are_kept() {
     assert_eq!(kept(0, 25).len(), 25);
     // Those left out are shown, without an impulse; of the four corners one separates.
     let ended = run(&experiment(FACE, &["method.time-stepping.contacts_per_face=4"]));
-    assert_eq!(ended.contacts.iter().filter(|c| c.impulse_W != Vector3::zeros()).count(), 3);
-    assert!(ended.contacts.is_sorted_by_key(|c| c.contact.feature) && ended.contacts.len() == 25);
+    assert_eq!(ended.forces.iter().filter(|c| c.force_W != Vector3::zeros()).count(), 3);
+    assert!(ended.forces.is_sorted_by_key(|c| c.contact.feature) && ended.forces.len() == 25);
 }

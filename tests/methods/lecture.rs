@@ -4,7 +4,8 @@ use crate::yaml::{CUBE_IN_BOX, FREE_BAR, experiment, measured, run};
 use gotai::collide::approach::Approach;
 use gotai::collide::{Detector, Reach};
 use gotai::outcome::Outcome;
-use gotai::solve::problem::{ContactProblem, Twist};
+use gotai::solve::problem::ContactProblem;
+use gotai::solve::twist::Twist;
 use gotai::work::Work;
 use nalgebra::{SymmetricEigen, Vector3};
 
@@ -103,20 +104,20 @@ fn the_lecture_corrected_per_contact_is_projected_gauss_seidel() {
     let end = |method: &str| {
         let sets: Vec<&str> = flat.iter().chain(&moving).copied().chain([method]).collect();
         let ended = run(&experiment(CUBE_IN_BOX, &sets));
-        assert_eq!(ended.contacts.len(), 9);
-        (ended.state.bodies[0].v_WB, ended.contacts.iter().map(|c| c.impulse_W).collect::<Vec<_>>())
+        assert_eq!(ended.forces.len(), 9);
+        (ended.state.bodies[0].v_WB, ended.forces.iter().map(|c| c.force_W).collect::<Vec<_>>())
     };
     // The lecture touches only inside: start a hair's breadth in it. Method free does not look.
     let inside = "scene.container={box: {size_m: [4, 4, 4], center_m: [0, 2.0000000001, 0]}}";
     let mut sets: Vec<&str> = flat.iter().chain(&moving).copied().collect();
     sets.extend(["method={lecture: {correction: per-contact, rotation: momentum}}", inside]);
     let lecture = run(&experiment(CUBE_IN_BOX, &sets));
-    let (v, impulses) = end("method={time-stepping: {tolerance: 0, position_correction: none}}");
-    assert_eq!(lecture.contacts.len(), 9);
+    let (v, forces) = end("method={time-stepping: {tolerance: 0, position_correction: none}}");
+    assert_eq!(lecture.forces.len(), 9);
     // The two scenes differ by 1e-10 m in height, and in no contact arm.
     assert!((lecture.state.bodies[0].v_WB - v).norm() < 1e-12);
-    for (a, b) in lecture.contacts.iter().zip(&impulses) {
-        assert!((a.impulse_W - b).norm() < 1e-9 * b.norm().max(1e-3));
+    for (a, b) in lecture.forces.iter().zip(&forces) {
+        assert!((a.force_W - b).norm() < 1e-9 * b.norm().max(0.1));
     }
 }
 

@@ -2,10 +2,11 @@
 
 use super::assemblies::{Assembly, GRAVITY, Gathered, Solved, Spread, arch, heap, overhanging, stack};
 use crate::yaml::{CUBE_IN_BOX, experiment, measured, run};
+use gotai::experiment::types::Solver;
 use gotai::outcome::Outcome;
 use gotai::rows::Measured;
-use gotai::solve::problem::Twist;
-use gotai::solve::{Impulse, gauss_seidel, newton, nncg};
+use gotai::solve::Impulse;
+use gotai::solve::twist::Twist;
 
 const NEWTON: &str = "method.time-stepping.solver=newton";
 
@@ -26,7 +27,7 @@ time: { step_s: 0.01, end_s: 0.01 }
 
 fn solve(assembly: Assembly) -> (Gathered, Solved) {
     let gathered = assembly.gathered();
-    let solved = gathered.solve(newton::solve, 50, 1e-10);
+    let solved = gathered.solve(Solver::Newton, 50, 1e-10);
     (gathered, solved)
 }
 
@@ -104,10 +105,10 @@ fn redundant_contacts_share_a_weight_evenly() {
         for friction in ["0", "0.3", "1.5"] {
             let mesh = format!("scene.bodies.cube.mesh.nodes_per_edge={mesh}");
             let ended = run(&experiment(FACE, &[NEWTON, &mesh, &format!("scene.friction={friction}")]));
-            let share = GRAVITY * ended.step_s / f64::from(n);
-            let uneven = ended.contacts.iter().map(|c| (c.impulse_W.y / share - 1.0).abs()).fold(0.0, f64::max);
-            let sideways = ended.contacts.iter().map(|c| c.impulse_W.xz().norm() / share).fold(0.0, f64::max);
-            assert_eq!(ended.contacts.len(), n as usize);
+            let share = GRAVITY / f64::from(n);
+            let uneven = ended.forces.iter().map(|c| (c.force_W.y / share - 1.0).abs()).fold(0.0, f64::max);
+            let sideways = ended.forces.iter().map(|c| c.force_W.xz().norm() / share).fold(0.0, f64::max);
+            assert_eq!(ended.forces.len(), n as usize);
             // measured: 1.1e-14 and 3.3e-16
             assert!(uneven < 1e-12 && sideways < 1e-12, "{n}: {uneven} {sideways}");
         }
@@ -155,10 +156,10 @@ fn stacks_carry_the_weight_above_at_any_ratio_of_masses() {
 
 /// Sweeps of projected Gauss–Seidel until every force is right to 1e-6, to one in a hundred.
 fn sweeps_needed(gathered: &Gathered) -> u32 {
-    let (mut sweeps, mut solved) = (0, gathered.solve(gauss_seidel::iterate, 1, 0.0));
+    let (mut sweeps, mut solved) = (0, gathered.solve(Solver::Pgs, 1, 0.0));
     while weight_error(gathered, &solved.p) > 1e-6 && sweeps < 200_000 {
         let more = 1 + sweeps / 100;
-        solved = gathered.solve_from(solved.p, gauss_seidel::iterate, more, 0.0);
+        solved = gathered.solve_from(solved.p, Solver::Pgs, more, 0.0);
         sweeps += more;
     }
     sweeps
@@ -168,11 +169,11 @@ fn sweeps_needed(gathered: &Gathered) -> u32 {
 fn sweeps_need_hundreds_of_thousands_where_newton_needs_a_dozen_steps() {
     for (what, assembly) in stacks(0.3).into_iter().take(2) {
         let gathered = assembly.gathered();
-        let after = gathered.residual(&gathered.solve(gauss_seidel::iterate, 1000, 0.0).p);
+        let after = gathered.residual(&gathered.solve(Solver::Pgs, 1000, 0.0).p);
         let pgs = sweeps_needed(&gathered);
-        let is_right = |sweeps: &u32| weight_error(&gathered, &gathered.solve(nncg::iterate, *sweeps, 0.0).p) < 1e-6;
+        let is_right = |sweeps: &u32| weight_error(&gathered, &gathered.solve(Solver::Nncg, *sweeps, 0.0).p) < 1e-6;
         let nncg = (0..17).map(|i| 1 << i).find(is_right).unwrap_or(0);
-        let steps = gathered.solve(newton::solve, 50, 1e-10).work.newton_steps;
+        let steps = gathered.solve(Solver::Newton, 50, 1e-10).work.newton_steps;
         // measured: 4.7e-5, and with the heavy top 3.3e-4
         assert!(after > 1e-5, "{what}: {after}");
         // measured: 29873, and more than 200000; 2048, and none of up to 65536; 9 and 11
@@ -253,7 +254,7 @@ fn the_start_does_not_matter() {
     {
         let (gathered, cold) = solve(assembly);
         let start = cold.p.iter().map(|p| p * (1.0 + 0.5 * spread.next()) + spread.vector() * 0.01).collect();
-        let warm = gathered.solve_from(start, newton::solve, 50, 1e-10);
+        let warm = gathered.solve_from(start, Solver::Newton, 50, 1e-10);
         let largest = cold.p.iter().map(Impulse::norm).fold(0.0, f64::max);
         let apart = cold.p.iter().zip(&warm.p).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max) / largest;
         // measured: 2.9e-12
@@ -274,5 +275,7 @@ fn what_is_not_solved_is_counted_and_gains_nothing() {
     assert_eq!(given_up("{ solver: nncg, sweeps: 1 }"), 1);
     // No residual is below 0.
     assert_eq!(given_up("{ solver: newton, sweeps: 1, tolerance: 0 }"), 1);
-    assert_eq!(["pgs", "nncg", "newton"].map(|s| given_up(&format!("{{ solver: {s}, sweeps: 1000 }}"))), [0, 0, 0]);
+    for solver in Solver::ALL {
+        assert_eq!(given_up(&format!("{{ solver: {}, sweeps: 1000 }}", solver.word())), 0, "{solver:?}");
+    }
 }

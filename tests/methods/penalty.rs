@@ -7,7 +7,8 @@ use gotai::collide::{Contact, Detector, Reach};
 use gotai::model::Model;
 use gotai::plan::Plan;
 use gotai::scene::build;
-use gotai::solve::problem::{ContactProblem, Twist};
+use gotai::solve::problem::ContactProblem;
+use gotai::solve::twist::Twist;
 use gotai::state::State;
 use gotai::step::Stepper;
 use gotai::work::Work;
@@ -35,7 +36,7 @@ fn at_rest(nodes: u32, sets: &[&str]) -> (Stepper, Model, State) {
     let (model, mut state) = build(&experiment).unwrap();
     state.bodies[0].p_WB.y -= 9.8 / (STIFFNESS * f64::from(nodes * nodes));
     let plan = Plan::new(&model, &experiment.method);
-    (Stepper::new(&experiment.method, &plan, &model, &state), model, state)
+    (Stepper::new(&experiment.method.stepping().unwrap(), &plan, &model, &state), model, state)
 }
 
 fn contacts(model: &Model, state: &State) -> Vec<Contact> {

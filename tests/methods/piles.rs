@@ -1,10 +1,10 @@
 //! Piles of many stones: the exact contact solver's work, and starts from the last step's impulses.
 
 use super::assemblies::{Gathered, heap, heap_of, stack};
-use gotai::solve::newton;
+use gotai::experiment::types::Solver;
 
 fn solve_heap(gathered: &Gathered, what: &str) -> (bool, u64) {
-    let solved = gathered.solve(newton::solve, 50, 1e-10);
+    let solved = gathered.solve(Solver::Newton, 50, 1e-10);
     let residual = gathered.residual(&solved.p);
     assert_eq!(solved.says, residual <= 1e-10, "{what}: {residual}");
     // measured: 2.1e-5
@@ -35,8 +35,8 @@ fn heaps_with_masses_of_1_to_1000_are_solved_or_said_not_to_be() {
 fn a_resting_stack_starts_where_the_last_step_ended() {
     for friction in [0.0, 0.3, 1.5] {
         let gathered = stack(&[1.0; 10], &[], friction).gathered();
-        let cold = gathered.solve(newton::solve, 50, 1e-10);
-        let warm = gathered.solve_from(cold.p, newton::solve, 50, 1e-10);
+        let cold = gathered.solve(Solver::Newton, 50, 1e-10);
+        let warm = gathered.solve_from(cold.p, Solver::Newton, 50, 1e-10);
         assert!(warm.says && gathered.residual(&warm.p) <= 1e-10);
         // measured: 0 sweeps; 4, 6 and 3 systems, the last ones for the smallest impulses
         assert!(warm.work.sweeps == 0 && warm.work.newton_steps <= 8, "{friction}: {}", warm.work.newton_steps);

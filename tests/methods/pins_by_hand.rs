@@ -1,7 +1,7 @@
 //! Pins among the contacts of a problem, put there by hand: every solver holds them, the exact one to rounding.
 
 use super::assemblies::{Assembly, chain_to_the_floor, pendulum_at_a_wall};
-use gotai::solve::{gauss_seidel, newton, nncg};
+use gotai::experiment::types::Solver;
 
 fn each(check: impl Fn(&str, Assembly)) {
     for friction in [0.0, 0.3, 1.0] {
@@ -14,7 +14,7 @@ fn each(check: impl Fn(&str, Assembly)) {
 fn pinned_boxes_against_a_wall_and_on_the_floor_obey_pins_and_contacts() {
     each(|what, assembly| {
         let gathered = assembly.gathered();
-        let solved = gathered.solve(newton::solve, 50, 1e-14);
+        let solved = gathered.solve(Solver::Newton, 50, 1e-14);
         let (pins, law) = (gathered.pin_error(&solved.p), gathered.law_error(&solved.p));
         assert!(solved.says, "{what}");
         // measured: 6.3e-14 m/s and 7.6e-14
@@ -24,14 +24,14 @@ fn pinned_boxes_against_a_wall_and_on_the_floor_obey_pins_and_contacts() {
 }
 
 #[test]
-fn sweeps_hold_pins_too() {
+fn every_solver_holds_pins() {
     each(|what, assembly| {
         let gathered = assembly.gathered();
-        for (name, solver) in [("pgs", gauss_seidel::iterate as super::assemblies::Solver), ("nncg", nncg::iterate)] {
+        for &solver in Solver::ALL {
             let solved = gathered.solve(solver, 3000, 1e-14);
             let (pins, law) = (gathered.pin_error(&solved.p), gathered.law_error(&solved.p));
             // measured: 1.9e-14 and 2.3e-13
-            assert!(pins <= 1e-9 && law <= 1e-9, "{what}, {name}: {pins} {law}");
+            assert!(pins <= 1e-9 && law <= 1e-9, "{what}, {solver:?}: {pins} {law}");
         }
     });
 }

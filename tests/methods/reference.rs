@@ -3,11 +3,11 @@
 use crate::scratch;
 use crate::sweep::{planned, sweep};
 use crate::yaml::{experiment, measured, run};
+use gotai::digest::{sealed, unsealed};
 use gotai::measure::reference::Reference;
 use gotai::rows::Measured;
 use gotai::scene;
 use gotai::study::reference::{id, made, of};
-use gotai::study::run_against;
 use gotai::sweep::planned::Planned;
 
 /// A body that turns about all its axes and falls: what a reference says of it can be held against the closed form.
@@ -90,13 +90,19 @@ fn a_sweep_makes_a_reference_once_and_reads_it_back_to_the_bit() {
     }
     // What is there is read, and not made again.
     let path = &files()[0];
-    let mut changed: Reference = serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
+    let mut changed: Reference = serde_json::from_str(&unsealed(&std::fs::read(path).unwrap()).unwrap()).unwrap();
     changed.parted_s = Some(0.5);
-    std::fs::write(path, serde_json::to_vec(&changed).unwrap()).unwrap();
+    std::fs::write(path, sealed(&changed)).unwrap();
     std::fs::remove_file(folder.path().join("journal.jsonl")).unwrap();
     let (ran, rows) = sweep(&cases, folder.path(), &[]);
     let until: Vec<f64> = rows.iter().map(|row| row.measured.reference_until_s.unwrap()).collect();
     assert_eq!((ran, until.iter().filter(|until| **until == 2.0 * 15.0 / 64.0).count()), (4, 2));
+    // A file that somebody has changed is made again.
+    let text = std::fs::read_to_string(path).unwrap();
+    std::fs::write(path, text.replacen("0.5", "0.6", 1)).unwrap();
+    std::fs::remove_file(folder.path().join("journal.jsonl")).unwrap();
+    let (_, rows) = sweep(&cases, folder.path(), &[]);
+    assert!(rows.iter().all(|row| row.measured.reference_until_s == Some(2.0)));
 }
 
 /// A run whose reference is good to the 16th of 64 parts alone.
@@ -105,7 +111,8 @@ fn until_part(part: u64, sets: &[&str]) -> Measured {
     let (model, start) = scene::build(&experiment).unwrap();
     let mut reference = made(&experiment, &model, &start).unwrap();
     reference.parted_s = Some(2.0 * (part + 1) as f64 / 64.0);
-    run_against(&experiment, &model, start, None, Some(&reference)).measured
+    let method = experiment.method.stepping().unwrap();
+    gotai::run::run(&experiment, &method, &model, start, None, Some(&reference)).measured
 }
 
 #[test]

@@ -5,6 +5,7 @@ use gotai::collide::{Contact, SolvedContact};
 use gotai::experiment::types::Diverge;
 use gotai::measure::Judge;
 use gotai::plan::Plan;
+use gotai::shown::{Acted, Shown};
 use nalgebra::Vector3;
 
 /// A ball on a floor with what it meets it with, SI.
@@ -65,7 +66,8 @@ time: {{ step_s: {}, end_s: {} }}
         );
         let experiment = experiment(&text, &[]);
         let (model, start) = gotai::scene::build(&experiment).unwrap();
-        let mut judge = Judge::new(&model, &start, &Diverge::default(), &Plan::new(&model, &experiment.method));
+        let plan = Plan::new(&model, &experiment.method);
+        let mut judge = Judge::new(&model, &start, &Diverge::default(), &plan);
         let contact = Contact {
             body: 0,
             other: None,
@@ -79,7 +81,9 @@ time: {{ step_s: {}, end_s: {} }}
             restitution: self.restitution,
             tangential_restitution: self.tangential_restitution,
         };
-        judge.observe(&model, [&start; 3], &[SolvedContact { contact, impulse_W }], self.step);
+        let contacts = &[SolvedContact { contact, impulse_W }];
+        let acted = Acted::Kick { kicked: &start, contacts, step_s: self.step, approach: plan.approach };
+        judge.observe(&model, &Shown { before: &start, after: &start, acted, way: None, stalled: None, is_last: true });
         judge.residual.max.unwrap()
     }
 }

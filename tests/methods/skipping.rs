@@ -12,7 +12,7 @@ fn end(text: &str, sets: &[&str], change: impl Fn(&mut gotai::model::Model, &mut
     let (mut model, mut state) = build(&experiment).unwrap();
     let mut plan = Plan::new(&model, &experiment.method);
     change(&mut model, &mut plan);
-    let mut stepper = Stepper::new(&experiment.method, &plan, &model, &state);
+    let mut stepper = Stepper::new(&experiment.method.stepping().unwrap(), &plan, &model, &state);
     let clock = experiment.clock();
     while state.step < clock.steps {
         stepper.step(&model, &mut state, &clock);

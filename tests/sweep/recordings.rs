@@ -7,6 +7,7 @@ use gotai::rows::Row;
 use gotai::rows::table::Table;
 use gotai::sweep::plan::SweepPlan;
 use gotai::sweep::runner::build_and_run;
+use gotai::sweep::store::Store;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -147,4 +148,17 @@ fn what_a_failed_case_has_begun_is_taken_away() {
     });
     assert_eq!(recordings(folder.path()).len(), 4);
     assert!(rows.iter().all(|row| row.recording.is_some() == (row.axes["seed"] == 0)));
+}
+
+/// `record.every_s` decides no motion: two values of it are one case.
+#[test]
+fn equal_cases_are_recorded_once() {
+    let folder = scratch::folder();
+    let plan = planned(SWEEP, &["sweep.axes={record.every_s: [0.05, 0.1]}", "seed=3", "time.end_s=0.2"]);
+    assert_eq!(plan.cases[0].case.id, plan.cases[1].case.id);
+    assert_eq!(recorded(&plan, folder.path(), MCAP).0, 1);
+    assert_eq!(recorded(&plan, folder.path(), MCAP).0, 0);
+    let more = planned(SWEEP, &["sweep.axes={record.every_s: [0.05, 0.1, 0.02]}", "seed=3", "time.end_s=0.2"]);
+    let edited = Store::open(folder.path(), &more, false).unwrap().edited().unwrap();
+    assert_eq!((edited.held, edited.planned, edited.unplanned), (3, 3, 0));
 }

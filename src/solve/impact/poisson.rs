@@ -15,8 +15,10 @@
 //! given that only descends; it keeps symmetric scenes symmetric, which one contact after the other does not.
 //! Approaches that are left where it has not settled are taken by another plastic solve.
 
+use super::super::block::Block;
 use super::super::island::islands;
-use super::super::problem::{Block, ContactProblem, Twist};
+use super::super::problem::ContactProblem;
+use super::super::twist::Twist;
 use super::super::{Impulse, exact_contact};
 use super::disc;
 use super::plastic::{Plastic, plastic, rounding};

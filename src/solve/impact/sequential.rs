@@ -9,7 +9,8 @@
 //! energy, so the sequence does not.
 
 use super::super::Impulse;
-use super::super::problem::{ContactProblem, Coupling, Memory};
+use super::super::coupling::{Coupling, Memory};
+use super::super::problem::ContactProblem;
 use super::darboux_keller;
 use super::plastic::{Plastic, plastic, rounding};
 

@@ -1,0 +1,144 @@
+//! One contact of a problem, gathered: its rows, its part of A and of b.
+
+use super::end::{End, Inertia};
+use super::law::Law;
+use super::twist::Twist;
+use super::{Impulse, corrected};
+use crate::collide::Contact;
+use crate::collide::approach::Approach;
+use crate::experiment::types::Cone;
+use crate::model::Model;
+use crate::state::BodyState;
+use nalgebra::{Matrix3, Vector3};
+
+/// One contact or pin: its three rows, its 3×3 block of A, its part of b.
+#[derive(Clone, Copy, Debug)]
+pub struct Block {
+    pub end: End,
+    /// None: the container.
+    pub other: Option<End>,
+    pub friction: f64,
+    pub A: Matrix3<f64>,
+    /// D⁻¹ of the lecture.
+    pub inverse_diagonal: Vector3<f64>,
+    /// 1/λmax of the tangents' 2×2 block of A.
+    pub tangent_step: f64,
+    pub b: Vector3<f64>,
+    /// The normal velocity that is asked for at least; b's normal row is relative to it.
+    pub least: f64,
+    /// Relative velocity before the step, in the contact's frame.
+    pub before: Vector3<f64>,
+    /// ε_t of an impact, which b's tangents' rows are relative to; else 0.
+    pub tangential_restitution: f64,
+    /// Normal and two tangents, world axes.
+    pub frame: [Vector3<f64>; 3],
+    /// A⁻¹ of a pin, which takes any impulse; none: a contact.
+    pub pin: Option<Matrix3<f64>>,
+}
+
+impl Block {
+    /// c = b + J u.
+    pub fn velocity(&self, u: &[Twist]) -> Vector3<f64> {
+        self.b + self.motion(u)
+    }
+
+    /// J u.
+    pub(super) fn motion(&self, u: &[Twist]) -> Vector3<f64> {
+        let own = self.end.motion(&u[self.end.body]);
+        self.other.as_ref().map_or(own, |other| own + other.motion(&u[other.body]))
+    }
+
+    /// u += M⁻¹ Jᵀ Δp.
+    pub(super) fn apply(&self, change: &Impulse, u: &mut [Twist]) {
+        self.ends().for_each(|end| end.apply(change, u));
+    }
+
+    /// The contact as its one or two bodies see it.
+    pub fn ends(&self) -> impl Iterator<Item = &End> {
+        std::iter::once(&self.end).chain(&self.other)
+    }
+
+    /// The normal row of J u.
+    pub fn normal_motion(&self, u: &[Twist]) -> f64 {
+        self.ends().map(|end| end.rows[0].along(&u[end.body])).sum()
+    }
+
+    /// u += M⁻¹ J_nᵀ Δp.
+    pub fn apply_normal(&self, change: f64, u: &mut [Twist]) {
+        self.ends().for_each(|end| u[end.body].add_scaled(&end.rows[0].response, change));
+    }
+
+    /// The 3×3 block of A between two contacts.
+    pub(super) fn coupling(&self, with: &Block) -> Matrix3<f64> {
+        let pairs = self.ends().flat_map(|a| with.ends().map(move |b| (a, b)));
+        pairs.filter_map(|(a, b)| a.coupling(b)).reduce(|a, b| a + b).unwrap_or_else(Matrix3::zeros)
+    }
+
+    pub(super) fn new(
+        contact: &Contact,
+        model: &Model,
+        before: &[BodyState],
+        free: &[Twist],
+        inertias: &[Inertia],
+        (approach, step_s): (Approach, f64),
+    ) -> Option<Self> {
+        let frame = contact.frame();
+        let own = End::new(contact.body, 1.0, &contact.r_BC_W, &frame, &inertias[contact.body]);
+        let other = contact.other.map(|other| End::new(other, -1.0, &contact.r_OC_W, &frame, &inertias[other]));
+        let ends = || std::iter::once(&own).chain(&other);
+        let sum = |of: &dyn Fn(&End) -> Vector3<f64>| ends().map(of).reduce(|a, b| a + b).unwrap_or_default();
+        let mut b = sum(&|end| end.motion(&free[end.body]));
+        let before = sum(&|end| {
+            let at = &before[end.body];
+            end.motion(&Twist::of(at))
+        });
+        let motion = [before.x, b.x - before.x];
+        let least = approach.least(model, contact, motion, step_s)?;
+        let strikes = contact.tangential_restitution > 0.0 && approach.strikes(model, contact, motion, step_s);
+        let tangential_restitution = if strikes { contact.tangential_restitution } else { 0.0 };
+        b.x -= least;
+        if strikes {
+            b += Vector3::new(0.0, before.y, before.z) * tangential_restitution;
+        }
+        let A = ends().filter_map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
+        Some(Block {
+            end: own,
+            other,
+            friction: contact.friction,
+            A,
+            inverse_diagonal: A.diagonal().map(|d| 1.0 / d),
+            tangent_step: 1.0 / largest_eigenvalue(A[(1, 1)], A[(2, 2)], A[(1, 2)]),
+            b,
+            least,
+            before,
+            tangential_restitution,
+            frame,
+            pin: None,
+        })
+    }
+
+    pub(super) fn law(&self) -> Law {
+        if self.pin.is_some() { Law::Pin } else { Law::Contact { friction: self.friction } }
+    }
+
+    /// The impulse back in its cone.
+    pub(super) fn corrected(&self, p: &Impulse, cone: Cone) -> Impulse {
+        if self.pin.is_some() { *p } else { corrected(p, self.friction, cone) }
+    }
+
+    /// The part of a vector along the surface, in world axes.
+    pub fn along_W(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        self.frame[1] * v.y + self.frame[2] * v.z
+    }
+
+    /// An impulse in world axes.
+    pub fn in_world(&self, p: &Impulse) -> Vector3<f64> {
+        self.frame[0] * p.x + self.frame[1] * p.y + self.frame[2] * p.z
+    }
+}
+
+/// Of the symmetric matrix [a c; c b].
+pub(super) fn largest_eigenvalue(a: f64, b: f64, c: f64) -> f64 {
+    let half = (a - b) / 2.0;
+    (a + b) / 2.0 + (half * half + c * c).sqrt()
+}

@@ -1,0 +1,81 @@
+//! What a contact or a pin is to one of its bodies: rows of J and of M⁻¹Jᵀ.
+
+use super::Impulse;
+use super::twist::Twist;
+use crate::model::Body;
+use crate::state::BodyState;
+use nalgebra::{Matrix3, Vector3};
+
+/// One row of J and of M⁻¹Jᵀ.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    /// [eᵀ (u_c × e)ᵀ]: times V, the contact point's velocity along e.
+    pub(super) j: Twist,
+    /// What a unit impulse along e does to V.
+    pub(super) response: Twist,
+}
+
+impl Row {
+    pub(super) fn along(&self, u: &Twist) -> f64 {
+        self.j.v.dot(&u.v) + self.j.w.dot(&u.w)
+    }
+}
+
+/// What a contact is to one of its bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct End {
+    pub body: usize,
+    pub(super) rows: [Row; 3],
+}
+
+impl End {
+    /// `sign`: of the contact's impulse on this body.
+    pub(super) fn new(
+        body: usize,
+        sign: f64,
+        r_W: &Vector3<f64>,
+        frame: &[Vector3<f64>; 3],
+        inertia: &Inertia,
+    ) -> Self {
+        let rows = frame.map(|e| {
+            let e = e * sign;
+            let j = Twist { v: e, w: r_W.cross(&e) };
+            Row { j, response: Twist { v: e / inertia.mass_kg, w: inertia.inverse_W * j.w } }
+        });
+        End { body, rows }
+    }
+
+    /// J u.
+    pub(super) fn motion(&self, u: &Twist) -> Vector3<f64> {
+        Vector3::new(self.rows[0].along(u), self.rows[1].along(u), self.rows[2].along(u))
+    }
+
+    /// u += M⁻¹ Jᵀ Δp.
+    pub(super) fn apply(&self, change: &Impulse, u: &mut [Twist]) {
+        for (row, p) in self.rows.iter().zip(change.iter()) {
+            u[self.body].add_scaled(&row.response, *p);
+        }
+    }
+
+    /// J M⁻¹ Jᵀ of two contacts, if it is the same body's.
+    pub(super) fn coupling(&self, other: &End) -> Option<Matrix3<f64>> {
+        let (rows, others) = (&self.rows, &other.rows);
+        (self.body == other.body).then(|| Matrix3::from_fn(|i, j| rows[i].along(&others[j].response)))
+    }
+}
+
+/// M of one body; infinite where nothing moves it.
+#[derive(Clone, Copy, Debug)]
+pub struct Inertia {
+    pub mass_kg: f64,
+    pub inverse_W: Matrix3<f64>,
+}
+
+impl Inertia {
+    pub fn of(body: &Body, at: &BodyState) -> Self {
+        if body.driven {
+            return Inertia { mass_kg: f64::INFINITY, inverse_W: Matrix3::zeros() };
+        }
+        Inertia { mass_kg: body.mass_kg, inverse_W: body.I_W_inverse(at) }
+    }
+}

@@ -4,6 +4,7 @@ use super::args::OutputArgs;
 use super::error::CliError;
 use super::output::{print, print_json};
 use super::table::table;
+use crate::exact::{ClosedForm, form};
 use crate::experiment::types::{About, Accuracy, Exact, Integrator, Measure, Method, Shape};
 use crate::experiment::vocabulary::{Initial, SettingKey, Takes, Word, shown, words};
 use crate::heading::Heading;
@@ -243,8 +244,8 @@ fn kept(integrator: Integrator) -> String {
 fn closed_forms() -> Vec<Section> {
     let section = |touches: bool, title: &str| {
         let row = |Word { name, value, .. }: Word<Exact>| {
-            let About { what, source } = value.about();
-            vec![code(name), value.scenes().to_string(), what, source.to_string()]
+            let ClosedForm { what, source, scenes, .. } = form(value);
+            vec![code(name), scenes.to_string(), what.to_string(), source.to_string()]
         };
         let rows = words::<Exact>().into_iter().filter(|word| word.value.touches() == touches).map(row).collect();
         Section {
@@ -339,8 +340,9 @@ fn method_json(method: &Word<Method>) -> Value {
 }
 
 fn exact_json(exact: &Word<Exact>) -> Value {
-    let mut line = word_json(exact, &exact.value.about());
-    line["scenes"] = json!(exact.value.scenes());
+    let ClosedForm { what, source, scenes, .. } = form(exact.value);
+    let mut line = word_json(exact, &About { what: what.to_string(), source });
+    line["scenes"] = json!(scenes);
     line["touches"] = json!(exact.value.touches());
     line
 }

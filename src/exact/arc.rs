@@ -1,9 +1,14 @@
 //! Motion under constant acceleration and constant angular acceleration (world axes), and its succession: what a body
-//! does between events. The attitude is elementary where the axis stays, else by `attitude.rs`.
+//! does between events. The attitude is elementary where the axis stays, else by `attitude.rs`, or by `following.rs` if
+//! that takes fewer steps.
 
-use super::attitude::{TERMS, turned};
+use super::attitude::{self, Turned};
+use super::following;
 use crate::state::BodyState;
 use nalgebra::{UnitQuaternion, Vector3};
+
+/// Steps of a radian, above which `following.rs` takes over: it makes at most 200 itself.
+const MANY: f64 = 256.0;
 
 #[derive(Clone, Debug)]
 pub struct Arc {
@@ -24,23 +29,24 @@ impl Arc {
         let (t, from) = (t_s - self.t_s, &self.from);
         BodyState {
             p_WB: from.p_WB + (from.v_WB + self.acceleration_m_s2 * (t / 2.0)) * t,
-            q_WB: self.attitude(t),
+            q_WB: self.turned(t).q_WB,
             v_WB: from.v_WB + self.acceleration_m_s2 * t,
             w_WB: from.w_WB + self.angular_rad_s2 * t,
         }
     }
 
-    fn attitude(&self, t: f64) -> UnitQuaternion<f64> {
+    /// The attitude after a time from the beginning.
+    pub fn turned(&self, t: f64) -> Turned {
         let (w, alpha) = (self.from.w_WB, self.angular_rad_s2);
         if w.cross(&alpha).norm() <= f64::EPSILON * w.norm() * alpha.norm() {
-            return UnitQuaternion::from_scaled_axis((w + alpha * (t / 2.0)) * t) * self.from.q_WB;
+            let turn = UnitQuaternion::from_scaled_axis((w + alpha * (t / 2.0)) * t);
+            return Turned { q_WB: turn * self.from.q_WB, steps: 0 };
         }
         let rate = w.norm() + alpha.norm() * t.abs();
-        turned(&self.from.q_WB, t, rate, |t| {
-            let mut series = [Vector3::zeros(); TERMS];
-            (series[0], series[1]) = (w + alpha * t, alpha);
-            series
-        })
+        if rate * t.abs() > MANY {
+            return following::turned(&self.from.q_WB, &w, &alpha, t);
+        }
+        attitude::turned(&self.from.q_WB, t, rate, |t| [w + alpha * t, alpha])
     }
 }
 

@@ -5,7 +5,7 @@ use crate::model::loads::AppliedForce;
 use crate::model::pins::Anchor;
 use crate::model::{Body, Model};
 use crate::state::BodyState;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// Moments, directions and lengths that differ by less, relative, are the same: what is written with ten digits is.
 pub(super) const SAME: f64 = 1e-10;
@@ -78,4 +78,9 @@ pub(super) fn only_pin(model: &Model, index: usize) -> Result<(Vector3<f64>, Vec
         },
         _ => Err(format!("`{}` on one pin, to the world", body.name)),
     }
+}
+
+/// Inertia about a point at `r_B` from the centre of mass.
+pub(super) fn about(body: &Body, r_B: &Vector3<f64>) -> Matrix3<f64> {
+    body.I_B + (Matrix3::identity() * r_B.norm_squared() - r_B * r_B.transpose()) * body.mass_kg
 }

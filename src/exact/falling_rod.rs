@@ -6,7 +6,21 @@
 //! With sin(θ/2) = sin(θ₀/2) cosh u the time is √(l/g) ∫ √(κ + sin² θ)/cos(θ/2) du, whose integrand is smooth: Gauss
 //! and Legendre's rule on short panels, inverted by Newton's method.
 
+use super::facts::{Lacks, SAME};
+use super::form::{ClosedForm, ExactMotion};
+use super::touching::{feet, level};
 use crate::math::quadrature;
+use crate::model::{Body, Geometry, Model};
+use crate::shape::solid::Solid;
+use crate::state::{BodyState, State};
+use nalgebra::{UnitQuaternion, Vector3};
+
+pub(super) const FORM: ClosedForm = ClosedForm {
+    what: "Its centre falls straight down, by a quadrature; then it lies flat, at rest.",
+    source: "Routh, Elementary Rigid Dynamics, 136",
+    scenes: "One capsule leaning at rest, one end on a container of one level plane; no friction, restitution 0.",
+    motion,
+};
 
 const NODES: usize = 20;
 
@@ -77,5 +91,82 @@ impl FallingRod {
     fn between_s(&self, a: f64, b: f64) -> f64 {
         let (middle, half) = ((a + b) / 2.0, (b - a) / 2.0);
         self.rule.iter().map(|(x, weight)| weight * half * self.slope_s(middle + half * x)).sum()
+    }
+}
+
+/// A rod that turns about a horizontal axis.
+struct Rod {
+    falling: FallingRod,
+    start: BodyState,
+    angle_rad: f64,
+    half_length_m: f64,
+    axis_W: Vector3<f64>,
+    up: Vector3<f64>,
+}
+
+impl Rod {
+    fn at(&self, t_s: f64) -> BodyState {
+        let flat = t_s >= self.falling.flat_s();
+        let (angle, rate) = if flat { (std::f64::consts::FRAC_PI_2, 0.0) } else { self.falling.at(t_s) };
+        let turn = UnitQuaternion::from_scaled_axis(self.axis_W * (angle - self.angle_rad));
+        BodyState {
+            p_WB: self.start.p_WB - self.up * (self.half_length_m * fallen(self.angle_rad, angle)),
+            q_WB: turn * self.start.q_WB,
+            v_WB: self.up * (-self.half_length_m * libm::sin(angle) * rate),
+            w_WB: self.axis_W * rate,
+        }
+    }
+}
+
+fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
+    let at = &start.bodies[index];
+    let (face, gravity_m_s2) = level(model, index)?;
+    let (body, up) = (&model.bodies[index], face.normal);
+    let surface = model.pair(index, None);
+    let half_length_m = capsule_m(body)?;
+    if surface.friction != 0.0 || surface.restitution != 0.0 {
+        return Err("no friction and no restitution".into());
+    }
+    let axis = at.q_WB * Vector3::y();
+    let upward = axis * libm::copysign(1.0, axis.dot(&up));
+    let sine = up.cross(&upward);
+    let leaning = || format!("`{}` leaning at rest, one end on the plane", body.name);
+    let axis_W = sine.try_normalize(SAME).ok_or_else(leaning)?;
+    let angle_rad = libm::atan2(sine.norm(), up.dot(&upward));
+    let moves = at.v_WB != Vector3::zeros() || at.w_WB != Vector3::zeros();
+    if moves || up.dot(&upward) <= SAME || feet(body, at, &face).len() != 1 {
+        return Err(leaning());
+    }
+    let inertia = of_rod(body, at, &axis_W, half_length_m)?;
+    let falling = FallingRod::new(angle_rad, inertia, half_length_m, gravity_m_s2);
+    let rod = Rod { falling, start: *at, angle_rad, half_length_m, axis_W, up };
+    Ok(ExactMotion::new(move |t_s| rod.at(t_s)))
+}
+
+/// cos θ₀ − cos θ, without the difference.
+pub(super) fn fallen(from_rad: f64, to_rad: f64) -> f64 {
+    2.0 * libm::sin((to_rad + from_rad) / 2.0) * libm::sin((to_rad - from_rad) / 2.0)
+}
+
+/// I/(m l²), l half the length, about an axis that it can turn about and lie flat.
+pub(super) fn of_rod(body: &Body, at: &BodyState, axis_W: &Vector3<f64>, half_length_m: f64) -> Result<f64, Lacks> {
+    let I_axis = at.q_WB * (body.I_B * at.q_WB.inverse_transform_vector(axis_W));
+    let about = axis_W.dot(&I_axis);
+    let inertia = about / (body.mass_kg * half_length_m * half_length_m);
+    if inertia > 1.0 || (I_axis - axis_W * about).norm() > SAME * I_axis.norm() {
+        return Err(format!("`{}` turning about a principal axis, I of at most m (L/2)²", body.name));
+    }
+    Ok(inertia)
+}
+
+/// Half the distance between the centres of its two spheres.
+pub(super) fn capsule_m(body: &Body) -> Result<f64, Lacks> {
+    match &body.geometry {
+        Geometry::Solid { solid: Solid::Capsule { half_height_m, .. }, centre }
+            if centre.norm() <= SAME * half_height_m =>
+        {
+            Ok(*half_height_m)
+        }
+        _ => Err(format!("`{}` a capsule, its centre of mass in its middle", body.name)),
     }
 }

@@ -20,15 +20,26 @@
 //! exact; an axis within 10⁻¹⁵ of the vertical that also does not tilt stays there; a top without a transverse moment
 //! is refused; gravity that changes ω by less than 10⁻³⁰ in a turn is left out.
 
+use super::facts::{Lacks, SAME, about, only_pin};
+use super::form::{ClosedForm, ExactMotion};
 use super::free_rotation::power_of_two;
 use super::principal::body_axes;
-use super::symmetric_body::SymmetricBody;
+use super::symmetric_body::{SymmetricBody, of_revolution};
 use super::top_phase::{Amplitude, Wave};
 use super::top_roots::{Roots, Start};
 use crate::math::dd::Dd;
 use crate::math::elliptic::{Jacobi, carlson_rf, cel};
+use crate::model::Model;
+use crate::state::{BodyState, State};
 use nalgebra::{Complex, Quaternion, UnitQuaternion, Vector3};
 use std::f64::consts::FRAC_1_SQRT_2;
+
+pub(super) const FORM: ClosedForm = ClosedForm {
+    what: "Precession and nutation, sleeping top, spherical pendulum, by elliptic functions and integrals.",
+    source: "Whittaker, Analytical Dynamics, 71–75",
+    scenes: "Gravity; every body one of revolution, on one pin to the world on its axis.",
+    motion,
+};
 
 /// Tilt and its rate, in half radians and of the fastest rate, below which the axis is vertical.
 const VERTICAL: f64 = 5e-16;
@@ -281,4 +292,31 @@ fn from_third(v: &Vector3<f64>) -> Four {
     let q = if z < Dd::ZERO { [-y, length - z, Dd::ZERO, x] } else { [length + z, -y, x, Dd::ZERO] };
     let norm = q.iter().fold(Dd::ZERO, |sum, c| sum + c.squared()).sqrt();
     q.map(|c| c / norm)
+}
+
+fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
+    let at = &start.bodies[index];
+    let (pin_W, r_B) = only_pin(model, index)?;
+    let body = &model.bodies[index];
+    let lacks = || format!("`{}` a body of revolution, pinned on its axis", body.name);
+    let (transverse, axial, axis_B) = of_revolution(&about(body, &r_B)).ok_or_else(lacks)?;
+    // A ball may turn about any line through its pin.
+    let axis_B = if transverse == axial && r_B != Vector3::zeros() { -r_B.normalize() } else { axis_B };
+    let along = -r_B.dot(&axis_B);
+    if (r_B + axis_B * along).norm() > SAME * r_B.norm() {
+        return Err(lacks());
+    }
+    let top = Top {
+        transverse_kg_m2: transverse,
+        axial_kg_m2: axial,
+        axis_B,
+        first_moment_kg_m: body.mass_kg * along,
+        gravity_m_s2: model.gravity_m_s2,
+    };
+    let top = HeavyTop::new(&top, &at.q_WB, &at.w_WB).ok_or_else(lacks)?;
+    Ok(ExactMotion::new(move |t_s| {
+        let (q_WB, w_WB) = top.at(t_s);
+        let r_W = q_WB * r_B;
+        BodyState { p_WB: pin_W - r_W, q_WB, v_WB: -w_WB.cross(&r_W), w_WB }
+    }))
 }

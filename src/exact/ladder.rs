@@ -5,8 +5,23 @@
 //!
 //! Known limit: of an almost upright ladder the error grows, to 1e-11 from 0.001 rad.
 
-use super::falling_rod::FallingRod;
+use super::facts::{Lacks, SAME};
+use super::falling_rod::{FallingRod, capsule_m, fallen, of_rod};
+use super::form::{ClosedForm, ExactMotion};
 use super::inverted_pendulum::InvertedPendulum;
+use super::touching::{feet, only_faces, press_on, unhindered};
+use crate::model::Model;
+use crate::model::container::Face;
+use crate::state::{BodyState, State};
+use nalgebra::{UnitQuaternion, Vector3};
+
+pub(super) const FORM: ClosedForm = ClosedForm {
+    what: "It leaves the wall at 2/3 of its height, by elliptic functions; then a falling rod that goes on sideways.",
+    source: "Routh, Elementary Rigid Dynamics, 144",
+    scenes: "One capsule leaning at rest, one end on each of a container's two planes, one level and one upright; no \
+           friction, restitution 0.",
+    motion,
+};
 
 #[derive(Clone, Debug)]
 pub struct Ladder {
@@ -67,4 +82,63 @@ impl Ladder {
         let distance_m = self.distance_m + self.speed_m_s * since_s;
         Leaning { angle_rad, rate_rad_s, distance_m, speed_m_s: self.speed_m_s }
     }
+}
+
+/// A rod between a wall and a floor.
+struct LadderAt {
+    ladder: Ladder,
+    start: BodyState,
+    angle_rad: f64,
+    half_length_m: f64,
+    axis_W: Vector3<f64>,
+    up: Vector3<f64>,
+    /// From the wall.
+    out: Vector3<f64>,
+}
+
+impl LadderAt {
+    fn at(&self, t_s: f64) -> BodyState {
+        let (leaning, length) = (self.ladder.at(t_s), self.half_length_m);
+        let angle = leaning.angle_rad;
+        let gone_m = leaning.distance_m - length * libm::sin(self.angle_rad);
+        let turn = UnitQuaternion::from_scaled_axis(self.axis_W * (angle - self.angle_rad));
+        let sinking = length * libm::sin(angle) * leaning.rate_rad_s;
+        BodyState {
+            p_WB: self.start.p_WB + self.out * gone_m - self.up * (length * fallen(self.angle_rad, angle)),
+            q_WB: turn * self.start.q_WB,
+            v_WB: self.out * leaning.speed_m_s - self.up * sinking,
+            w_WB: self.axis_W * leaning.rate_rad_s,
+        }
+    }
+}
+
+/// On a smooth floor along a smooth wall.
+fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
+    let at = &start.bodies[index];
+    let acceleration = unhindered(model, index)?;
+    let faces: [Face; 2] = only_faces(model).ok_or("a `container` of two planes, and one body with a shape")?;
+    let floor = faces.iter().position(|face| press_on(face, &acceleration).is_some());
+    let floor = floor.ok_or("a level plane and an upright one")?;
+    let (up, out) = (faces[floor].normal, faces[1 - floor].normal);
+    if up.dot(&out).abs() > SAME {
+        return Err("a level plane and an upright one".into());
+    }
+    let (body, surface) = (&model.bodies[index], model.pair(index, None));
+    let half_length_m = capsule_m(body)?;
+    if surface.friction != 0.0 || surface.restitution != 0.0 {
+        return Err("no friction and no restitution".into());
+    }
+    let axis = at.q_WB * Vector3::y();
+    let upward = axis * libm::copysign(1.0, axis.dot(&up));
+    let (axis_W, angle_rad) = (out.cross(&up), libm::atan2(-upward.dot(&out), upward.dot(&up)));
+    let leans = angle_rad > SAME && upward.dot(&up) > SAME && upward.dot(&axis_W).abs() <= SAME;
+    let still = at.v_WB == Vector3::zeros() && at.w_WB == Vector3::zeros();
+    if !leans || !still || faces.iter().any(|face| feet(body, at, face).len() != 1) {
+        return Err(format!("`{}` leaning at rest, one end on each plane", body.name));
+    }
+    let inertia = of_rod(body, at, &axis_W, half_length_m)?;
+    let ladder = Ladder::new(angle_rad, inertia, half_length_m, acceleration.norm())
+        .ok_or_else(|| format!("`{}` leaning far enough to slide", body.name))?;
+    let ladder = LadderAt { ladder, start: *at, angle_rad, half_length_m, axis_W, up, out };
+    Ok(ExactMotion::new(move |t_s| ladder.at(t_s)))
 }

@@ -9,8 +9,20 @@
 //!
 //! Rates and k′ are double-double, whole periods are counted. At rest within rounding of the highest position it stays.
 
+use super::facts::{Lacks, SAME, about, only_pin};
+use super::form::{ClosedForm, ExactMotion};
 use crate::math::dd::{Dd, sin_cos};
 use crate::math::elliptic::{Jacobi, carlson_rf, cel};
+use crate::model::Model;
+use crate::state::{BodyState, State};
+use nalgebra::{UnitQuaternion, Vector3};
+
+pub(super) const FORM: ClosedForm = ClosedForm {
+    what: "The compound plane pendulum at any amplitude, by elliptic functions.",
+    source: "Whittaker, Analytical Dynamics, 44",
+    scenes: "Gravity; every body on one pin to the world, turning about a horizontal principal axis of the pin.",
+    motion,
+};
 
 /// cos(θ₀/2) of a rounded π.
 const TOP: f64 = 2e-16;
@@ -112,4 +124,45 @@ impl Course {
         let (count, x) = self.half_period.map_or((0.0, x.f64()), |half| x.reduce(half));
         (count, self.jacobi.at(x))
     }
+}
+
+/// A body that turns about a horizontal axis through its pin.
+struct Swing {
+    pendulum: Pendulum,
+    start: BodyState,
+    angle: f64,
+    axis_W: Vector3<f64>,
+    pin_W: Vector3<f64>,
+}
+
+impl Swing {
+    fn at(&self, t_s: f64) -> BodyState {
+        let (angle, rate) = self.pendulum.at(t_s);
+        let turn = UnitQuaternion::from_scaled_axis(self.axis_W * (angle - self.angle));
+        let (r_W, w_WB) = (turn * (self.start.p_WB - self.pin_W), self.axis_W * rate);
+        BodyState { p_WB: self.pin_W + r_W, q_WB: turn * self.start.q_WB, v_WB: w_WB.cross(&r_W), w_WB }
+    }
+}
+
+fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
+    let at = &start.bodies[index];
+    let (pin_W, r_B) = only_pin(model, index)?;
+    let body = &model.bodies[index];
+    let lacks = || format!("`{}` swinging about a horizontal principal axis of its pin, under gravity", body.name);
+    let down = model.gravity_m_s2.try_normalize(0.0).ok_or_else(lacks)?;
+    let r_W = -(at.q_WB * r_B);
+    let (length, sine) = (r_W.norm(), down.cross(&r_W));
+    // About which it swings: its spin, or at rest what gravity turns it about.
+    let axis_W = at.w_WB.try_normalize(0.0).or_else(|| sine.try_normalize(SAME * length)).ok_or_else(lacks)?;
+    let I_axis = at.q_WB * (about(body, &r_B) * at.q_WB.inverse_transform_vector(&axis_W));
+    let inertia = axis_W.dot(&I_axis);
+    let tilted = axis_W.dot(&down).abs().max(axis_W.dot(&r_W).abs() / length);
+    if length == 0.0 || tilted > SAME || (I_axis - axis_W * inertia).norm() > SAME * inertia {
+        return Err(lacks());
+    }
+    let angle = libm::atan2(sine.dot(&axis_W), down.dot(&r_W));
+    let moment = body.mass_kg * model.gravity_m_s2.norm() * length;
+    let pendulum = Pendulum::new(moment, inertia, angle, at.w_WB.dot(&axis_W));
+    let swing = Swing { pendulum, start: *at, angle, axis_W, pin_W };
+    Ok(ExactMotion::new(move |t_s| swing.at(t_s)))
 }

@@ -9,7 +9,20 @@
 //! - g = 0: v = v₀/(1 + k v₀ t), k s = ln(1 + k v₀ t)
 //! - k = 0: the parabola
 
+use super::facts::{Lacks, constant_acceleration, unpinned};
+use super::form::{ClosedForm, ExactMotion};
+use super::free_motion::turning;
+use crate::model::Model;
+use crate::state::State;
 use nalgebra::Vector3;
+
+pub(super) const FORM: ClosedForm = ClosedForm {
+    what: "Newton's drag, tanh and ln cosh, and torque-free rotation.",
+    source: "Parker, Am. J. Phys. 45 (1977) 606",
+    scenes: "Gravity, constant forces of the world at the centre of mass, air with a `drag_coefficient`; velocity \
+           along the line of the forces, or no forces.",
+    motion,
+};
 
 /// Directions that differ by less are one.
 const PARALLEL: f64 = 1e-14;
@@ -96,4 +109,17 @@ fn falling(W: f64, tau: f64) -> (f64, f64) {
 fn rising(U: f64, tau: f64) -> (f64, f64) {
     let (sin, cos, tan) = (libm::sin(tau / 2.0), libm::cos(tau / 2.0), libm::tan(tau));
     (-libm::log1p(2.0 * sin * (U * cos - sin)), -(U - tan) / (1.0 + U * tan))
+}
+
+fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
+    let at = &start.bodies[index];
+    let body = unpinned(model, index)?;
+    if body.drag.linear_n_s_m != 0.0 {
+        return Err("no linear drag of the `air`".into());
+    }
+    let drag_per_m = body.drag.quadratic_n_s2_m2 / body.mass_kg;
+    let drag = QuadraticDrag::new(at.p_WB, at.v_WB, constant_acceleration(model, index)?, drag_per_m)
+        .ok_or_else(|| format!("`{}` moving along the line of its weight, or without one", body.name))?;
+    let rotation = turning(body, at);
+    Ok(ExactMotion::of(move |t_s| drag.at(t_s), move |t_s| rotation.at(t_s)))
 }

@@ -5,7 +5,22 @@
 //! impacts it is an inverted pendulum, ψ̇² = 4p² (sin²(ψ/2) − x₁²). An impact leaves the part
 //! (I_c + m R² cos 2α)/(I_c + m R²) of the speed, 1 − ³/₂ sin² α for a homogeneous block. SI units.
 
+use super::facts::{Lacks, SAME};
+use super::form::{ClosedForm, ExactMotion};
 use super::inverted_pendulum::{Turning, from_highest_s};
+use super::touching::{feet, level};
+use crate::model::{Geometry, Model};
+use crate::shape::solid::Solid;
+use crate::state::{BodyState, State};
+use nalgebra::{UnitQuaternion, Vector3};
+
+pub(super) const FORM: ClosedForm = ClosedForm {
+    what: "Elliptic functions from impact to impact, until it stands.",
+    source: "Housner, Bull. Seism. Soc. Am. 53 (1963) 403",
+    scenes: "One box on a container of one level plane, restitution 0, friction that holds; tilted about a lower edge, \
+           or turning about it, not enough to overturn.",
+    motion,
+};
 
 /// Impacts slower than this part of the first leave the block at rest: their times differ by less than rounding.
 const WEAKEST: f64 = 1e-18;
@@ -90,4 +105,79 @@ impl RockingBlock {
         let later = self.arcs.iter().skip(1).map(|arc| arc.begin_s);
         later.chain(std::iter::once(self.end_s))
     }
+}
+
+/// A block on its two lower edges.
+struct Block {
+    rocking: RockingBlock,
+    flat: BodyState,
+    edges_W: [Vector3<f64>; 2],
+    /// About which a tilt on the first edge is positive.
+    axis_W: Vector3<f64>,
+}
+
+impl Block {
+    fn at(&self, t_s: f64) -> BodyState {
+        let (impacts, tilt, rate) = self.rocking.at(t_s);
+        let sign = if impacts % 2 == 0 { 1.0 } else { -1.0 };
+        let (edge, w_WB) = (self.edges_W[impacts % 2], self.axis_W * (sign * rate));
+        let turn = UnitQuaternion::from_scaled_axis(self.axis_W * (sign * tilt));
+        let r_W = turn * (self.flat.p_WB - edge);
+        BodyState { p_WB: edge + r_W, q_WB: turn * self.flat.q_WB, v_WB: w_WB.cross(&r_W), w_WB }
+    }
+}
+
+fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
+    let at = &start.bodies[index];
+    let (face, gravity_m_s2) = level(model, index)?;
+    let (body, normal) = (&model.bodies[index], face.normal);
+    let surface = model.pair(index, None);
+    let Geometry::Solid { solid: Solid::Box { half_m }, .. } = &body.geometry else {
+        return Err(format!("`{}` a box without a mesh", body.name));
+    };
+    if surface.restitution != 0.0 {
+        return Err("no restitution".into());
+    }
+    let on_edge = || format!("`{}` tilted about one of its lower edges, at rest or turning about it", body.name);
+    let speed = at.v_WB.norm() + at.w_WB.norm() * body.bounding_radius_m;
+    let still = |r_W: &Vector3<f64>| (at.v_WB + at.w_WB.cross(r_W)).norm() <= SAME * speed;
+    let feet: Vec<Vector3<f64>> = feet(body, at, &face).into_iter().filter(still).collect();
+    let [first, second] = feet[..] else { return Err(on_edge()) };
+    let r_W = -(first + second) / 2.0;
+    let along_edge = (second - first).normalize();
+    let side = along_edge.cross(&normal);
+    let side = side * libm::copysign(1.0, side.dot(&r_W));
+    let axis_W = side.cross(&normal);
+    let box_axes = [0, 1, 2].map(|i| at.q_WB * Vector3::ith(i, 1.0));
+    // The face that it falls on reaches under the centre of mass, the other one away from it.
+    let across = (0..3).filter(|i| box_axes[*i].dot(&along_edge).abs() < 0.5);
+    let inward = across.map(|i| (i, box_axes[i] * libm::copysign(1.0, box_axes[i].dot(&r_W))));
+    let (bottom, d) = inward.max_by(|a, b| side.dot(&a.1).total_cmp(&side.dot(&b.1))).ok_or_else(on_edge)?;
+    let (half_base, size) = (r_W.dot(&d), r_W.norm());
+    let I_axis = at.q_WB * (body.I_B * at.q_WB.inverse_transform_vector(&axis_W));
+    let inertia = axis_W.dot(&I_axis);
+    let is_centred = r_W.dot(&along_edge).abs().max((half_base - half_m[bottom]).abs()) <= SAME * size;
+    if !is_centred || (I_axis - axis_W * inertia).norm() > SAME * inertia {
+        return Err(format!("`{}` symmetric about the plane that it rocks in", body.name));
+    }
+    let tilt_rad = libm::atan2(normal.dot(&d), side.dot(&d)).max(0.0);
+    let up = axis_W.cross(&d);
+    let alpha_rad = libm::atan2(half_base, r_W.dot(&up));
+    let about_edge = inertia + body.mass_kg * size * size;
+    let left = (inertia + body.mass_kg * size * size * libm::cos(2.0 * alpha_rad)) / about_edge;
+    if left <= 0.0 {
+        return Err(format!("`{}` slender enough to rock", body.name));
+    }
+    let natural_rad_s = (body.mass_kg * gravity_m_s2 * size / about_edge).sqrt();
+    let rocking = RockingBlock::new(alpha_rad, natural_rad_s, left, tilt_rad, at.w_WB.dot(&axis_W))
+        .ok_or_else(|| format!("`{}` rocking without overturning", body.name))?;
+    if rocking.friction(about_edge / (body.mass_kg * size * size), left) > surface.friction {
+        return Err("more friction than rocking without slip takes".into());
+    }
+    let edge = at.p_WB - r_W;
+    let back = UnitQuaternion::from_scaled_axis(axis_W * -tilt_rad);
+    let still = Vector3::zeros();
+    let flat = BodyState { p_WB: edge + back * r_W, q_WB: back * at.q_WB, v_WB: still, w_WB: still };
+    let block = Block { rocking, flat, edges_W: [edge, edge + side * (2.0 * half_base)], axis_W };
+    Ok(ExactMotion::new(move |t_s| block.at(t_s)))
 }

@@ -3,9 +3,21 @@
 //! starts back down the slope. SI units.
 
 use super::arc::{self, Arc};
-use super::facts::SAME;
+use super::facts::{Lacks, SAME};
+use super::form::{ClosedForm, ExactMotion};
+use super::touching::{along, covers, lying_flat, on_its_own};
+use crate::model::Model;
 use crate::state::BodyState;
+use crate::state::State;
 use nalgebra::Vector3;
+
+pub(super) const FORM: ClosedForm = ClosedForm {
+    what: "Sliding to a stop, sticking, or starting back down; Coulomb friction.",
+    source: "Goldstein, Classical Mechanics, 1.5",
+    scenes: "Gravity, constant forces of the world at the centre of mass; one body flat on a container of one plane, \
+           without spin, moving along the line of slope or on a level plane; too low to tip.",
+    motion,
+};
 
 #[derive(Clone, Debug)]
 pub struct Sliding {
@@ -50,4 +62,25 @@ impl Sliding {
     pub fn accelerations(&self) -> impl Iterator<Item = Vector3<f64>> {
         self.arcs.iter().map(|arc| arc.acceleration_m_s2)
     }
+}
+
+fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
+    let at = &start.bodies[index];
+    let (face, acceleration) = on_its_own(model, index)?;
+    let body = &model.bodies[index];
+    let (feet, start) = lying_flat(body, at, &face)?;
+    let press = -face.normal.dot(&acceleration);
+    if press <= 0.0 {
+        return Err(format!("`{}` pressed on the plane", body.name));
+    }
+    let pull = along(&acceleration, &face.normal, acceleration.norm());
+    let sliding = Sliding::new(&start, pull, press, model.pair(index, None).friction)
+        .ok_or_else(|| format!("`{}` moving along the line of slope, or on a level plane", body.name))?;
+    // The contact presses where its force has no moment about the centre of mass.
+    let height = -face.normal.dot(&feet[0]);
+    let upright = |a: Vector3<f64>| covers(&feet, &face.normal, &((pull - a) * (height / press)));
+    if !sliding.accelerations().all(upright) {
+        return Err(format!("`{}` too low to tip: the resultant within its base", body.name));
+    }
+    Ok(ExactMotion::new(move |t_s| sliding.at(t_s)))
 }

@@ -3,10 +3,23 @@
 //! g_n, else it slips. A slip begins at an arc cosine; it ends at a root of a transcendental equation, between two
 //! extremes of the velocity. SI units.
 
+use super::facts::{Lacks, SAME, point};
+use super::form::{ClosedForm, ExactMotion};
 use super::point_motion::{Harmonic, PointMotion};
+use super::touching::{along, covers, lying_flat, only_faces};
+use crate::model::Model;
 use crate::state::BodyState;
+use crate::state::State;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
+
+pub(super) const FORM: ClosedForm = ClosedForm {
+    what: "It sticks and slips; the slips' ends are roots of a transcendental equation.",
+    source: "Den Hartog, Trans. ASME 53 (1931) 107",
+    scenes: "One body flat on a container of one plane, too low to tip; one cosine force along the line that it moves \
+           on, and constant forces that friction holds.",
+    motion,
+};
 
 #[derive(Clone, Debug)]
 pub struct StickSlip {
@@ -171,4 +184,27 @@ fn root_s([mut before_s, mut after_s]: [f64; 2], speed: impl Fn(f64) -> f64) -> 
             after_s = middle_s;
         }
     }
+}
+
+fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
+    let at = &start.bodies[index];
+    let forces = point(model, index, at)?;
+    let [face] = only_faces(model).ok_or("a `container` of one plane, and one body with a shape")?;
+    let body = &model.bodies[index];
+    let (feet, start) = lying_flat(body, at, &face)?;
+    let [drive] = forces.harmonics[..] else { return Err("one cosine among the `forces`".into()) };
+    let (normal, weight) = (face.normal, forces.constant_m_s2);
+    let press = -normal.dot(&weight);
+    if press <= 0.0 || normal.dot(&drive.amplitude_m_s2).abs() > SAME * drive.amplitude_m_s2.norm() {
+        return Err(format!("`{}` pressed on the plane, and a cosine along it", body.name));
+    }
+    let friction = model.pair(index, None).friction;
+    let body_slips = StickSlip::new(&start, along(&weight, &normal, weight.norm()), &drive, friction * press)
+        .ok_or("everything along one line, and friction that holds what is constant")?;
+    // The contact presses where its force has no moment about the centre of mass.
+    let tips = drive.amplitude_m_s2.normalize() * (friction * normal.dot(&feet[0]));
+    if ![tips, -tips].iter().all(|point| covers(&feet, &normal, point)) {
+        return Err(format!("`{}` too low to tip: the resultant within its base", body.name));
+    }
+    Ok(ExactMotion::new(move |t_s| body_slips.at(t_s)))
 }

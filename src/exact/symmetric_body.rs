@@ -2,10 +2,21 @@
 //! the body turns about its axis at (1 − I₃/I₁) ω₃ (Kane, Likins & Levinson, Spacecraft Dynamics, 1983, 3.1). A sphere
 //! only circles L. Rates are double-double, for long times.
 
+use super::facts::{Lacks, SAME, point};
+use super::form::{ClosedForm, ExactMotion};
 use super::free_rotation::{power_of_two, turn};
 use super::principal::body_axes;
 use crate::math::dd::{Dd, dot};
-use nalgebra::{UnitQuaternion, Vector3};
+use crate::model::Model;
+use crate::state::State;
+use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
+
+pub(super) const FORM: ClosedForm = ClosedForm {
+    what: "Parabola and torque-free rotation, by elementary functions.",
+    source: "Kane, Likins & Levinson 1983, 3.1",
+    scenes: "The same forces; every body with two equal moments of inertia; no air, no pins, no contact.",
+    motion,
+};
 
 #[derive(Clone, Debug)]
 pub struct SymmetricBody {
@@ -62,4 +73,27 @@ impl SymmetricBody {
 fn unit(v: [Dd; 3]) -> [Dd; 3] {
     let length = dot(&v, &v).sqrt();
     v.map(|x| x / length)
+}
+
+fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
+    let (body, at) = (&model.bodies[index], &start.bodies[index]);
+    let (transverse, axial, axis) = of_revolution(&body.I_B)
+        .ok_or_else(|| format!("`{}` a body of revolution, with two equal moments of inertia", body.name))?;
+    let rotation = SymmetricBody::new(transverse, axial, &axis, &at.q_WB, &at.w_WB);
+    let way = point(model, index, at)?;
+    Ok(ExactMotion::of(move |t_s| way.at(t_s), move |t_s| rotation.at(t_s)))
+}
+
+/// Moments across and along the axis of revolution, and the axis.
+pub(super) fn of_revolution(I_B: &Matrix3<f64>) -> Option<(f64, f64, Vector3<f64>)> {
+    let eigen = SymmetricEigen::new(*I_B);
+    let moments = eigen.eigenvalues;
+    let pairs = [(0, 1, 2), (1, 2, 0), (2, 0, 1)];
+    let nearest = pairs.into_iter().min_by(|a, b| {
+        let apart = |(i, j, _): &(usize, usize, usize)| (moments[*i] - moments[*j]).abs();
+        apart(a).total_cmp(&apart(b))
+    })?;
+    let (i, j, axis) = nearest;
+    let same = (moments[i] - moments[j]).abs() <= SAME * moments.amax();
+    same.then(|| ((moments[i] + moments[j]) / 2.0, moments[axis], eigen.eigenvectors.column(axis).into_owned()))
 }

@@ -98,3 +98,15 @@ pub(super) fn sphere(body: &Body) -> Result<(f64, f64), Lacks> {
         _ => Err(format!("`{}` a sphere without a mesh, its mass about its centre", body.name)),
     }
 }
+
+/// A level plane's normal, and g.
+pub(super) fn level(model: &Model, index: usize) -> Result<(Face, f64), Lacks> {
+    let (face, acceleration) = on_its_own(model, index)?;
+    Ok((face, press_on(&face, &acceleration).ok_or("a level plane")?))
+}
+
+/// g, if the plane is level.
+pub(super) fn press_on(face: &Face, acceleration: &Vector3<f64>) -> Option<f64> {
+    let press = -face.normal.dot(acceleration);
+    (press > 0.0 && along(acceleration, &face.normal, press).norm() <= SAME * press).then_some(press)
+}

@@ -6,8 +6,22 @@
 //! The attitude is elementary for a circle about the table's axis, else by `attitude.rs`.
 
 use super::attitude::{TERMS, turned};
+use super::facts::{Lacks, SAME};
+use super::form::{ClosedForm, ExactMotion};
+use super::touching::{ON, rounding_m, sphere, unhindered};
+use crate::model::{Body, Geometry, Model};
+use crate::shape::solid::Solid;
 use crate::state::BodyState;
+use crate::state::State;
 use nalgebra::{UnitQuaternion, Vector3};
+
+pub(super) const FORM: ClosedForm = ClosedForm {
+    what: "Circles at k/(1 + k) of the table's rate, k = I/(m r²): 2/7 of it for a homogeneous ball.",
+    source: "Routh, Advanced Rigid Dynamics, 224; Weltner, Am. J. Phys. 47 (1979) 984",
+    scenes: "A sphere that rolls on a level box or cylinder with a kinematic spin about its vertical axis; no \
+           container.",
+    motion,
+};
 
 #[derive(Clone, Debug)]
 pub struct Turntable {
@@ -89,5 +103,57 @@ impl Turntable {
             }
             series
         })
+        .q_WB
     }
+}
+
+fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
+    let (body, at) = (&model.bodies[index], &start.bodies[index]);
+    let (radius_m, inertia) = sphere(body)?;
+    let acceleration = unhindered(model, index)?;
+    let others: Vec<usize> = (0..model.bodies.len()).filter(|i| *i != index).collect();
+    let [table] = others[..] else { return Err("a ball and a table".into()) };
+    if model.container.is_some() {
+        return Err("no `container`".into());
+    }
+    let level = || format!("`{}` turning about the vertical axis through its middle", model.bodies[table].name);
+    let press = acceleration.norm();
+    let up = (-acceleration).try_normalize(0.0).ok_or("gravity")?;
+    let (table_body, table_at) = (&model.bodies[table], &start.bodies[table]);
+    let (height_m, reach_m) = table_top(table_body, table_at, &up).ok_or_else(level)?;
+    let w = table_at.w_WB;
+    if !table_body.driven || w.cross(&up).norm() > SAME * w.norm() || table_at.v_WB != Vector3::zeros() {
+        return Err(level());
+    }
+    let to_ball = at.p_WB - table_at.p_WB;
+    let from_axis = to_ball - up * up.dot(&to_ball);
+    let gap_m = up.dot(&to_ball) - height_m - radius_m;
+    let slip = at.v_WB - at.w_WB.cross(&up) * radius_m - w.cross(&from_axis);
+    let speeds = at.v_WB.norm() + at.w_WB.norm() * radius_m + w.norm() * from_axis.norm();
+    if gap_m.abs() > rounding_m(radius_m, at) || slip.norm() > SAME * speeds {
+        return Err(format!("`{}` rolling on the table", body.name));
+    }
+    let turntable = Turntable::new(at, up, up.dot(&w), from_axis, radius_m, inertia);
+    if turntable.acceleration_m_s2() > model.pair(index, Some(table)).friction * press {
+        return Err("more friction than rolling takes".into());
+    }
+    let circle_m = (from_axis + turntable.to_centre_m()).norm() + turntable.radius_m();
+    if w.norm() > 0.0 && circle_m > reach_m {
+        return Err(format!("`{}` staying on the table", body.name));
+    }
+    Ok(ExactMotion::new(move |t_s| turntable.at(t_s)))
+}
+
+/// Height of a level top above the centre of mass, and how far from the axis it is there in every direction.
+fn table_top(body: &Body, at: &BodyState, up: &Vector3<f64>) -> Option<(f64, f64)> {
+    let Geometry::Solid { solid, centre } = &body.geometry else { return None };
+    let up_B = at.q_WB.inverse_transform_vector(up);
+    let axis = up_B.iamax();
+    let level = (up_B.abs() - Vector3::ith(axis, 1.0)).norm() <= SAME;
+    let (half_m, reach_m) = match solid {
+        Solid::Box { half_m } => (half_m[axis], half_m[(axis + 1) % 3].min(half_m[(axis + 2) % 3])),
+        Solid::Cylinder { radius_m, half_height_m } if axis == 1 => (*half_height_m, *radius_m),
+        _ => return None,
+    };
+    (level && centre.norm() <= ON * half_m).then_some((half_m, reach_m))
 }

@@ -143,42 +143,28 @@ impl Stream {
     pub const ALL: &'static [Stream] = Stream::VARIANTS;
 }
 
-/// Closed forms, by name; of which scenes: `exact/scene.rs`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr, VariantArray)]
+/// Closed forms, by name; what each is and of which scenes stands in its file, `exact/<name>.rs`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, IntoStaticStr, VariantArray)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Exact {
-    /// Parabola, with constant and harmonic forces, and torque-free rotation of every body.
+    // Bodies that meet nothing.
     FreeMotion,
-    /// The same without forces, of bodies of revolution, by elementary functions.
     SymmetricBody,
-    /// Gravity and linear drag.
     LinearDrag,
-    /// Gravity and quadratic drag along one line.
     QuadraticDrag,
-    /// A body of revolution on a pin.
     HeavyTop,
-    /// A body on a pin that swings in a plane.
     Pendulum,
-    /// Bodies that stay where they are.
+    // Bodies in contact, from here on: `touches`.
     Rest,
-    /// A body that slides on a plane without turning.
     Sliding,
-    /// A ball that bounces, slides and rolls on a plane.
     Ball,
-    /// A ball that rolls on a level table that turns.
     Turntable,
-    /// A box that rocks on two edges.
     RockingBlock,
-    /// A capsule that falls over on a smooth floor.
     FallingRod,
-    /// A capsule that slides down a smooth wall, on a smooth floor.
     Ladder,
-    /// A regular prism that rolls over its edges.
     RimlessWheel,
-    /// A ball that slides or rolls off a fixed ball.
     Dome,
-    /// A body on a plane under a harmonic force.
     StickSlip,
 }
 
@@ -191,14 +177,8 @@ impl Exact {
     }
 
     /// A motion of bodies in contact; the others meet nothing.
-    pub const fn touches(self) -> bool {
-        match self {
-            Exact::FreeMotion | Exact::SymmetricBody | Exact::LinearDrag | Exact::QuadraticDrag => false,
-            Exact::HeavyTop | Exact::Pendulum => false,
-            Exact::Rest | Exact::Sliding | Exact::Ball => true,
-            Exact::Turntable | Exact::RockingBlock | Exact::FallingRod | Exact::Ladder => true,
-            Exact::RimlessWheel | Exact::Dome | Exact::StickSlip => true,
-        }
+    pub fn touches(self) -> bool {
+        self >= Exact::Rest
     }
 }
 

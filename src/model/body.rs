@@ -4,7 +4,6 @@ use super::loads::Drag;
 use super::surface::Surface;
 use crate::shape::mesh::TetMesh;
 use crate::shape::solid::Solid;
-use crate::shape::triangles;
 use crate::state::BodyState;
 use nalgebra::{Matrix3, Vector3};
 
@@ -103,7 +102,7 @@ impl Body {
             Geometry::None => (Vec::new(), Vec::new()),
             Geometry::Mesh { nodes, mesh, .. } => (nodes.clone(), mesh.surface()),
             Geometry::Solid { solid, centre } => {
-                let (points, triangles) = triangles::of(solid);
+                let (points, triangles) = solid.triangles();
                 (points.iter().map(|u| u + centre).collect(), triangles)
             }
         }

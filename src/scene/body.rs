@@ -6,7 +6,6 @@ use crate::experiment::types as file;
 use crate::model::loads::Drag;
 use crate::model::surface::Surface;
 use crate::model::{Body, Geometry};
-use crate::shape::area::surface_m2;
 use crate::shape::hull::Hull;
 use crate::shape::mesh::{TetMesh, box_mesh, sphere_mesh};
 use crate::shape::moments::{MassProperties, Moments, exact, lumped};
@@ -125,13 +124,13 @@ fn moments(described: &file::Body, mesh: Option<&TetMesh>, solid: Option<&Solid>
     match (mesh, described.inertia_from) {
         (Some(mesh), file::InertiaFrom::Exact) => Some(exact(mesh)),
         (Some(mesh), file::InertiaFrom::Lumped) => Some(lumped(mesh)),
-        (None, _) => solid.map(Moments::of),
+        (None, _) => solid.map(Solid::moments),
     }
 }
 
 /// The area is a quarter of the surface.
 fn build_drag(air: &file::Air, solid: Option<&Solid>) -> Drag {
-    let area_m2 = solid.map_or(0.0, surface_m2) / 4.0;
+    let area_m2 = solid.map_or(0.0, Solid::surface_m2) / 4.0;
     Drag {
         linear_n_s_m: air.linear_drag_n_s_m,
         quadratic_n_s2_m2: 0.5 * air.density_kg_m3 * air.drag_coefficient * area_m2,

@@ -1,8 +1,12 @@
 //! Convex geometry that knows no body: solids, hulls, meshes, their moments and surfaces, and where two of them meet.
 
-pub mod area;
 mod axis;
+pub mod capsule;
 pub mod closest;
+pub mod convex;
+pub mod cuboid;
+pub mod cylinder;
+pub mod ellipsoid;
 mod gjk;
 pub mod hull;
 mod manifold;
@@ -11,4 +15,5 @@ pub mod moments;
 pub mod pair;
 mod placed;
 pub mod solid;
+pub mod sphere;
 pub mod triangles;

@@ -1,7 +1,6 @@
-//! Volume, mass, centre of mass and inertia (L8, L9), of meshes and of shapes.
+//! Volume, mass, centre of mass and inertia (L8, L9), of meshes; of a shape: its file.
 
-use super::mesh::{TetMesh, hull_mesh, signed_volume};
-use super::solid::Solid;
+use super::mesh::{TetMesh, signed_volume};
 use nalgebra::{Matrix3, Vector3};
 
 /// Of the whole body: about its centre of mass, in the axes of the body frame.
@@ -23,18 +22,6 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Of a solid about its centre: closed forms, and the tets of a hull.
-    pub fn of(solid: &Solid) -> Self {
-        match solid {
-            Solid::Sphere { radius_m } => sphere_moments(*radius_m),
-            Solid::Box { half_m } => box_moments((half_m * 2.0).into()),
-            Solid::Cylinder { radius_m, half_height_m } => cylinder_moments(*radius_m, 2.0 * half_height_m),
-            Solid::Capsule { radius_m, half_height_m } => capsule_moments(*radius_m, 2.0 * half_height_m),
-            Solid::Ellipsoid { semi_axes_m } => ellipsoid_moments((*semi_axes_m).into()),
-            Solid::Convex(hull) => exact(&hull_mesh(hull)),
-        }
-    }
-
     /// Mass properties at uniform density. The slide prints ᴼI = ∫ uᵀu dm; meant is ∫ (|u|² E − u uᵀ) dm.
     pub fn with_mass(&self, mass_kg: f64) -> MassProperties {
         let density = mass_kg / self.volume_m3;
@@ -75,49 +62,7 @@ fn sum(mesh: &TetMesh, of: impl Fn(&[Vector3<f64>; 4], f64) -> (Vector3<f64>, Ma
     total
 }
 
-/// Closed form: a box of the given edge lengths about its centre.
-pub fn box_moments(size_m: [f64; 3]) -> Moments {
-    let size = Vector3::from(size_m);
-    let volume_m3 = size.product();
-    Moments {
-        volume_m3,
-        first: Vector3::zeros(),
-        second: Matrix3::from_diagonal(&(size.component_mul(&size) * (volume_m3 / 12.0))),
-    }
-}
-
-/// Closed form: a cylinder about its centre, its axis y.
-pub fn cylinder_moments(radius_m: f64, height_m: f64) -> Moments {
-    let square = radius_m * radius_m;
-    let volume_m3 = std::f64::consts::PI * square * height_m;
-    let across = square / 4.0;
-    about_centre(volume_m3, Vector3::new(across, height_m * height_m / 12.0, across) * volume_m3)
-}
-
-/// Closed form: a cylinder, its axis y, between two half balls; `height_m` between their centres.
-pub fn capsule_moments(radius_m: f64, height_m: f64) -> Moments {
-    let (middle, ball) = (cylinder_moments(radius_m, height_m), sphere_moments(radius_m));
-    let half_m = height_m / 2.0;
-    let fourth = radius_m * radius_m * radius_m * radius_m;
-    // Of each half ball ∫(y + half)² dV with ∫y dV = π r⁴/4.
-    let moved = std::f64::consts::PI * fourth * half_m + ball.volume_m3 * half_m * half_m;
-    let second = middle.second.diagonal() + ball.second.diagonal() + Vector3::y() * moved;
-    about_centre(middle.volume_m3 + ball.volume_m3, second)
-}
-
-/// Closed form: an ellipsoid about its centre.
-pub fn ellipsoid_moments(semi_axes_m: [f64; 3]) -> Moments {
-    let axes = Vector3::from(semi_axes_m);
-    let volume_m3 = 4.0 / 3.0 * std::f64::consts::PI * axes.product();
-    about_centre(volume_m3, axes.component_mul(&axes) * (volume_m3 / 5.0))
-}
-
-fn about_centre(volume_m3: f64, second: Vector3<f64>) -> Moments {
+/// Of a body whose own axes are its principal ones.
+pub(super) fn about_centre(volume_m3: f64, second: Vector3<f64>) -> Moments {
     Moments { volume_m3, first: Vector3::zeros(), second: Matrix3::from_diagonal(&second) }
-}
-
-/// Closed form: a ball about its centre.
-pub fn sphere_moments(radius_m: f64) -> Moments {
-    let volume_m3 = 4.0 / 3.0 * std::f64::consts::PI * radius_m * radius_m * radius_m;
-    about_centre(volume_m3, Vector3::repeat(volume_m3 * radius_m * radius_m / 5.0))
 }

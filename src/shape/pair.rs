@@ -4,7 +4,6 @@
 //! the axis between the cores (`axis.rs`), then the corners of what lies opposite along it (`manifold.rs`).
 
 use super::axis::{Axis, Face, axis};
-use super::closest::closest;
 use super::manifold::{Opposite, closest_parts, of_face, of_lines};
 use super::placed::Placed;
 use super::solid::{Meeting, Pose, Solid};
@@ -95,7 +94,7 @@ fn of_sphere(
     margin_m: f64,
 ) -> Option<Meeting> {
     let centre = pose_other.q_W.inverse_transform_vector(&(pose.p_W - pose_other.p_W));
-    let nearest = closest(other, &centre);
+    let nearest = other.closest(&centre);
     let gap_m = nearest.distance_m - radius_m;
     (gap_m < margin_m).then(|| {
         let out = pose_other.q_W * nearest.normal;

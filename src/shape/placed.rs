@@ -4,7 +4,9 @@
 //! their own core. Positions are relative to a point near both bodies, so that far from the world's origin nothing is
 //! lost.
 
-use super::solid::{Pose, Solid, corner, ellipsoid_support, rim_directions};
+use super::cylinder::rim_directions;
+use super::solid::{Pose, Solid};
+use super::{capsule, convex, cuboid, cylinder, ellipsoid};
 use nalgebra::{Matrix3, Vector3};
 
 pub struct Placed<'a> {
@@ -12,9 +14,6 @@ pub struct Placed<'a> {
     pub p: Vector3<f64>,
     R: Matrix3<f64>,
 }
-
-/// Corners of a box's faces −x, x, −y, y, −z, z, counter-clockwise seen from outside.
-const BOX_FACES: [[u32; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
 /// Parallel within this angle (rad).
 pub const PARALLEL: f64 = 1e-7;
@@ -37,13 +36,11 @@ impl<'a> Placed<'a> {
         let own = self.R.tr_mul(d);
         let point = match self.solid {
             Solid::Sphere { .. } => Vector3::zeros(),
-            Solid::Box { half_m } => half_m.zip_map(&own, f64::copysign),
-            Solid::Cylinder { radius_m, half_height_m } => {
-                radial(&own) * *radius_m + Vector3::y() * half_height_m.copysign(own.y)
-            }
-            Solid::Capsule { half_height_m, .. } => Vector3::y() * half_height_m.copysign(own.y),
-            Solid::Ellipsoid { semi_axes_m } => ellipsoid_support(semi_axes_m, &own),
-            Solid::Convex(hull) => first_farthest(&hull.vertices, &own),
+            Solid::Box { half_m } => cuboid::support(half_m, &own),
+            Solid::Cylinder { radius_m, half_height_m } => cylinder::support(*radius_m, *half_height_m, &own),
+            Solid::Capsule { half_height_m, .. } => capsule::support(*half_height_m, &own),
+            Solid::Ellipsoid { semi_axes_m } => ellipsoid::support(semi_axes_m, &own),
+            Solid::Convex(hull) => convex::support(hull, &own),
         };
         self.p + self.R * point
     }
@@ -52,16 +49,8 @@ impl<'a> Placed<'a> {
     pub fn curvature(&self, d: &Vector3<f64>) -> Matrix3<f64> {
         let own = self.R.tr_mul(d);
         let curvature = match self.solid {
-            Solid::Cylinder { radius_m, .. } => {
-                let radial = Vector3::new(own.x, 0.0, own.z);
-                let along = Matrix3::from_diagonal(&Vector3::new(1.0, 0.0, 1.0));
-                (along - radial * radial.transpose() / radial.norm_squared()) * (*radius_m / radial.norm())
-            }
-            Solid::Ellipsoid { semi_axes_m } => {
-                let squares = semi_axes_m.component_mul(semi_axes_m);
-                let (h, point) = (semi_axes_m.component_mul(&own).norm(), squares.component_mul(&own));
-                Matrix3::from_diagonal(&(squares / h)) - point * point.transpose() / (h * h * h)
-            }
+            Solid::Cylinder { radius_m, .. } => cylinder::curvature(*radius_m, &own),
+            Solid::Ellipsoid { semi_axes_m } => ellipsoid::curvature(semi_axes_m, &own),
             _ => return Matrix3::zeros(),
         };
         self.R * curvature * self.R.transpose()
@@ -84,10 +73,8 @@ impl<'a> Placed<'a> {
 
     pub fn vertex(&self, number: u32) -> Vector3<f64> {
         let own = match self.solid {
-            Solid::Box { half_m } => corner(half_m, number),
-            Solid::Capsule { half_height_m, .. } => {
-                Vector3::y() * if number == 0 { -half_height_m } else { *half_height_m }
-            }
+            Solid::Box { half_m } => cuboid::corner(half_m, number),
+            Solid::Capsule { half_height_m, .. } => capsule::end(*half_height_m, number),
             Solid::Convex(hull) => hull.vertices[number as usize],
             _ => Vector3::zeros(),
         };
@@ -118,7 +105,7 @@ impl<'a> Placed<'a> {
     /// Vertices around a face; none of a cap.
     pub fn face_corners(&self, face: u32) -> &'a [u32] {
         match self.solid {
-            Solid::Box { .. } => &BOX_FACES[face as usize],
+            Solid::Box { .. } => &cuboid::FACES[face as usize],
             Solid::Convex(hull) => &hull.faces[face as usize].corners,
             _ => &[],
         }
@@ -186,20 +173,4 @@ impl<'a> Placed<'a> {
     pub fn rim(&self, along: &Vector3<f64>) -> [Vector3<f64>; 4] {
         rim_directions(&self.R.tr_mul(along)).map(|u| self.R * u)
     }
-}
-
-/// However little of `d` is radial, as separations are measured with it; x if nothing is.
-fn radial(d: &Vector3<f64>) -> Vector3<f64> {
-    Vector3::new(d.x, 0.0, d.z).try_normalize(0.0).unwrap_or_else(Vector3::x)
-}
-
-fn first_farthest(vertices: &[Vector3<f64>], d: &Vector3<f64>) -> Vector3<f64> {
-    let mut farthest = (f64::NEG_INFINITY, Vector3::zeros());
-    for vertex in vertices {
-        let along = d.dot(vertex);
-        if along > farthest.0 {
-            farthest = (along, *vertex);
-        }
-    }
-    farthest.1
 }

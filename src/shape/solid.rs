@@ -1,6 +1,11 @@
-//! Convex solids in their own axes about their own centre, and what of them touches a half-space.
+//! Convex solids in their own axes about their own centre, and what of them touches a half-space. The facts of each
+//! stand in its own file; here is which one is asked.
 
+use super::closest::Closest;
 use super::hull::Hull;
+use super::moments::Moments;
+use super::triangles::Triangles;
+use super::{capsule, convex, cuboid, cylinder, ellipsoid, sphere};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A cylinder's and a capsule's axis is y.
@@ -47,20 +52,16 @@ pub struct Meeting {
     pub feature: (u32, u32),
 }
 
-/// A cap tilted by less (rad) lies flat. Below it, the lowest point of a rim is an accident of rounding, and the points
-/// of the rim are fixed in the body; what is lost is less than a third of this angle times the radius.
-const FLAT: f64 = 1e-8;
-
 impl Solid {
     /// About its centre.
     pub fn bounding_radius_m(&self) -> f64 {
         match self {
             Solid::Sphere { radius_m } => *radius_m,
             Solid::Box { half_m } => half_m.norm(),
-            Solid::Cylinder { radius_m, half_height_m } => (radius_m * radius_m + half_height_m * half_height_m).sqrt(),
+            Solid::Cylinder { radius_m, half_height_m } => cylinder::bounding_radius_m(*radius_m, *half_height_m),
             Solid::Capsule { radius_m, half_height_m } => radius_m + half_height_m,
             Solid::Ellipsoid { semi_axes_m } => semi_axes_m.max(),
-            Solid::Convex(hull) => hull.vertices.iter().map(|v| v.norm()).fold(0.0, f64::max),
+            Solid::Convex(hull) => convex::bounding_radius_m(hull),
         }
     }
 
@@ -80,20 +81,63 @@ impl Solid {
     pub fn each_lowest(&self, normal: &Vector3<f64>, mut visit: impl FnMut(u32, Vector3<f64>)) {
         match self {
             Solid::Sphere { radius_m } => visit(0, -normal * *radius_m),
-            Solid::Box { half_m } => (0..8).for_each(|i| visit(i, corner(half_m, i))),
+            Solid::Box { half_m } => (0..8).for_each(|i| visit(i, cuboid::corner(half_m, i))),
             Solid::Cylinder { radius_m, half_height_m } => {
-                for (cap, y) in [-half_height_m, *half_height_m].into_iter().enumerate() {
-                    for (k, u) in rim_directions(&-normal).into_iter().enumerate() {
-                        visit((4 * cap + k) as u32, u * *radius_m + Vector3::y() * y);
-                    }
-                }
+                cylinder::each_lowest(*radius_m, *half_height_m, normal, visit);
             }
             Solid::Capsule { radius_m, half_height_m } => {
-                visit(0, Vector3::y() * -half_height_m - normal * *radius_m);
-                visit(1, Vector3::y() * *half_height_m - normal * *radius_m);
+                capsule::each_lowest(*radius_m, *half_height_m, normal, visit);
             }
-            Solid::Ellipsoid { semi_axes_m } => visit(0, ellipsoid_support(semi_axes_m, &-normal)),
+            Solid::Ellipsoid { semi_axes_m } => visit(0, ellipsoid::support(semi_axes_m, &-normal)),
             Solid::Convex(hull) => hull.vertices.iter().enumerate().for_each(|(i, v)| visit(i as u32, *v)),
+        }
+    }
+
+    /// About its centre: closed forms, and the tets of a hull.
+    pub fn moments(&self) -> Moments {
+        match self {
+            Solid::Sphere { radius_m } => sphere::moments(*radius_m),
+            Solid::Box { half_m } => cuboid::moments((half_m * 2.0).into()),
+            Solid::Cylinder { radius_m, half_height_m } => cylinder::moments(*radius_m, 2.0 * half_height_m),
+            Solid::Capsule { radius_m, half_height_m } => capsule::moments(*radius_m, 2.0 * half_height_m),
+            Solid::Ellipsoid { semi_axes_m } => ellipsoid::moments((*semi_axes_m).into()),
+            Solid::Convex(hull) => convex::moments(hull),
+        }
+    }
+
+    /// Four times the mean of its shadow over all directions (A. Cauchy, 1841).
+    pub fn surface_m2(&self) -> f64 {
+        match self {
+            Solid::Sphere { radius_m } => sphere::surface_m2(*radius_m),
+            Solid::Box { half_m } => cuboid::surface_m2(half_m),
+            Solid::Cylinder { radius_m, half_height_m } => cylinder::surface_m2(*radius_m, *half_height_m),
+            Solid::Capsule { radius_m, half_height_m } => capsule::surface_m2(*radius_m, *half_height_m),
+            Solid::Ellipsoid { semi_axes_m } => ellipsoid::surface_m2((*semi_axes_m).into()),
+            Solid::Convex(hull) => hull.area_m2(),
+        }
+    }
+
+    /// Of its surface, to a point in its own axes; where several points are nearest, one of them, always the same.
+    pub fn closest(&self, p: &Vector3<f64>) -> Closest {
+        match self {
+            Solid::Sphere { radius_m } => sphere::closest(*radius_m, p),
+            Solid::Box { half_m } => cuboid::closest(half_m, p),
+            Solid::Cylinder { radius_m, half_height_m } => cylinder::closest(*radius_m, *half_height_m, p),
+            Solid::Capsule { radius_m, half_height_m } => capsule::closest(*radius_m, *half_height_m, p),
+            Solid::Ellipsoid { semi_axes_m } => ellipsoid::closest(semi_axes_m, p),
+            Solid::Convex(hull) => convex::closest(hull, p),
+        }
+    }
+
+    /// For pictures.
+    pub fn triangles(&self) -> Triangles {
+        match self {
+            Solid::Sphere { radius_m } => sphere::triangles(*radius_m),
+            Solid::Box { half_m } => cuboid::triangles(half_m),
+            Solid::Cylinder { radius_m, half_height_m } => cylinder::triangles(*radius_m, *half_height_m),
+            Solid::Capsule { radius_m, half_height_m } => capsule::triangles(*radius_m, *half_height_m),
+            Solid::Ellipsoid { semi_axes_m } => ellipsoid::triangles(semi_axes_m),
+            Solid::Convex(hull) => convex::triangles(hull),
         }
     }
 }
@@ -119,24 +163,4 @@ pub fn plane_touches(
             out.push(Meeting { p_W, normal: *normal, gap_m, feature: (feature, 0) });
         }
     });
-}
-
-/// Corner of a box: bits 0, 1, 2 of its number say on which side in x, y, z.
-pub(super) fn corner(half_m: &Vector3<f64>, number: u32) -> Vector3<f64> {
-    Vector3::from_fn(|axis, _| if number >> axis & 1 == 1 { half_m[axis] } else { -half_m[axis] })
-}
-
-/// Radial unit vectors of a cylinder: the one nearest to `along`, then by quarter turns about y.
-pub(super) fn rim_directions(along: &Vector3<f64>) -> [Vector3<f64>; 4] {
-    let radial = Vector3::new(along.x, 0.0, along.z);
-    let length = radial.norm();
-    let first = if length > FLAT { radial / length } else { Vector3::x() };
-    let second = Vector3::y().cross(&first);
-    [first, second, -first, -second]
-}
-
-/// Point of an ellipsoid farthest along `d`.
-pub(super) fn ellipsoid_support(semi_axes_m: &Vector3<f64>, d: &Vector3<f64>) -> Vector3<f64> {
-    let scaled = semi_axes_m.component_mul(d);
-    semi_axes_m.component_mul(&scaled) / scaled.norm()
 }

@@ -1,7 +1,9 @@
 use gotai::model::Geometry;
 use gotai::scene::build;
+use gotai::shape::cuboid::moments as box_moments;
 use gotai::shape::mesh::{TetMesh, box_counts, box_mesh, sphere_mesh};
-use gotai::shape::moments::{box_moments, exact, lumped, sphere_moments};
+use gotai::shape::moments::{exact, lumped};
+use gotai::shape::sphere::moments as sphere_moments;
 use nalgebra::{Matrix3, Vector3};
 
 fn cube(n: u32) -> TetMesh {

@@ -2,7 +2,11 @@
 
 use gotai::model::{Body, Geometry};
 use gotai::scene::build;
-use gotai::shape::moments::{MassProperties, box_moments, capsule_moments, cylinder_moments, ellipsoid_moments};
+use gotai::shape::capsule::moments as capsule_moments;
+use gotai::shape::cuboid::moments as box_moments;
+use gotai::shape::cylinder::moments as cylinder_moments;
+use gotai::shape::ellipsoid::moments as ellipsoid_moments;
+use gotai::shape::moments::MassProperties;
 use nalgebra::{Matrix3, Vector3};
 
 /// Body of this shape alone.

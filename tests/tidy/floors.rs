@@ -130,19 +130,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     (
         "bench",
-        &[
-            "sweep",
-            "study",
-            "run",
-            "measure",
-            "check",
-            "model",
-            "experiment",
-            "rows",
-            "outcome",
-            "state",
-            "panics",
-        ],
+        &["sweep", "study", "run", "measure", "check", "model", "experiment", "rows", "outcome", "state", "panics"],
     ),
     (
         "cli",

@@ -10,12 +10,13 @@ use crate::experiment::types::{Experiment, Record};
 use crate::files::{self, FileError, make_folder};
 use crate::outcome::Outcome;
 use crate::rows::columns::is_beside_the_run;
-use crate::rows::{Measured, Row, cells};
+use crate::rows::{Measured, cells};
+use crate::study::Place;
 use crate::sweep::build::build;
 use crate::sweep::folder::Folder;
 use crate::sweep::journal::{Entry, open_alone};
 use crate::sweep::planned::Planned;
-use crate::sweep::runner::{Places, SweepError, run_case};
+use crate::sweep::runner::{SweepError, run_case};
 use crate::sweep::unneeded::{LOCK, REPLAYS};
 use serde_json::{Value, json};
 use std::fs::File;
@@ -38,20 +39,13 @@ pub(super) fn replay(dir: &Path, id: &str, run: &RunArgs, output: OutputArgs) ->
     let (model, start) = build(&folder.file, &planned.point, &planned.case.experiment)?;
     let replays = dir.join(REPLAYS);
     let _alone = (!targets.is_empty()).then(|| Alone::with(&replays, &planned.case.id)).transpose()?;
-    let places = Places { references: dir, recordings: &replays, targets: &targets };
-    let (ended, written) = run_case(&planned, &model, start, places);
+    let place = Place { references: Some(dir), recording: planned.recording(&replays, &targets) };
+    let (ended, written) = run_case(&planned.case, &model, start, &place);
     let differing = row.map_or(Vec::new(), |row| differing(&row.measured, &ended.measured));
     let name = planned.name.ended(ended.measured.outcome);
     if output.json {
-        let case = &planned.case;
-        let shown = Row {
-            case: case.id.clone(),
-            axes: case.axes.clone(),
-            measured: ended.measured.clone(),
-            recording: (!targets.is_empty() && written.is_ok()).then(|| name.clone()),
-            build: BUILD.to_string(),
-        };
-        let mut document = document(&shown, &model, &ended);
+        let recording = (!targets.is_empty() && written.is_ok()).then_some(name.as_str());
+        let mut document = document(&planned.case, recording, &model, &ended);
         document["row_build"] = json!(row.map(|row| &row.build));
         document["differing"] = differing.iter().map(|d| json!([d.column, d.row, d.replay])).collect();
         print_json(&document);

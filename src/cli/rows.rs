@@ -8,7 +8,7 @@ use crate::experiment::filter::{Condition, Filter, is_same, shown_cell};
 use crate::experiment::nearest::nearest;
 use crate::outcome::Outcome;
 use crate::rows::plan_file::PlanFile;
-use crate::rows::table::Table;
+use crate::rows::table::{Table, to_csv};
 use crate::sweep::folder::Folder;
 use clap::Args;
 use comfy_table::presets;
@@ -72,7 +72,9 @@ impl Command {
             let named = |row: &&Cells| columns.iter().map(|name| name.to_string()).zip(cells(row)).collect::<Cells>();
             print_json(&chosen.iter().map(named).collect::<Vec<_>>());
         } else if self.csv {
-            print(csv(&columns, chosen.iter().map(|row| cells(row))).trim_end());
+            let text = to_csv(&columns, chosen.iter().copied());
+            let text = text.map_err(|error| CliError::Machine(format!("cannot write CSV: {error}")))?;
+            print(String::from_utf8_lossy(&text).trim_end());
         } else {
             let mut table = table(&columns);
             table.load_preset(presets::NOTHING);
@@ -196,15 +198,4 @@ fn shown(name: &str, cell: &Value) -> String {
 fn rounded(x: f64) -> String {
     let is_plain = x == 0.0 || (1e-3..1e6).contains(&x.abs());
     if is_plain { format!("{}", (x * 1e4).round() / 1e4) } else { format!("{x:.3e}") }
-}
-
-fn csv(columns: &[&str], rows: impl Iterator<Item = Vec<Value>>) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    // Writing into memory cannot fail.
-    let _ = writer.write_record(columns);
-    for row in rows {
-        let text = |cell: &Value| if cell.is_null() { String::new() } else { shown_cell(cell) };
-        let _ = writer.write_record(row.iter().map(text));
-    }
-    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
 }

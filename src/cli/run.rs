@@ -6,17 +6,15 @@ use super::output::{print, print_json};
 use super::progress::Bar;
 use super::replay::replay;
 use super::shown::{describe_plan, document, say_where, summary};
-use crate::build_info::BUILD;
 use crate::experiment::ExperimentFile;
 use crate::outcome::Outcome;
 use crate::plan::Plan;
 use crate::record::read::experiment_of;
-use crate::rows::Row;
-use crate::study::reference;
+use crate::study::{Place, reference};
 use crate::sweep::build::build;
 use crate::sweep::folder::Folder;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::runner::{Places, Progress, run_one};
+use crate::sweep::runner::{Progress, run_one};
 use crate::sweep::store::Store;
 use clap::Args;
 use std::path::PathBuf;
@@ -81,18 +79,12 @@ impl Command {
             reference::of(&dir, &case.experiment, &model, &start)?;
             bar.end();
         }
-        let places = Places { references: &dir, recordings: &dir, targets: &targets };
-        let (ended, kept) = run_one(planned, &model, start, places, &mut store);
+        let place = Place { references: Some(&dir), recording: planned.recording(&dir, &targets) };
+        let (ended, kept) = run_one(case, &model, start, &place, &mut store);
         let name = planned.name.ended(ended.measured.outcome);
         if self.output.json {
-            let row = Row {
-                case: case.id.clone(),
-                axes: case.axes.clone(),
-                measured: ended.measured.clone(),
-                recording: (!targets.is_empty() && kept.is_ok()).then(|| name.clone()),
-                build: BUILD.to_string(),
-            };
-            print_json(&document(&row, &model, &ended));
+            let recording = (!targets.is_empty() && kept.is_ok()).then_some(name.as_str());
+            print_json(&document(case, recording, &model, &ended));
         } else {
             print(summary(&case.id, &ended.measured));
         }

@@ -1,5 +1,7 @@
 //! What `run` shows of a run: a summary, or one JSON document with its columns, bodies and contacts.
 
+use crate::build_info::BUILD;
+use crate::case::Case;
 use crate::model::{self, Model};
 use crate::outcome::Outcome;
 use crate::plan::Plan;
@@ -11,8 +13,15 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The columns of the row, and the state and contacts at the end.
-pub(super) fn document(row: &Row, model: &Model, ended: &Ended) -> Value {
+/// The columns of the row, and the state and contacts at the end. `recording`: its name, if there is one.
+pub(super) fn document(case: &Case, recording: Option<&str>, model: &Model, ended: &Ended) -> Value {
+    let row = Row {
+        case: case.id.clone(),
+        axes: case.axes.clone(),
+        measured: ended.measured.clone(),
+        recording: recording.map(str::to_string),
+        build: BUILD.to_string(),
+    };
     let mut document = serde_json::to_value(row).unwrap_or_default();
     document["bodies"] = bodies(model, ended);
     document["contacts"] = ended.forces.iter().map(|force| contact(model, force)).collect();

@@ -6,7 +6,7 @@
 //! Rolling takes k sin θ/((3 + k) cos θ − 2 cos θ₀) of friction, more than any before it leaves: it rolls until then.
 //! SI units.
 
-use super::facts::{Lacks, SAME};
+use super::facts::{Lacks, SAME, only_other};
 use super::form::{ClosedForm, ExactMotion};
 use super::inverted_pendulum::InvertedPendulum;
 use super::touching::{rounding_m, sphere, unhindered};
@@ -87,11 +87,7 @@ fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lac
     let (body, at) = (&model.bodies[index], &start.bodies[index]);
     let (radius_m, inertia) = sphere(body)?;
     let gravity_m_s2 = unhindered(model, index)?;
-    let others: Vec<usize> = (0..model.bodies.len()).filter(|i| *i != index).collect();
-    let [under] = others[..] else { return Err("a ball on another one".into()) };
-    if model.container.is_some() {
-        return Err("no `container`".into());
-    }
+    let under = only_other(model, index, "a ball on another one")?;
     let (fixed, fixed_at) = (&model.bodies[under], &start.bodies[under]);
     let (fixed_radius_m, _) = sphere(fixed)?;
     let moves = |at: &BodyState| at.v_WB != Vector3::zeros() || at.w_WB != Vector3::zeros();

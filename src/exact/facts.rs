@@ -13,6 +13,13 @@ pub(super) const SAME: f64 = 1e-10;
 /// What the scene lacks to be the closed form's.
 pub type Lacks = String;
 
+/// The other one of two bodies without a container; `two`: what they are.
+pub(super) fn only_other(model: &Model, index: usize, two: &str) -> Result<usize, Lacks> {
+    let others: Vec<usize> = (0..model.bodies.len()).filter(|i| *i != index).collect();
+    let [other] = others[..] else { return Err(two.into()) };
+    if model.container.is_some() { Err("no `container`".into()) } else { Ok(other) }
+}
+
 /// Gravity, and forces of the world at the centre of mass.
 pub(super) fn point(model: &Model, index: usize, at: &BodyState) -> Result<PointMotion, Lacks> {
     let body = unpinned(model, index)?;

@@ -6,7 +6,7 @@
 //! The attitude is elementary for a circle about the table's axis, else by `attitude.rs`.
 
 use super::attitude::{TERMS, turned};
-use super::facts::{Lacks, SAME};
+use super::facts::{Lacks, SAME, only_other};
 use super::form::{ClosedForm, ExactMotion};
 use super::touching::{ON, rounding_m, sphere, unhindered};
 use crate::model::{Body, Geometry, Model};
@@ -111,11 +111,7 @@ fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lac
     let (body, at) = (&model.bodies[index], &start.bodies[index]);
     let (radius_m, inertia) = sphere(body)?;
     let acceleration = unhindered(model, index)?;
-    let others: Vec<usize> = (0..model.bodies.len()).filter(|i| *i != index).collect();
-    let [table] = others[..] else { return Err("a ball and a table".into()) };
-    if model.container.is_some() {
-        return Err("no `container`".into());
-    }
+    let table = only_other(model, index, "a ball and a table")?;
     let level = || format!("`{}` turning about the vertical axis through its middle", model.bodies[table].name);
     let press = acceleration.norm();
     let up = (-acceleration).try_normalize(0.0).ok_or("gravity")?;

@@ -152,8 +152,14 @@ impl ExperimentFile {
     /// # Errors
     /// Axes are left, or the experiment is wrong.
     pub fn experiment(&self) -> Result<Experiment> {
-        self.refuse_axes(|_| false)?;
+        self.refuse_any_axis()?;
         self.case(&[])
+    }
+
+    /// # Errors
+    /// Axes are left.
+    pub fn refuse_any_axis(&self) -> Result<()> {
+        self.refuse_axes(|_| false)
     }
 
     /// The one experiment of a file without axes but those that are ignored, with some values changed.

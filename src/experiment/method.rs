@@ -508,22 +508,15 @@ impl Default for Auto {
 }
 
 impl MethodSettings for Auto {
+    /// Those of what it tries first, but for the law of impact, which is left to what it chooses.
     fn facts(&self) -> Facts {
         Facts {
             accuracy: Accuracy::Tolerance(&["method", "auto", "tolerance"]),
-            tolerance: Some(self.tolerance),
-            follows_events: true,
             chooses: true,
-            contact: ContactModel::Law,
-            approach: Approach::Inside,
             impact: None,
             restitution: Restitution::All,
-            needs_mesh: false,
             pins: true,
-            tangents_anyway: None,
-            gyroscopic: true,
-            position_correction: None,
-            integrator: None,
+            ..EventDriven { tolerance: self.tolerance, ..EventDriven::default() }.facts()
         }
     }
 

@@ -66,12 +66,7 @@ impl Table {
     }
 
     pub fn to_csv(&self) -> Result<Vec<u8>, csv::Error> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(self.columns.iter().map(|(name, _)| name))?;
-        for row in &self.rows {
-            writer.write_record(self.columns.iter().map(|(name, _)| text(row.get(name)).unwrap_or_default()))?;
-        }
-        writer.into_inner().map_err(|error| error.into_error().into())
+        to_csv(&self.names().collect::<Vec<_>>(), self.rows())
     }
 
     /// With the plan's question, the units, program and format in its metadata.
@@ -111,6 +106,16 @@ impl Table {
             CellKind::Number => Arc::new(cells.map(|cell| cell.and_then(Value::as_f64)).collect::<Float64Array>()),
         }
     }
+}
+
+/// Some columns of some rows, null as nothing.
+pub fn to_csv<'a>(columns: &[&str], rows: impl Iterator<Item = &'a Map<String, Value>>) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(columns)?;
+    for row in rows {
+        writer.write_record(columns.iter().map(|name| text(row.get(*name)).unwrap_or_default()))?;
+    }
+    writer.into_inner().map_err(|error| error.into_error().into())
 }
 
 /// A column of integers or numbers if all its values are; null is either.

@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 
 /// A run on its way.
 pub struct Advance<'a> {
+    plan: Plan,
     stepper: Stepper,
     clock: Clock,
     limits: &'a Limits,
@@ -29,6 +30,7 @@ impl<'a> Advance<'a> {
         let plan = Plan::new(model, &Method::from(method.clone()));
         let stepper = Stepper::new(method, &plan, model, &start);
         Advance {
+            plan,
             stepper,
             clock,
             limits,
@@ -85,6 +87,11 @@ impl<'a> Advance<'a> {
             || events.is_some_and(|most| self.work().events > most)
             || wall_s.is_some_and(|most_s| self.stepping.as_secs_f64() > most_s);
         (is_used_up && !self.stepper.is_done(&self.state, &self.clock)).then_some(Criterion::Limit)
+    }
+
+    /// What its steps need and what is skipped.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
     }
 
     pub fn state(&self) -> &State {

@@ -10,7 +10,6 @@ use crate::measure::more::{self, Watched};
 use crate::measure::reference::{Against, PARTS, Reference};
 use crate::model::Model;
 use crate::outcome::{Criterion, Outcome};
-use crate::plan::Plan;
 use crate::record::sampler::Sampler;
 use crate::rows::{Measured, finite};
 use crate::shown::ContactForce;
@@ -34,20 +33,19 @@ pub fn run(
     reference: Option<&Reference>,
 ) -> Ended {
     let clock = experiment.clock();
-    let mut judge = Judge::new(model, &start, &experiment.diverge, &Plan::new(model, &experiment.method));
-    judge.watched = Watched::new(&experiment.measure);
     // The plan has seen to it that the scene is one of the closed form's.
     let exact = experiment.exact.and_then(|exact| Closed::new(exact, model, &start).ok());
-    let mut against = reference.map(Against::new);
-    let mut parts = Parts::new(PARTS, &clock, &start);
+    let mut against = reference.map(|reference| (Against::new(reference), Parts::new(PARTS, &clock, &start)));
     let mut samples = sampler.as_deref_mut().map(|sampler| Samples::new(sampler, experiment, model, &start));
     let mut advance = Advance::new(method, model, start, clock, &experiment.limits).timed();
+    let mut judge = Judge::new(model, advance.state(), &experiment.diverge, advance.plan());
+    judge.watched = Watched::new(&experiment.measure);
     let mut diverged = None;
     while diverged.is_none()
         && let Some(shown) = advance.next(model)
     {
         diverged = judge.observe(model, &shown);
-        if let Some(against) = &mut against {
+        if let Some((against, parts)) = &mut against {
             parts.show(model, &shown, |part, state| against.observe(part, state));
         }
         if let Some(samples) = &mut samples {
@@ -59,7 +57,7 @@ pub fn run(
     if let Some(exact) = exact {
         Errors::between(state, &exact.state_at(state.time_s)).write(state.time_s, &mut measured);
     }
-    if let Some(against) = against {
+    if let Some((against, _)) = against {
         against.write(&mut measured);
     }
     measured.more = more::cells(experiment, model, state, &judge.watched);

@@ -84,6 +84,11 @@ pub fn of_or_made(dir: &Path, experiment: &Experiment, model: &Model, start: &St
     of(dir, experiment, model, start).unwrap_or_else(|_| made(experiment, model, start))
 }
 
+/// Whether a file is a reference that this very program has made.
+pub fn is_current(path: &Path) -> bool {
+    read(path).is_some_and(|reference| reference.build == BUILD)
+}
+
 /// A file that is torn or changed counts as missing.
 fn read(path: &Path) -> Option<Reference> {
     serde_json::from_str(&unsealed(&files::read(path).ok()?)?).ok()

@@ -157,7 +157,8 @@ pub fn line(entry: &impl Serialize) -> String {
     sealed(entry) + "\n"
 }
 
-fn path(dir: &Path) -> PathBuf {
+/// Where it is in a folder.
+pub(super) fn path(dir: &Path) -> PathBuf {
     dir.join("journal.jsonl")
 }
 

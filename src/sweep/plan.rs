@@ -62,7 +62,7 @@ impl SweepPlan {
     /// # Errors
     /// Axes are left, or the experiment is wrong.
     pub fn single(file: &ExperimentFile) -> Result<Self, ExperimentError> {
-        file.experiment()?;
+        file.refuse_any_axis()?;
         Self::new(file)
     }
 }

@@ -5,6 +5,9 @@ use super::names;
 use crate::case::Case;
 use crate::experiment::ExperimentFile;
 use crate::record::name::RecordingName;
+use crate::record::writer::Target;
+use crate::study::Recording;
+use std::path::Path;
 
 /// One row to come.
 #[derive(Clone, Debug)]
@@ -28,5 +31,10 @@ impl Planned {
     /// With all digits of its id in its name.
     pub fn with_whole_id(&mut self, file: &ExperimentFile, config: &str) {
         self.name = RecordingName::new(&names::values(file, &self.point, config), &self.case.id);
+    }
+
+    /// Its recording in a folder; none: into no kind of file.
+    pub fn recording<'a>(&'a self, dir: &'a Path, targets: &'a [Target]) -> Option<Recording<'a>> {
+        (!targets.is_empty()).then_some(Recording { dir, targets, case: &self.case, name: &self.name })
     }
 }

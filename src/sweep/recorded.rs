@@ -5,7 +5,9 @@ use crate::case::Case;
 use crate::digest::{sha256, sha256_of};
 use crate::experiment::types::{Record, RecordCases};
 use crate::files::FileError;
+use crate::outcome::Outcome;
 use crate::record::writer::Target;
+use crate::study::Recording;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -35,11 +37,12 @@ pub struct Sum {
 }
 
 impl Recorded {
-    /// Of files that have just been written.
+    /// Of files that have just been written, of a run that ended so.
     ///
     /// # Errors
     /// They cannot be read.
-    pub fn of(dir: &Path, case: &Case, name: String, targets: &[Target]) -> Result<Self, FileError> {
+    pub fn of(Recording { dir, targets, case, name }: Recording, outcome: Outcome) -> Result<Self, FileError> {
+        let name = name.ended(outcome);
         let sum = |target: &Target| Ok((target.extension().to_string(), Sum::of(&target.path(dir, &name))?));
         let files = targets.iter().map(sum).collect::<Result<_, FileError>>()?;
         Ok(Recorded { recorded: case.id.clone(), build: BUILD.to_string(), shows: shows(case), name, files })

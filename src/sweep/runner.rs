@@ -15,7 +15,7 @@ use crate::record::writer::Target;
 use crate::rows::Measured;
 use crate::run::Ended;
 use crate::state::State;
-use crate::study::{self, Place, Recording, Studied, reference};
+use crate::study::{self, Place, Studied, reference};
 use crate::{panics, scene};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashSet};
@@ -83,7 +83,7 @@ impl Job<'_> {
             let (measured, written) = self.caught(&cases[i], targets);
             lock(store).add(&cases[i].case.id, measured)?;
             self.progress.one_done();
-            self.keep(written, store)
+            keep(written, &mut lock(store))
         });
         self.progress.end();
         let recorded = ran.and_then(|()| self.record_chosen(rule, cases, store));
@@ -92,13 +92,6 @@ impl Job<'_> {
         // Of cases that have panicked.
         remove(leftovers::partial(self.dir)?)?;
         Ok(missing.len())
-    }
-
-    fn keep(&self, written: Written, store: &Mutex<Store>) -> Result<(), SweepError> {
-        match written? {
-            Some(recorded) => Ok(lock(store).add_recording(recorded)?),
-            None => Ok(()),
-        }
     }
 
     /// Those that no earlier sweep has left here, each once. A search makes its own.
@@ -159,7 +152,7 @@ impl Job<'_> {
     fn record_again(&self, planned: &Planned, targets: &[Target], store: &Mutex<Store>) -> Result<(), SweepError> {
         let case = &planned.case;
         let (again, written) = self.caught(planned, targets);
-        self.keep(written, store)?;
+        keep(written, &mut lock(store))?;
         let first = lock(store).measured_by_this_build(&case.id).map(Measured::without_wall_time);
         self.progress.one_done();
         let same = first.is_none_or(|first| first == again.without_wall_time());
@@ -197,12 +190,11 @@ fn remove(paths: Vec<PathBuf>) -> Result<(), SweepError> {
     Ok(paths.iter().try_for_each(|path| files::remove(path))?)
 }
 
-/// Where a run finds its reference, and what it leaves.
-#[derive(Clone, Copy)]
-pub struct Places<'a> {
-    pub references: &'a Path,
-    pub recordings: &'a Path,
-    pub targets: &'a [Target],
+fn keep(written: Written, store: &mut Store) -> Result<(), SweepError> {
+    match written? {
+        Some(recorded) => Ok(store.add_recording(recorded)?),
+        None => Ok(()),
+    }
 }
 
 /// Builds a case's model and runs it, recording it into `dir`: the usual `Make`.
@@ -212,8 +204,8 @@ pub fn build_and_run(planned: &Planned, dir: &Path, targets: &[Target]) -> (Meas
     }
     match scene::build(&planned.case.experiment) {
         Ok((model, start)) => {
-            let places = Places { references: dir, recordings: dir, targets };
-            let (ended, written) = run_case(planned, &model, start, places);
+            let place = Place { references: Some(dir), recording: planned.recording(dir, targets) };
+            let (ended, written) = run_case(&planned.case, &model, start, &place);
             (ended.measured, written)
         }
         // Every case is built once before the first one runs.
@@ -222,40 +214,32 @@ pub fn build_and_run(planned: &Planned, dir: &Path, targets: &[Target]) -> (Meas
 }
 
 /// Runs one case and writes its recordings.
-pub fn run_case(planned: &Planned, model: &Model, start: State, places: Places) -> (Ended, Written) {
-    let Places { references, recordings: dir, targets } = places;
-    let Planned { case, name, .. } = planned;
-    let recording = (!targets.is_empty()).then_some(Recording { dir, targets, case, name });
-    let place = Place { references: Some(references), recording };
-    let Studied { ended, recorded, .. } = study::measure(&case.experiment, model, start, &place);
-    let name = name.ended(ended.measured.outcome);
-    let of_files = |_| Recorded::of(dir, case, name, targets);
-    let written = recorded.map_err(SweepError::from).and_then(|()| Ok(recording.map(of_files).transpose()?));
+pub fn run_case(case: &Case, model: &Model, start: State, place: &Place) -> (Ended, Written) {
+    let Studied { ended, recorded, .. } = study::measure(&case.experiment, model, start, place);
+    let of_files = |recording| Recorded::of(recording, ended.measured.outcome);
+    let written = recorded.map_err(SweepError::from).and_then(|()| Ok(place.recording.map(of_files).transpose()?));
     (ended, written)
 }
 
 /// Runs the one case of a folder, its row there or not, and keeps row, recordings and tables.
 pub fn run_one(
-    planned: &Planned,
+    case: &Case,
     model: &Model,
     start: State,
-    places: Places,
+    place: &Place,
     store: &mut Store,
 ) -> (Ended, Result<(), SweepError>) {
-    let (ended, written) = run_case(planned, model, start, places);
+    let (ended, written) = run_case(case, model, start, place);
     let measured = ended.measured.clone();
-    let keep = || {
-        store.add(&planned.case.id, measured)?;
-        let recorded = written.and_then(|recorded| match recorded {
-            Some(recorded) => Ok(store.add_recording(recorded)?),
-            None => Ok(()),
-        });
+    let keep_all = || {
+        store.add(&case.id, measured)?;
+        let recorded = keep(written, store);
         store.write_tables(false)?;
         recorded?;
-        remove(leftovers::partial(places.recordings)?)?;
+        remove(leftovers::partial(store.dir())?)?;
         remove(store.older_recordings())
     };
-    let kept = keep();
+    let kept = keep_all();
     (ended, kept)
 }
 

@@ -3,7 +3,7 @@
 //! Rows go to the journal as their cases end; the tables are written from it in plan order. The journal holds what was
 //! measured by case id, the plan holds the axes: a sweep whose axes have grown finds its old rows again.
 
-use super::journal::{Entry, Journal, JournalFile};
+use super::journal::{self, Entry, Journal, JournalFile};
 use super::kept::{self, EXPERIMENT, PLAN, read_plan};
 use super::leftovers;
 use super::plan::SweepPlan;
@@ -73,6 +73,10 @@ impl Store {
         write_whole(&dir.join(EXPERIMENT), plan.written.as_bytes())?;
         write_whole(&dir.join(PLAN), &serde_json::to_vec_pretty(&plan.file).unwrap_or_default())?;
         Ok(Store { dir: dir.to_path_buf(), plan: plan.file.clone(), order: order(&plan.cases), before, journal, done })
+    }
+
+    pub fn dir(&self) -> &Path {
+        &self.dir
     }
 
     /// Of an edited plan that goes on in its folder; none: it is the same, or the first.
@@ -173,7 +177,7 @@ fn refuse_foreign(dir: &Path) -> Result<(), StoreError> {
         return Err(StoreError::Foreign(plan));
     }
     // A killed program has made a journal, and perhaps no plan.
-    let is_ours = plan.exists() || dir.join("journal.jsonl").exists();
+    let is_ours = plan.exists() || journal::path(dir).exists();
     if experiment.exists() && !is_ours { Err(StoreError::Foreign(experiment)) } else { Ok(()) }
 }
 

@@ -3,12 +3,11 @@
 use super::folder::Folder;
 use super::leftovers;
 use crate::build_info::BUILD;
-use crate::digest::unsealed;
-use crate::files::{self, FileError};
+use crate::files::FileError;
 use crate::record::name::RecordingName;
 use crate::record::writer::{PARTIAL, Target};
+use crate::study::reference;
 use serde::Serialize;
-use serde_json::Value;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
@@ -29,7 +28,7 @@ pub struct Bytes {
     pub unneeded: u64,
 }
 
-/// What nobody needs, and what it would take to make it again: nothing.
+/// What nobody needs any more.
 #[derive(Clone, Debug, Default)]
 pub struct Unneeded {
     /// What runs of single rows have left.
@@ -112,16 +111,13 @@ fn is_replay(path: &Path) -> bool {
     ending == LOCK || (is_whole && Target::ALL.iter().any(|target| target.extension() == ending))
 }
 
-/// The build stands in the file.
+/// Half written, or made by another program.
 fn is_reference_of_another_build(path: &Path) -> bool {
     let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
     let id = name.strip_prefix("reference-").and_then(|rest| rest.split_once('.'));
-    let is_ours = |text: Vec<u8>| unsealed(&text).and_then(|text| serde_json::from_str::<Value>(&text).ok());
     match id {
         Some((id, "partial")) => leftovers::is_id(id),
-        Some((id, "json")) if leftovers::is_id(id) => {
-            files::read(path).ok().and_then(is_ours).is_none_or(|reference| reference["build"] != BUILD)
-        }
+        Some((id, "json")) => leftovers::is_id(id) && !reference::is_current(path),
         _ => false,
     }
 }

@@ -18,6 +18,8 @@ pub struct Plan {
     pub approach: Approach,
     /// Restitution is Newton's law.
     pub newton: bool,
+    /// Of the springs that a method has in place of a law of contact.
+    pub stiffness_n_m: Option<f64>,
     pub stages: Vec<Stage>,
 }
 
@@ -47,7 +49,15 @@ impl Plan {
         stages.extend(facts.tolerance.filter(|_| facts.chooses).map(choice));
         let newton = method.impact() == Impact::Newton;
         let constraint = has_contact && facts.contact == ContactModel::Law;
-        Plan { contact: has_contact, constraint, friction: has_friction, approach: facts.approach, newton, stages }
+        Plan {
+            contact: has_contact,
+            constraint,
+            friction: has_friction,
+            approach: facts.approach,
+            newton,
+            stiffness_n_m: method.stiffness_n_m().filter(|_| has_contact),
+            stages,
+        }
     }
 }
 

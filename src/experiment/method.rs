@@ -111,6 +111,19 @@ impl Method {
         self.facts().impact.unwrap_or(Impact::Newton)
     }
 
+    /// Stiffness of the springs that it has in place of a law of contact.
+    pub fn stiffness_n_m(&self) -> Option<f64> {
+        self.penalty().map(|settings| settings.stiffness_n_m)
+    }
+
+    /// Settings of the penalty method; none of any other.
+    pub fn penalty(&self) -> Option<&Penalty> {
+        match self {
+            Method::Penalty(settings) => Some(settings),
+            _ => None,
+        }
+    }
+
     /// Its word in the file.
     pub fn word(&self) -> &'static str {
         self.into()

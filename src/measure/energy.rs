@@ -1,122 +1,161 @@
 //! Energy of a state, and its ledger over a run.
+//!
+//! E is kinetic and potential energy, and what springs hold in place of a law of contact. W is the work of loads and of
+//! driven bodies, D what contacts may take (`dissipation`). Amounts are relative to S = T(0) + Σ m|g|d + max|W|, where
+//! d is the farthest that a body has been below its start: neither the container, nor the zero of the potential, nor
+//! what an error has made is in it.
 
-use super::push::{Push, beyond_rounding};
-use crate::model::Model;
-use crate::state::State;
+use super::dissipation::Taken;
+use super::exchange::{Motion, Moved, kinetic_j};
+use super::work::Done;
+use crate::model::{Body, Model};
+use crate::state::{BodyState, State};
 
-/// Kinetic (of the centre of mass and about it) and potential.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Least scale, of a fall of all bodies by their size.
+const LEAST: f64 = 1e-2;
+
+/// Of the same fall: an energy at the start that is rounding.
+const NOTHING: f64 = 1e-9;
+
+/// Of the sizes that an amount is the difference of.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Kinetic (of the centre of mass and about it), potential, and stored in springs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
     pub kinetic_j: f64,
     pub potential_j: f64,
+    pub stored_j: f64,
 }
 
 impl Energy {
+    /// Without what springs hold.
     pub fn of(model: &Model, state: &State) -> Self {
-        let mut energy = Energy { kinetic_j: 0.0, potential_j: 0.0 };
-        for (body, at) in model.bodies.iter().zip(&state.bodies).filter(|(body, _)| !body.driven) {
-            let w_B = if body.isotropic { at.w_WB } else { at.q_WB.inverse_transform_vector(&at.w_WB) };
-            energy.kinetic_j += 0.5 * body.mass_kg * at.v_WB.norm_squared() + 0.5 * w_B.dot(&(body.I_B * w_B));
+        let mut energy = Energy::default();
+        for (body, at) in moving(model, state) {
+            energy.kinetic_j += kinetic_j(body, at, &Motion { v: at.v_WB, w: at.w_WB });
             energy.potential_j += model.potential_j(body, &at.p_WB);
         }
         energy
     }
 
     pub fn total_j(&self) -> f64 {
-        self.kinetic_j + self.potential_j
+        self.kinetic_j + self.potential_j + self.stored_j
     }
 }
 
+fn moving<'a>(model: &'a Model, state: &'a State) -> impl Iterator<Item = (&'a Body, &'a BodyState)> {
+    model.bodies.iter().zip(&state.bodies).filter(|(body, _)| !body.driven)
+}
+
 /// What became of the energy.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct EnergyLedger {
     start: Energy,
     end: Energy,
-    /// Of applied forces, so far.
+    /// Σ m|g|R: a fall of all bodies by their size.
+    fall_j: f64,
+    /// Potential energy of every body that is not driven at the start, and how far it has been below that.
+    start_j: Vec<f64>,
+    fallen_j: Vec<f64>,
     work_j: f64,
-    /// Least energy less the work done until then.
+    /// Largest |W| so far.
+    work_max_j: f64,
+    /// Least and largest E − W so far, and the largest rise over an earlier value.
     lowest_j: f64,
+    highest_j: f64,
     rise_max_j: f64,
+    taken: Taken,
+    /// Largest kinetic energy, largest Σ m|g·p|, and the sizes of the parts of W: what has rounding.
     kinetic_max_j: f64,
-    potential_range_j: (f64, f64),
-    /// −Σ p·½(v⁻ + v⁺) over all contacts of all steps.
-    dissipated_j: f64,
+    height_max_j: f64,
+    work_parts_j: f64,
     /// Largest kinetic energy after / before one contact solve.
     pub contact_gain_max: Option<f64>,
 }
 
 impl EnergyLedger {
-    pub fn new(start: Energy) -> Self {
-        EnergyLedger {
+    /// From a first state, and what springs hold in it.
+    pub fn new(model: &Model, state: &State, stored_j: f64) -> Self {
+        let start = Energy { stored_j, ..Energy::of(model, state) };
+        let g = model.gravity_m_s2.norm();
+        let mut ledger = EnergyLedger {
             start,
             end: start,
+            fall_j: moving(model, state).map(|(body, _)| body.mass_kg * g * body.bounding_radius_m).sum(),
+            start_j: moving(model, state).map(|(body, at)| model.potential_j(body, &at.p_WB)).collect(),
+            fallen_j: vec![0.0; moving(model, state).count()],
             work_j: 0.0,
+            work_max_j: 0.0,
             lowest_j: start.total_j(),
+            highest_j: start.total_j(),
             rise_max_j: 0.0,
-            kinetic_max_j: start.kinetic_j,
-            potential_range_j: (start.potential_j, start.potential_j),
-            dissipated_j: 0.0,
+            taken: Taken::default(),
+            kinetic_max_j: 0.0,
+            height_max_j: 0.0,
+            work_parts_j: 0.0,
             contact_gain_max: None,
-        }
+        };
+        ledger.end_at(model, state, stored_j);
+        ledger
     }
 
-    /// After a step in which applied forces did this work.
-    pub fn observe(&mut self, now: Energy, work_j: f64) {
-        self.work_j += work_j;
-        let total_j = now.total_j() - self.work_j;
+    /// After a step in which loads and driven bodies did this work; `stored_j`: what springs hold.
+    pub fn observe(&mut self, model: &Model, after: &State, stored_j: f64, done: &Done) {
+        self.work_j += done.work_j;
+        self.work_max_j = self.work_max_j.max(self.work_j.abs());
+        self.work_parts_j += done.parts_j;
+        self.end_at(model, after, stored_j);
+        let total_j = self.without_work_j();
         self.rise_max_j = self.rise_max_j.max(total_j - self.lowest_j);
         self.lowest_j = self.lowest_j.min(total_j);
-        self.kinetic_max_j = self.kinetic_max_j.max(now.kinetic_j);
-        let (low, high) = self.potential_range_j;
-        self.potential_range_j = (low.min(now.potential_j), high.max(now.potential_j));
-        self.end = now;
+        self.highest_j = self.highest_j.max(total_j);
     }
 
-    /// Energy that the contacts of one step took, and their gain. Before them the velocity is V + M⁻¹ F_E Δt, V that of
-    /// the state; after them that plus M⁻¹ times the impulses; both at the attitude before the step.
-    pub fn observe_contacts(&mut self, model: &Model, before: &State, pushes: &[Push], step_s: f64) {
-        let (mut kinetic_j, mut added_j) = (0.0, 0.0);
-        for (i, ((body, at), push)) in model.bodies.iter().zip(&before.bodies).zip(pushes).enumerate() {
-            if body.driven {
-                continue;
-            }
-            let (gained_v, gained_w) = model.gained(i, before.time_s, at, step_s);
-            let (v, w) = (at.v_WB + gained_v, at.w_WB + gained_w);
-            let (dv, dw) = (push.linear / body.mass_kg, body.I_W_inverse(at) * push.angular);
-            kinetic_j += 0.5 * body.mass_kg * v.norm_squared() + 0.5 * w.dot(&(body.I_W(at) * w));
-            added_j += push.linear.dot(&(v + dv / 2.0)) + push.angular.dot(&(w + dw / 2.0));
-            let mean_v = (at.v_WB + v + dv) / 2.0;
-            let mean_w = (at.w_WB + w + dw) / 2.0;
-            self.dissipated_j -= push.linear.dot(&mean_v) + push.angular.dot(&mean_w);
+    /// One pass over the bodies.
+    fn end_at(&mut self, model: &Model, state: &State, stored_j: f64) {
+        let mut end = Energy { stored_j, ..Energy::default() };
+        let mut height_j = 0.0;
+        let falls = self.start_j.iter().zip(&mut self.fallen_j);
+        for ((body, at), (start_j, fallen_j)) in moving(model, state).zip(falls) {
+            let potential_j = model.potential_j(body, &at.p_WB);
+            end.kinetic_j += kinetic_j(body, at, &Motion { v: at.v_WB, w: at.w_WB });
+            end.potential_j += potential_j;
+            *fallen_j = fallen_j.max(start_j - potential_j);
+            let [g, zero] = [&at.p_WB, &model.potential_zero_m].map(|p| model.gravity_m_s2.dot(p).abs());
+            height_j += body.mass_kg * (g + zero);
         }
-        if kinetic_j > 0.0 {
-            let gain = (kinetic_j + added_j) / kinetic_j;
+        self.kinetic_max_j = self.kinetic_max_j.max(end.kinetic_j);
+        self.height_max_j = self.height_max_j.max(height_j);
+        self.end = end;
+    }
+
+    /// What contacts took in one exchange, and in it the largest gain of kinetic energy so far.
+    pub(super) fn observe_contacts(&mut self, taken: &Taken, moved: &[Moved]) {
+        self.add_taken(taken, 1.0);
+        let [before_j, after_j] = [0, 1].map(|k| moved.iter().map(|moved| moved.kinetic_j[k]).sum::<f64>());
+        if before_j > 0.0 {
+            let gain = after_j / before_j;
             self.contact_gain_max = Some(self.contact_gain_max.map_or(gain, |max| max.max(gain)));
         }
     }
 
-    /// Energy that an impact took: from the velocities before and after, whatever else made them so (pins do no work).
-    pub fn observe_blow(&mut self, model: &Model, [before, after]: [&State; 2], pushes: &[Push]) {
-        for (((body, a), b), push) in model.bodies.iter().zip(&before.bodies).zip(&after.bodies).zip(pushes) {
-            if !body.driven {
-                self.dissipated_j -=
-                    push.linear.dot(&(a.v_WB + b.v_WB)) / 2.0 + push.angular.dot(&(a.w_WB + b.w_WB)) / 2.0;
-            }
-        }
-        let [kinetic_j, left_j] = [before, after].map(|state| Energy::of(model, state).kinetic_j);
-        if kinetic_j > 0.0 {
-            let gain = left_j / kinetic_j;
-            self.contact_gain_max = Some(self.contact_gain_max.map_or(gain, |max| max.max(gain)));
-        }
+    /// So many times.
+    pub(super) fn add_taken(&mut self, taken: &Taken, times: f64) {
+        self.taken.lawful += taken.lawful * times;
+        self.taken.all += taken.all * times;
+        self.taken.parts += taken.parts * times;
     }
 
-    /// Energy that finite forces of contact took at a state, given as impulses.
-    pub fn observe_forces(&mut self, model: &Model, state: &State, pushes: &[Push]) {
-        for ((body, at), push) in model.bodies.iter().zip(&state.bodies).zip(pushes) {
-            if !body.driven {
-                self.dissipated_j -= push.linear.dot(&at.v_WB) + push.angular.dot(&at.w_WB);
-            }
-        }
+    /// E − W.
+    pub fn without_work_j(&self) -> f64 {
+        self.end.total_j() - self.work_j
+    }
+
+    /// E(0) + max|W|, unless that is rounding: what an energy that diverges is compared with.
+    pub fn reference_j(&self) -> Option<f64> {
+        let reference_j = self.start_j() + self.work_max_j;
+        (reference_j > NOTHING * self.fall_j).then_some(reference_j)
     }
 
     pub fn start_j(&self) -> f64 {
@@ -127,24 +166,37 @@ impl EnergyLedger {
         self.end.total_j()
     }
 
-    /// (end − start − work of applied forces + dissipation) / scale.
+    /// (E − E(0) − W + D) / S: made without a reason (+), or lost without a law (−).
     pub fn drift_rel(&self) -> f64 {
-        self.part(self.end_j() - self.start_j() - self.work_j + self.dissipated_j)
+        self.part(self.end_j() - self.start_j() - self.work_j + self.taken.lawful)
     }
 
-    /// Largest E(t) − min over s < t of E(s), less the work of applied forces between, / scale.
+    /// The same with all that contacts took, with its sign.
+    pub fn balance_rel(&self) -> f64 {
+        self.part(self.end_j() - self.start_j() - self.work_j + self.taken.all)
+    }
+
+    /// Largest rise of E − W over an earlier value, / S.
     pub fn rise_max_rel(&self) -> f64 {
         self.part(self.rise_max_j)
     }
 
-    fn part(&self, amount_j: f64) -> f64 {
-        let (low, high) = self.potential_range_j;
-        let largest_j = self.kinetic_max_j + low.abs().max(high.abs());
-        beyond_rounding(amount_j, largest_j, self.scale_j())
+    /// Largest (E − W) / E(0). None: E(0) is nothing, or below the zero of the potential.
+    pub fn growth_max(&self) -> Option<f64> {
+        (self.start_j() > NOTHING * self.fall_j).then(|| self.highest_j / self.start_j())
     }
 
-    /// Largest kinetic energy of the run plus the range of the potential energy.
+    fn part(&self, amount_j: f64) -> f64 {
+        let largest_j = self.kinetic_max_j + self.height_max_j + self.fall_j + self.work_parts_j + self.taken.parts;
+        if amount_j.abs() <= ROUNDING * largest_j {
+            return 0.0;
+        }
+        let scale_j = self.scale_j();
+        if scale_j > 0.0 { amount_j / scale_j } else { amount_j.signum() }
+    }
+
     fn scale_j(&self) -> f64 {
-        self.kinetic_max_j + (self.potential_range_j.1 - self.potential_range_j.0)
+        let fallen_j: f64 = self.fallen_j.iter().sum();
+        (self.start.kinetic_j + fallen_j + self.work_max_j).max(LEAST * self.fall_j)
     }
 }

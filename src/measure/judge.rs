@@ -1,12 +1,14 @@
 //! The judge of a run, who watches it step by step.
 
+use super::dissipation::{Dissipation, Law};
 use super::divergence::Divergence;
-use super::energy::{Energy, EnergyLedger};
-use super::loads;
+use super::energy::EnergyLedger;
+use super::exchange::{Exchange, Over};
 use super::momentum::MomentumLedger;
 use super::more::Watched;
-use super::push::Push;
 use super::residual::ResidualLedger;
+use super::springs::Springs;
+use super::work::{self, Done};
 use crate::collide::approach::Approach;
 use crate::collide::{self, SolvedContact};
 use crate::experiment::types::Diverge;
@@ -15,7 +17,6 @@ use crate::outcome::Criterion;
 use crate::plan::Plan;
 use crate::shown::{Acted, ContactForce, Moment, Shown};
 use crate::state::State;
-use nalgebra::Vector3;
 
 /// An impact, or a force: in no time.
 const AT_ONCE: (Approach, f64) = (Approach::Inside, 0.0);
@@ -32,29 +33,63 @@ pub struct Judge {
     pub pin_gap_max_m: Option<f64>,
     pub watched: Watched,
     divergence: Divergence,
+    /// Impacts obey Newton's law of restitution.
+    newton: bool,
+    /// In place of a law of contact.
+    springs: Option<Springs>,
     /// A hundredth of a fall by the size of the largest body: what slips less than a force changes velocities in it,
     /// rests.
     moment_s: f64,
+    exchange: Exchange,
+    dissipation: Dissipation,
+    instant: Instant,
     /// Between two steps.
     middle: State,
-    pushes: Vec<Push>,
+}
+
+/// Impacts at one instant, which the law of contact judges as one.
+struct Instant {
+    /// None of them yet.
+    is_empty: bool,
+    before: State,
+    contacts: Vec<SolvedContact>,
+}
+
+impl Instant {
+    fn add(&mut self, before: &State, contacts: &[SolvedContact]) {
+        if std::mem::take(&mut self.is_empty) {
+            self.before.copy_from(before);
+            self.contacts.clear();
+        }
+        for more in contacts {
+            match self.contacts.iter_mut().find(|known| known.contact.key() == more.contact.key()) {
+                Some(known) => known.impulse_W += more.impulse_W,
+                None => self.contacts.push(*more),
+            }
+        }
+    }
 }
 
 impl Judge {
     pub fn new(model: &Model, start: &State, rules: &Diverge, plan: &Plan) -> Self {
-        let energy = Energy::of(model, start);
+        let mut springs = plan.stiffness_n_m.map(Springs::new);
+        let stored_j = springs.as_mut().map_or(0.0, |springs| springs.stored_j(model, start));
         Judge {
-            energy: EnergyLedger::new(energy),
+            energy: EnergyLedger::new(model, start, stored_j),
             momentum: MomentumLedger::new(model, start),
-            residual: ResidualLedger::new(plan.constraint, plan.newton, model),
+            residual: ResidualLedger::new(plan.constraint, plan.newton),
             penetration_max_m: plan.contact.then_some(0.0),
             contacts_max: 0,
             pin_gap_max_m: model.pin_gap_m(&start.bodies),
             watched: Watched::default(),
-            divergence: Divergence::new(rules, model, &energy),
+            divergence: Divergence::new(rules),
+            newton: plan.newton,
+            springs,
             moment_s: moment_s(model),
+            exchange: Exchange::default(),
+            dissipation: Dissipation::default(),
+            instant: Instant { is_empty: true, before: start.clone(), contacts: Vec::new() },
             middle: start.clone(),
-            pushes: vec![Push::NONE; model.bodies.len()],
         }
     }
 
@@ -64,110 +99,120 @@ impl Judge {
             return None;
         }
         let Shown { before, after, .. } = *shown;
-        let energy = Energy::of(model, after);
-        let depth_m = match shown.acted {
+        if !matches!(shown.acted, Acted::Blow { .. }) {
+            self.end_instant(model, before);
+        }
+        let (done, depth_m) = match shown.acted {
             Acted::Kick { kicked, contacts, step_s, approach } => {
-                self.observe_kick(model, [before, kicked, after], contacts, (approach, step_s), energy)
+                self.observe_kick(model, [before, kicked, after], contacts, (approach, step_s))
             }
-            Acted::Blow { contacts } => self.observe_blow(model, [before, after], contacts, energy),
-            Acted::Motion(way) => {
-                self.observe_motion(model, [before, after], &way.moments(model, [before, after]), energy)
-            }
+            Acted::Blow { contacts } => self.observe_blow(model, [before, after], contacts),
+            Acted::Motion(way) => self.observe_motion(model, [before, after], &way.moments(model, [before, after])),
         };
+        let stored_j = self.springs.as_mut().map_or(0.0, |springs| springs.stored_j(model, after));
+        self.energy.observe(model, after, stored_j, &done);
+        self.momentum.observe(model, after, &done, after.time_s - before.time_s);
+        let gap_m = model.pin_gap_m(&after.bodies);
+        self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
         self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
-        self.divergence.judge(model, after, &energy, depth_m)
+        self.divergence.judge(model, after, &self.energy, depth_m)
     }
 
-    /// Impulses at the state `kicked`; the depth of the deepest contact.
+    /// Impulses at the state `kicked`. What was done, and the depth of the deepest contact.
     fn observe_kick(
         &mut self,
         model: &Model,
         [before, kicked, after]: [&State; 3],
         contacts: &[SolvedContact],
         (approach, step_s): (Approach, f64),
-        energy: Energy,
-    ) -> f64 {
-        self.gather_pushes(contacts);
+    ) -> (Done, f64) {
+        let mut done =
+            work::done(model, [before, after], &mut self.middle, |state| self.momentum.pivot_m(model, state), step_s);
         if !contacts.is_empty() {
-            self.energy.observe_contacts(model, kicked, &self.pushes, step_s);
+            self.exchange.look(model, [kicked, after], contacts, Over::Step(step_s));
+            self.take(contacts, step_s);
+            done.add_driven(model, kicked, contacts);
+            self.momentum.observe_pushes(model, kicked, &self.exchange.pushes, 1.0);
+            self.residual.observe(model, contacts, &self.exchange, (approach, step_s));
             self.watched.observe(kicked, contacts);
         }
         if step_s > 0.0 {
             self.watched.observe_step(before, after, step_s);
         }
-        self.residual.observe(model, [kicked, after], contacts, &self.pushes, (approach, step_s));
-        let pivot = |state: &State| self.momentum.pivot_m(model, state);
-        let done = loads::done(model, [before, after], &mut self.middle, pivot, step_s);
-        self.energy.observe(energy, done.work_j);
-        let pushes = (!contacts.is_empty()).then_some(&self.pushes[..]);
-        self.momentum.observe(model, [before, kicked, after], pushes, &done, step_s);
-        self.observe_pins(model, after);
-        self.observe_contacts(contacts)
+        (done, self.observe_contacts(contacts))
     }
 
     /// An impact, which takes no time: `contacts` changed only the velocities.
-    fn observe_blow(
-        &mut self,
-        model: &Model,
-        [before, after]: [&State; 2],
-        contacts: &[SolvedContact],
-        energy: Energy,
-    ) -> f64 {
-        self.gather_pushes(contacts);
-        self.energy.observe_blow(model, [before, after], &self.pushes);
+    fn observe_blow(&mut self, model: &Model, [before, after]: [&State; 2], contacts: &[SolvedContact]) -> (Done, f64) {
+        self.exchange.look(model, [before, after], contacts, Over::Step(0.0));
+        self.take(contacts, 0.0);
+        let mut done = Done::NOTHING;
+        done.add_driven(model, before, contacts);
+        self.momentum.observe_pushes(model, before, &self.exchange.pushes, 1.0);
         self.watched.observe(before, contacts);
-        self.residual.observe(model, [before, after], contacts, &self.pushes, AT_ONCE);
-        self.energy.observe(energy, 0.0);
-        let done = loads::done(model, [before, after], &mut self.middle, |_| Vector3::zeros(), 0.0);
-        self.momentum.observe(model, [before, before, after], Some(&self.pushes), &done, 0.0);
-        self.observe_contacts(contacts)
+        self.instant.add(before, contacts);
+        (done, self.observe_contacts(contacts))
+    }
+
+    /// The impacts of an instant that is over.
+    fn end_instant(&mut self, model: &Model, after: &State) {
+        if !std::mem::replace(&mut self.instant.is_empty, true) {
+            let Instant { before, contacts, .. } = &self.instant;
+            self.exchange.look(model, [before, after], contacts, Over::Step(0.0));
+            self.residual.observe(model, contacts, &self.exchange, AT_ONCE);
+        }
     }
 
     /// A smooth motion, of which `moments` show the forces of contact: their weights are those of a quadrature.
-    fn observe_motion(
-        &mut self,
-        model: &Model,
-        [before, after]: [&State; 2],
-        moments: &[Moment],
-        energy: Energy,
-    ) -> f64 {
-        let span_s = after.time_s - before.time_s;
+    fn observe_motion(&mut self, model: &Model, [before, after]: [&State; 2], moments: &[Moment]) -> (Done, f64) {
+        let mut done = Done::NOTHING;
         let mut depth_m = 0.0_f64;
-        for Moment { state, contacts, weight_s } in moments.iter().filter(|moment| !moment.contacts.is_empty()) {
-            let impulse =
-                |force: &ContactForce| SolvedContact { contact: force.contact, impulse_W: force.force_W * *weight_s };
-            let contacts: Vec<SolvedContact> = contacts.iter().map(impulse).collect();
-            self.gather_pushes(&contacts);
-            self.energy.observe_forces(model, state, &self.pushes);
-            self.momentum.observe_pushes(model, state, &self.pushes);
-            self.pushes.fill(Push::NONE);
+        for Moment { state, contacts, weight_s } in moments {
+            if model.has_loads() {
+                done.add_node(model, state, *weight_s, self.momentum.pivot_m(model, state));
+            }
+            if contacts.is_empty() {
+                continue;
+            }
             // Forces, as impulses that velocities can be held against.
-            let longer = self.moment_s.max(*weight_s) / weight_s;
-            let forces = contacts.iter().map(|s| SolvedContact { impulse_W: s.impulse_W * longer, ..*s });
-            self.residual.observe(model, [state, state], &forces.collect::<Vec<_>>(), &self.pushes, AT_ONCE);
+            let over_s = self.moment_s.max(*weight_s);
+            let impulse = |force: &ContactForce, over_s: f64| SolvedContact {
+                contact: force.contact,
+                impulse_W: force.force_W * over_s,
+            };
+            let longer: Vec<_> = contacts.iter().map(|force| impulse(force, over_s)).collect();
+            self.exchange.look(model, [state, state], &longer, Over::Moment(over_s));
+            let times = weight_s / over_s;
+            self.energy.add_taken(&self.dissipation.of(&self.exchange, &longer, &self.law(0.0)), times);
+            self.momentum.observe_pushes(model, state, &self.exchange.pushes, times);
+            self.residual.observe(model, &longer, &self.exchange, AT_ONCE);
+            let contacts: Vec<_> = contacts.iter().map(|force| impulse(force, *weight_s)).collect();
+            done.add_driven(model, state, &contacts);
             self.watched.observe(state, &contacts);
             depth_m = depth_m.max(self.observe_contacts(&contacts));
         }
+        done.add_constant(model, [before, after]);
+        let span_s = after.time_s - before.time_s;
         if span_s > 0.0 {
             self.watched.observe_step(before, after, span_s);
         }
-        let pivot = |state: &State| self.momentum.pivot_m(model, state);
-        // A long stretch in parts: what acts on bodies may swing in it.
-        let mut done = loads::Done::NOTHING;
-        let mut from = before;
-        for to in moments.iter().map(|moment| &moment.state).chain([after]) {
-            done += loads::done(model, [from, to], &mut self.middle, pivot, to.time_s - from.time_s);
-            from = to;
-        }
-        self.energy.observe(energy, done.work_j);
-        self.momentum.observe(model, [before, before, after], None, &done, span_s);
-        self.observe_pins(model, after);
-        depth_m
+        (done, depth_m)
     }
 
-    fn observe_pins(&mut self, model: &Model, after: &State) {
-        let gap_m = model.pin_gap_m(&after.bodies);
-        self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
+    fn law(&self, step_s: f64) -> Law {
+        let stiffness_n_m = self.springs.as_ref().map_or(0.0, |springs| springs.stiffness_n_m);
+        Law { newton: self.newton, spring_n_s_m: stiffness_n_m * step_s }
+    }
+
+    /// The energy that the contacts looked at took.
+    fn take(&mut self, contacts: &[SolvedContact], step_s: f64) {
+        let taken = self.dissipation.of(&self.exchange, contacts, &self.law(step_s));
+        self.energy.observe_contacts(&taken, &self.exchange.moved);
+    }
+
+    /// Judges what is left to judge when the run has come to its end: impacts at its last instant.
+    pub fn end(&mut self, model: &Model, end: &State) {
+        self.end_instant(model, end);
     }
 
     /// Their number; the depth of the deepest.
@@ -182,18 +227,6 @@ impl Judge {
         let depth_m = deepest_m(model, end);
         *max = max.max(depth_m);
         Some(depth_m)
-    }
-
-    fn gather_pushes(&mut self, contacts: &[SolvedContact]) {
-        if !contacts.is_empty() {
-            self.pushes.fill(Push::NONE);
-        }
-        for SolvedContact { contact, impulse_W } in contacts {
-            for (i, r_W, sign) in contact.ends() {
-                self.pushes[i].linear += impulse_W * sign;
-                self.pushes[i].angular += r_W.cross(impulse_W) * sign;
-            }
-        }
     }
 }
 

@@ -6,17 +6,20 @@
 pub mod contact_matrix;
 pub mod critical_step;
 mod difference;
+mod dissipation;
 pub mod divergence;
 pub mod energy;
 pub mod error;
+mod exchange;
+mod islands;
 mod judge;
 mod kept;
-mod loads;
 pub mod momentum;
 pub mod more;
 mod push;
 pub mod reference;
 pub mod residual;
+mod springs;
+mod work;
 
 pub use judge::{Judge, deepest_m};
-pub use push::Push;

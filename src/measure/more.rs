@@ -4,7 +4,7 @@ use super::contact_matrix::ContactMatrix;
 use super::critical_step::CriticalStep;
 use super::difference::Differences;
 use crate::collide::SolvedContact;
-use crate::experiment::types::{self as file, Experiment, Measure, Method};
+use crate::experiment::types::{self as file, Experiment, Measure};
 use crate::heading::{EACH_BODY, Heading};
 use crate::model::{Body, Model};
 use crate::rows::columns;
@@ -55,7 +55,7 @@ pub fn cells(experiment: &Experiment, model: &Model, end: &State, watched: &Watc
             Measure::Inertia => experiment.scene.bodies.iter().zip(&model.bodies).flat_map(inertia).collect(),
             Measure::ContactMatrix => watched.contact_matrix.iter().flat_map(|watch| watch.columns(model)).collect(),
             Measure::CriticalStep => {
-                let settings = penalty(&experiment.method);
+                let settings = experiment.method.penalty();
                 watched.critical_step.iter().flat_map(|watch| watch.columns(model, settings)).collect()
             }
             Measure::DifferenceQuotients => watched.differences.iter().flat_map(Differences::columns).collect(),
@@ -108,11 +108,4 @@ fn inertia((described, body): (&file::Body, &Body)) -> Vec<Value> {
     let tensor = [I[(0, 0)], I[(1, 1)], I[(2, 2)], I[(0, 1)], I[(1, 2)], I[(2, 0)]];
     let tensor = tensor.map(|x| if is_point { Value::Null } else { json!(x) });
     [body.mass_kg, p.x, p.y, p.z].map(|x| json!(x)).into_iter().chain(tensor).collect()
-}
-
-fn penalty(method: &Method) -> Option<&file::Penalty> {
-    match method {
-        Method::Penalty(settings) => Some(settings),
-        _ => None,
-    }
 }

@@ -27,21 +27,29 @@ columns! {
         pub method_used: Option<String>,
         /// Tolerance that `auto` has chosen for it, in metres; null where the chosen method takes a step.
         pub tolerance_used: Option<f64>,
-        /// Kinetic and potential energy at the start, of all bodies that are not driven. The potential is zero at the
-        /// container's lowest point, else at the lowest start.
+        /// Energy at the start, of all bodies that are not driven: kinetic and potential, with `penalty` also what its
+        /// springs hold. The potential is zero at the container's lowest point, else at the lowest start.
         pub energy_start_j: Option<f64>,
-        /// Kinetic and potential energy at the end.
+        /// Energy at the end.
         pub energy_end_j: Option<f64>,
-        /// Energy that appeared (+) or went missing (−) without a reason, of the energy scale: end − start − work of
-        /// applied forces and air + what contacts took.
+        /// Energy that was made (+) or lost (−) without a reason, of the energy scale: end − start − work of loads and
+        /// driven bodies + what contacts may take. The column that a guard of accuracy looks at.
         pub energy_drift_rel: Option<f64>,
-        /// Largest rise of the energy over an earlier value, less the work between the two, of the energy scale.
+        /// Largest energy, less the work done until then, over that at the start. Null where the start has none, or
+        /// less than none.
+        pub energy_growth_max: Option<f64>,
+        /// Largest rise of the energy over an earlier value, less the work between the two, of the energy scale: the
+        /// guard against explosions, with no book-keeping of contacts in it.
         pub energy_rise_max_rel: Option<f64>,
-        /// Change of linear momentum that gravity, applied forces and the contacts' impulses do not explain, of the
-        /// largest Σ m|v|. Null where a pin holds a body to the world.
+        /// The drift with all that contacts took, whether the law lets them or not: what is left is the error of the
+        /// steps between contacts.
+        pub energy_balance_rel: Option<f64>,
+        /// Change of linear momentum that gravity, loads and the contacts' impulses do not explain, of Σ m|v| at the
+        /// start and the sizes of all those impulses. Null where a pin holds a body to the world.
         pub linear_momentum_drift_rel: Option<f64>,
-        /// The same of angular momentum, about the centre of mass of all bodies, of the largest Σ(|Iω| + |r × mv|).
-        /// Where a pin holds a body to the world, it is about the pin along gravity.
+        /// Change of angular momentum about the centre of mass of all bodies that is not explained, of Σ(|Iω| + |r × mv|)
+        /// at the start and the sizes of all moments. Where a pin holds a body to the world, it is about the pin along
+        /// gravity.
         pub angular_momentum_drift_rel: Option<f64>,
         /// Depth of the deepest contact of the run. Null where the method never looks for contacts.
         pub penetration_max_m: Option<f64>,
@@ -49,9 +57,9 @@ columns! {
         pub penetration_end_m: Option<f64>,
         /// Largest distance between the two points that a pin holds together. Null without pins.
         pub pin_gap_max_m: Option<f64>,
-        /// Distance of the worst contact of the worst step from Signorini's and Coulomb's law, relative to the largest
-        /// impulse of its island. Rounding gives 1e-16 to 1e-13, a wrong impulse O(1). Null for `free` and `penalty`,
-        /// and where nothing has touched.
+        /// Distance of the worst contact of the worst step from the law of contact that was asked for, relative to the
+        /// impulse that does to the lighter of its bodies what the step does to it. Rounding gives 1e-16 to 1e-13, times
+        /// the ratio of masses; a wrong impulse O(1). Null for `free` and `penalty`, and where nothing has touched.
         pub residual_max: Option<f64>,
         /// Largest kinetic energy after one contact solve over that before it. Above 1 contacts have made energy.
         pub contact_gain_max: Option<f64>,

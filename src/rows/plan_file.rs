@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 /// Of the files in a folder of results. A column whose meaning changes raises it too.
-pub const FORMAT: u32 = 2;
+pub const FORMAT: u32 = 3;
 
 /// What `plan.json` says: the axes, from which the cases follow, with experiment.yaml beside it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

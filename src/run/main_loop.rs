@@ -72,6 +72,7 @@ fn summarize(model: &Model, advance: &Advance, judge: &mut Judge, diverged: Opti
     let diverged = diverged.map(|criterion| (Outcome::Diverged, criterion));
     let stopped = diverged.or_else(|| advance.stopped().map(|criterion| (Outcome::Stalled, criterion)));
     let state = advance.state();
+    judge.end(model, state);
     let penetration_end_m = judge.penetration_end_m(model, state);
     Measured {
         outcome: stopped.map_or(Outcome::Finished, |(outcome, _)| outcome),
@@ -82,9 +83,11 @@ fn summarize(model: &Model, advance: &Advance, judge: &mut Judge, diverged: Opti
         energy_start_j: finite(judge.energy.start_j()),
         energy_end_j: finite(judge.energy.end_j()),
         energy_drift_rel: finite(judge.energy.drift_rel()),
+        energy_growth_max: judge.energy.growth_max().and_then(finite),
         energy_rise_max_rel: finite(judge.energy.rise_max_rel()),
-        linear_momentum_drift_rel: judge.momentum.linear_drift_rel().and_then(finite),
-        angular_momentum_drift_rel: judge.momentum.angular_drift_rel().and_then(finite),
+        energy_balance_rel: finite(judge.energy.balance_rel()),
+        linear_momentum_drift_rel: judge.momentum.linear_drift_rel(model, state).and_then(finite),
+        angular_momentum_drift_rel: judge.momentum.angular_drift_rel(model, state).and_then(finite),
         penetration_max_m: judge.penetration_max_m.and_then(finite),
         penetration_end_m: penetration_end_m.and_then(finite),
         pin_gap_max_m: judge.pin_gap_max_m.and_then(finite),

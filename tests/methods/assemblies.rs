@@ -3,10 +3,11 @@
 use crate::yaml::experiment;
 use gotai::collide::approach::Approach;
 use gotai::collide::{Contact, SolvedContact};
-use gotai::experiment::types::{Cone, Correction, Iteration, Solver};
-use gotai::measure::Push;
-use gotai::measure::residual::ResidualLedger;
+use gotai::experiment::types::{Cone, Correction, Diverge, Iteration, Solver};
+use gotai::measure::Judge;
 use gotai::model::Model;
+use gotai::plan::Plan;
+use gotai::shown::{Acted, Shown};
 use gotai::solve::Impulse;
 use gotai::solve::block::Block;
 use gotai::solve::gauss_seidel::{Sweeps, Variant};
@@ -163,7 +164,6 @@ impl Gathered {
 
     /// The judge's, who works out the motion again from impulses in world axes.
     pub fn residual(&self, p: &[Impulse]) -> f64 {
-        let mut pushes = vec![Push { linear: Vector3::zeros(), angular: Vector3::zeros() }; self.state.bodies.len()];
         let world = self.problem.blocks.iter().zip(p).map(|(block, p)| block.in_world(p));
         let solved: Vec<SolvedContact> = self
             .assembly
@@ -172,15 +172,21 @@ impl Gathered {
             .zip(world)
             .map(|(contact, impulse_W)| SolvedContact { contact: *contact, impulse_W })
             .collect();
-        for SolvedContact { contact, impulse_W } in &solved {
-            for (i, r_W, sign) in contact.ends() {
-                pushes[i].linear += impulse_W * sign;
-                pushes[i].angular += r_W.cross(impulse_W) * sign;
-            }
-        }
-        let mut ledger = ResidualLedger::new(true, true, &self.model);
-        ledger.observe(&self.model, [&self.state; 2], &solved, &pushes, (Approach::Inside, STEP_S));
-        ledger.max.unwrap()
+        let plan = Plan {
+            contact: true,
+            constraint: true,
+            friction: true,
+            approach: Approach::Inside,
+            newton: true,
+            stiffness_n_m: None,
+            stages: Vec::new(),
+        };
+        let mut judge = Judge::new(&self.model, &self.state, &Diverge::default(), &plan);
+        let (kicked, step_s) = (&self.state, STEP_S);
+        let acted = Acted::Kick { kicked, contacts: &solved, step_s, approach: Approach::Inside };
+        let shown = Shown { before: kicked, after: kicked, acted, way: None, stalled: None, is_last: true };
+        judge.observe(&self.model, &shown);
+        judge.residual.max.unwrap()
     }
 
     /// How far pinned points are from rest against each other, in m/s.

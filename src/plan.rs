@@ -10,6 +10,9 @@ use crate::model::Model;
 pub struct Plan {
     /// Some body can touch something, and the method looks.
     pub contact: bool,
+    /// Room to keep: every point touching the three faces of a corner at once; beyond some thousand contacts what keeps
+    /// them grows when they come.
+    pub contacts: usize,
     /// The method claims that its impulses obey the law of contact, and is held to it.
     pub constraint: bool,
     /// Tangent rows are solved.
@@ -51,6 +54,7 @@ impl Plan {
         let constraint = has_contact && facts.contact == ContactModel::Law;
         Plan {
             contact: has_contact,
+            contacts: if has_contact { most_contacts(model) } else { 0 },
             constraint,
             friction: has_friction,
             approach: facts.approach,
@@ -59,6 +63,13 @@ impl Plan {
             stages,
         }
     }
+}
+
+fn most_contacts(model: &Model) -> usize {
+    const MOST: usize = 4096;
+    let points: usize = model.bodies.iter().map(|body| body.geometry.points()).sum();
+    let faces = model.container.as_ref().map_or(0, |container| container.faces.len());
+    (points * faces.min(3)).min(MOST)
 }
 
 fn stage(name: &'static str, runs: bool, why: impl Into<String>) -> Stage {

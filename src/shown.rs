@@ -40,7 +40,7 @@ pub enum Acted<'a> {
     /// An impact, which takes no time and changes velocities alone.
     Blow { contacts: &'a [SolvedContact] },
     /// Forces all along the way.
-    Motion(&'a dyn Passage),
+    Motion(&'a dyn Moments),
 }
 
 /// The way of a step that is known at every time in it.
@@ -49,6 +49,10 @@ pub trait Passage {
     fn state_at(&self, model: &Model, state: &mut State);
     /// Forces of contact at a state of the way.
     fn forces_at(&self, model: &Model, state: &State) -> Vec<ContactForce>;
+}
+
+/// What acts along the way of a step.
+pub trait Moments {
     /// States and forces on the way between two states of it, for a quadrature.
     fn moments(&self, model: &Model, span: [&State; 2]) -> Vec<Moment>;
 }

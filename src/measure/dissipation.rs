@@ -40,12 +40,16 @@ struct Sum {
 }
 
 /// The keeper of the sums, for its memory.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Dissipation {
     islands: Vec<Sum>,
 }
 
 impl Dissipation {
+    pub fn with_capacity(bodies: usize) -> Self {
+        Dissipation { islands: Vec::with_capacity(bodies) }
+    }
+
     pub fn of(&mut self, exchange: &Exchange, contacts: &[SolvedContact], law: &Law) -> Taken {
         self.islands.clear();
         self.islands.resize(exchange.moved.len(), Sum::default());

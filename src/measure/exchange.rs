@@ -129,7 +129,7 @@ impl Met {
 }
 
 /// The exchange at one set of contacts; it keeps its memory from set to set.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Exchange {
     /// Of every body.
     pub pushes: Vec<Push>,
@@ -140,6 +140,16 @@ pub(super) struct Exchange {
 }
 
 impl Exchange {
+    /// With room for so many bodies and contacts.
+    pub fn with_capacity(bodies: usize, contacts: usize) -> Self {
+        Exchange {
+            pushes: Vec::with_capacity(bodies),
+            moved: Vec::with_capacity(bodies),
+            met: Vec::with_capacity(contacts),
+            islands: Islands::with_capacity(bodies),
+        }
+    }
+
     /// Of contacts whose impulses act at the first of two states; the second is that after the step.
     pub fn look(&mut self, model: &Model, states: [&State; 2], contacts: &[SolvedContact], over: Over) {
         self.pushes.clear();

@@ -4,13 +4,17 @@ use crate::collide::{Contact, SolvedContact};
 use crate::model::Model;
 
 /// The islands of one set of contacts, kept from set to set to spare the allocator.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Islands {
     /// Of every body one of its island before it, or itself.
     parent: Vec<usize>,
 }
 
 impl Islands {
+    pub fn with_capacity(bodies: usize) -> Self {
+        Islands { parent: Vec::with_capacity(bodies) }
+    }
+
     pub fn find(&mut self, model: &Model, contacts: &[SolvedContact]) {
         self.parent.clear();
         self.parent.extend(0..model.bodies.len());

@@ -6,6 +6,7 @@ use super::energy::EnergyLedger;
 use super::exchange::{Exchange, Over};
 use super::momentum::MomentumLedger;
 use super::more::Watched;
+use super::pinned;
 use super::residual::ResidualLedger;
 use super::springs::Springs;
 use super::work::{self, Done};
@@ -35,6 +36,8 @@ pub struct Judge {
     divergence: Divergence,
     /// Impacts obey Newton's law of restitution.
     newton: bool,
+    /// A driven body holds a pin.
+    driven_pins: bool,
     /// In place of a law of contact.
     springs: Option<Springs>,
     /// A hundredth of a fall by the size of the largest body: what slips less than a force changes velocities in it,
@@ -72,22 +75,24 @@ impl Instant {
 
 impl Judge {
     pub fn new(model: &Model, start: &State, rules: &Diverge, plan: &Plan) -> Self {
-        let mut springs = plan.stiffness_n_m.map(Springs::new);
+        let mut springs = plan.stiffness_n_m.map(|stiffness_n_m| Springs::new(stiffness_n_m, plan.contacts));
+        let bodies = model.bodies.len();
         let stored_j = springs.as_mut().map_or(0.0, |springs| springs.stored_j(model, start));
         Judge {
             energy: EnergyLedger::new(model, start, stored_j),
             momentum: MomentumLedger::new(model, start),
-            residual: ResidualLedger::new(plan.constraint, plan.newton),
+            residual: ResidualLedger::new(plan.constraint, plan.newton, bodies),
             penetration_max_m: plan.contact.then_some(0.0),
             contacts_max: 0,
             pin_gap_max_m: model.pin_gap_m(&start.bodies),
             watched: Watched::default(),
             divergence: Divergence::new(rules),
             newton: plan.newton,
+            driven_pins: model.has_driven_pins(),
             springs,
             moment_s: moment_s(model),
-            exchange: Exchange::default(),
-            dissipation: Dissipation::default(),
+            exchange: Exchange::with_capacity(bodies, plan.contacts),
+            dissipation: Dissipation::with_capacity(bodies),
             instant: Instant { is_empty: true, before: start.clone(), contacts: Vec::new() },
             middle: start.clone(),
         }
@@ -128,10 +133,12 @@ impl Judge {
     ) -> (Done, f64) {
         let mut done =
             work::done(model, [before, after], &mut self.middle, |state| self.momentum.pivot_m(model, state), step_s);
-        if !contacts.is_empty() {
+        if !contacts.is_empty() || self.driven_pins {
             self.exchange.look(model, [kicked, after], contacts, Over::Step(step_s));
+            self.add_driven(model, kicked, contacts, &mut done);
+        }
+        if !contacts.is_empty() {
             self.take(contacts, step_s);
-            done.add_driven(model, kicked, contacts);
             self.momentum.observe_pushes(model, kicked, &self.exchange.pushes, 1.0);
             self.residual.observe(model, contacts, &self.exchange, (approach, step_s));
             self.watched.observe(kicked, contacts);
@@ -147,7 +154,7 @@ impl Judge {
         self.exchange.look(model, [before, after], contacts, Over::Step(0.0));
         self.take(contacts, 0.0);
         let mut done = Done::NOTHING;
-        done.add_driven(model, before, contacts);
+        self.add_driven(model, before, contacts, &mut done);
         self.momentum.observe_pushes(model, before, &self.exchange.pushes, 1.0);
         self.watched.observe(before, contacts);
         self.instant.add(before, contacts);
@@ -170,6 +177,9 @@ impl Judge {
         for Moment { state, contacts, weight_s } in moments {
             if model.has_loads() {
                 done.add_node(model, state, *weight_s, self.momentum.pivot_m(model, state));
+            }
+            if self.driven_pins {
+                done.add_work(pinned::power_w(model, state, contacts) * weight_s);
             }
             if contacts.is_empty() {
                 continue;
@@ -197,6 +207,14 @@ impl Judge {
             self.watched.observe_step(before, after, span_s);
         }
         (done, depth_m)
+    }
+
+    /// The work of driven bodies in the exchange looked at.
+    fn add_driven(&self, model: &Model, state: &State, contacts: &[SolvedContact], done: &mut Done) {
+        done.add_driven(model, state, contacts);
+        if self.driven_pins {
+            done.add_work(pinned::work_of_impulses_j(model, state, &self.exchange));
+        }
     }
 
     fn law(&self, step_s: f64) -> Law {

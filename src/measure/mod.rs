@@ -16,6 +16,7 @@ mod judge;
 mod kept;
 pub mod momentum;
 pub mod more;
+mod pinned;
 mod push;
 pub mod reference;
 pub mod residual;

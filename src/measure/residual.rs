@@ -127,8 +127,8 @@ pub struct ResidualLedger {
 }
 
 impl ResidualLedger {
-    pub fn new(judged: bool, newton: bool) -> Self {
-        ResidualLedger { judged, newton, struck: Vec::new(), max: None }
+    pub fn new(judged: bool, newton: bool, bodies: usize) -> Self {
+        ResidualLedger { judged, newton, struck: Vec::with_capacity(bodies), max: None }
     }
 
     /// Contacts with their impulses; how the step went through them, and its length.

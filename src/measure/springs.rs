@@ -14,8 +14,8 @@ pub(super) struct Springs {
 }
 
 impl Springs {
-    pub fn new(stiffness_n_m: f64) -> Self {
-        Springs { stiffness_n_m, detector: Detector::default(), inside: Vec::new() }
+    pub fn new(stiffness_n_m: f64, contacts: usize) -> Self {
+        Springs { stiffness_n_m, detector: Detector::default(), inside: Vec::with_capacity(contacts) }
     }
 
     pub fn stored_j(&mut self, model: &Model, state: &State) -> f64 {

@@ -46,6 +46,17 @@ impl Model {
         !self.forces.is_empty() || self.bodies.iter().any(|body| !body.drag.is_none())
     }
 
+    /// Whether some of it changes along the way of its body.
+    pub fn has_varying_loads(&self) -> bool {
+        self.forces.iter().any(|force| !force.is_weight_like()) || self.bodies.iter().any(|body| !body.drag.is_none())
+    }
+
+    /// Whether a driven body holds a pin: else pins do no work.
+    pub fn has_driven_pins(&self) -> bool {
+        let driven = |pin: &Pin| matches!(pin.anchor, pins::Anchor::Body(other, _) if self.bodies[other].driven);
+        self.pins.iter().any(driven)
+    }
+
     /// The acceleration of the centre of mass, if nothing acts on the body but gravity and constant forces that do not
     /// turn it.
     pub fn constant_pull(&self, index: usize) -> Option<Vector3<f64>> {

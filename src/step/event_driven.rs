@@ -22,7 +22,7 @@ use crate::math::quadrature;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::plan::Plan;
-use crate::shown::{Acted, ContactForce, Moment, Passage};
+use crate::shown::{Acted, ContactForce, Moment, Moments, Passage};
 use crate::state::State;
 use crate::work::Work;
 use std::cell::RefCell;
@@ -471,11 +471,13 @@ impl Passage for EventDriven {
         let of = here.iter().zip(&problem.blocks).zip(p);
         of.map(|((here, block), p)| ContactForce { contact: here.contact, force_W: block.in_world(p) }).collect()
     }
+}
 
+impl Moments for EventDriven {
     /// At the nodes of Gauss's quadrature with five points.
     fn moments(&self, model: &Model, [before, after]: [&State; 2]) -> Vec<Moment> {
         let span_s = after.time_s - before.time_s;
-        if span_s <= 0.0 || (self.held.is_empty() && !model.has_loads()) {
+        if span_s <= 0.0 || (self.held.is_empty() && !model.has_loads() && !model.has_driven_pins()) {
             return Vec::new();
         }
         let moment = |(node, weight): (f64, f64)| {

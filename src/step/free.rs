@@ -3,15 +3,19 @@
 use crate::clock::Clock;
 use crate::exact::Closed;
 use crate::experiment::tolerances::DEFAULT_TOLERANCE;
-use crate::experiment::types::{Exact, Free as Settings, Integrator, Update};
+use crate::experiment::types::{Accuracy, Exact, Free as Settings, Integrator, Update};
 use crate::integrate::chain::Chain;
+use crate::integrate::rotation::exponential;
 use crate::integrate::{
     crank_nicolson, dop853, euler, implicit, implicit_midpoint, momentum, moser_veselov, rk4, taylor,
 };
+use crate::math::quadrature;
 use crate::model::Model;
+use crate::shown::{Moment, Moments};
 use crate::state::State;
 use crate::work::Work;
 use nalgebra::Vector3;
+use std::cell::RefCell;
 
 /// An integrator with its scratch, of one island.
 enum Method {
@@ -31,7 +35,13 @@ enum Method {
 }
 
 pub struct Free {
+    settings: Settings,
+    start: State,
     islands: Vec<(Chain, Method)>,
+    /// Another one that goes the way of a step once more, in parts, for those who look; it leaves the run as it is.
+    follower: RefCell<Option<Box<Free>>>,
+    /// What acts on its bodies changes on the way, so that the ends of a step do not show what it did.
+    shows_way: bool,
     /// From the start, for `exact`.
     motion: Option<Closed>,
     /// A step has no solution, or the tolerance is out of reach.
@@ -45,7 +55,32 @@ impl Free {
         let motion = (settings.integrator == Integrator::Exact).then(exact).flatten();
         let islands = Chain::all(model, start).into_iter();
         let islands = islands.filter_map(|island| Method::new(settings, &island, model).map(|method| (island, method)));
-        Free { islands: islands.collect(), motion, stalled: false, work: Work::default() }
+        Free {
+            settings: settings.clone(),
+            start: start.clone(),
+            islands: islands.collect(),
+            follower: RefCell::default(),
+            shows_way: shows_way(settings, model),
+            motion,
+            stalled: false,
+            work: Work::default(),
+        }
+    }
+
+    /// The way of the last step, where its ends do not show all.
+    pub(super) fn shown_way(&self) -> Option<&dyn Moments> {
+        self.shows_way.then_some(self)
+    }
+
+    /// Moves a state on to a time, driven bodies too.
+    fn follow(&mut self, model: &Model, state: &mut State, to_s: f64) {
+        let span_s = to_s - state.time_s;
+        self.step(model, state, &Clock { steps: u64::MAX, end_s: f64::INFINITY, step_s: span_s });
+        state.time_s = to_s;
+        for (at, _) in state.bodies.iter_mut().zip(&model.bodies).filter(|(_, body)| body.driven) {
+            at.p_WB += at.v_WB * span_s;
+            at.q_WB = exponential(&(at.w_WB * span_s)) * at.q_WB;
+        }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
@@ -60,6 +95,27 @@ impl Free {
         if let Some(motion) = &self.motion {
             motion.write(state);
         }
+    }
+}
+
+fn shows_way(settings: &Settings, model: &Model) -> bool {
+    let is_controlled = matches!(settings.integrator.accuracy(), Accuracy::Tolerance(_));
+    let is_exact = settings.integrator == Integrator::Exact;
+    !is_exact && (model.has_driven_pins() || is_controlled && model.has_varying_loads())
+}
+
+impl Moments for Free {
+    fn moments(&self, model: &Model, [before, after]: [&State; 2]) -> Vec<Moment> {
+        let mut follower = self.follower.borrow_mut();
+        let follower = follower.get_or_insert_with(|| Box::new(Free::new(&self.settings, model, &self.start)));
+        let span_s = after.time_s - before.time_s;
+        let mut state = before.clone();
+        let moment = |(node, weight): (f64, f64)| {
+            let to_s = before.time_s + node * span_s;
+            follower.follow(model, &mut state, to_s);
+            Moment { state: state.clone(), contacts: Vec::new(), weight_s: weight * span_s }
+        };
+        quadrature::FIVE.into_iter().map(moment).collect()
     }
 }
 

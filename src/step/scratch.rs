@@ -27,13 +27,9 @@ pub(super) struct Scratch {
 }
 
 impl Scratch {
-    /// With room for every point touching the three faces of a corner at once, so that no step allocates; beyond some
-    /// thousand contacts it grows when they come.
+    /// With room for as many contacts as the plan expects, so that no step allocates.
     pub(super) fn new(model: &Model, plan: &Plan) -> Self {
-        const MOST: usize = 4096;
-        let points: usize = model.bodies.iter().map(|body| body.geometry.points()).sum();
-        let faces = model.container.as_ref().map_or(0, |container| container.faces.len());
-        let contacts = if plan.contact { (points * faces.min(3)).min(MOST) } else { 0 };
+        let contacts = plan.contacts;
         let bodies = model.bodies.len();
         Scratch {
             detector: Detector::default(),

@@ -101,8 +101,12 @@ impl Stepper {
     pub fn acted<'a>(&'a self, before: &'a State, clock: &Clock) -> Acted<'a> {
         let kicked = match &self.method {
             Method::EventDriven(method) => return method.acted(before),
+            Method::Free(method) => match method.shown_way() {
+                Some(way) => return Acted::Motion(way),
+                None => None,
+            },
             Method::TimeStepping(method) => method.kicked.as_ref(),
-            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) => None,
+            Method::Lecture(_) | Method::Penalty(_) => None,
         };
         Acted::Kick {
             kicked: kicked.unwrap_or(before),

@@ -174,6 +174,7 @@ impl Gathered {
             .collect();
         let plan = Plan {
             contact: true,
+            contacts: solved.len(),
             constraint: true,
             friction: true,
             approach: Approach::Inside,

@@ -6,7 +6,7 @@ use crate::model::{self, Model};
 use crate::outcome::Outcome;
 use crate::plan::Plan;
 use crate::record::writer::Target;
-use crate::rows::{Measured, Row};
+use crate::rows::{BodyRow, Measured, Row};
 use crate::run::Ended;
 use crate::shown::ContactForce;
 use nalgebra::Vector3;
@@ -35,14 +35,15 @@ fn bodies(model: &Model, ended: &Ended) -> Value {
         on_body.map(|((.., sign), force_W)| force_W * sign).sum::<Vector3<f64>>()
     };
     let body = |(i, (body, at)): (usize, (&model::Body, &crate::state::BodyState))| {
+        let row = BodyRow::from(at);
         json!({
             "name": body.name,
             "mass_kg": body.mass_kg,
-            "position_m": numbers(&at.p_WB),
+            "position_m": row.position_m,
             "origin_m": numbers(&body.p_WBo(at)),
-            "orientation_xyzw": at.q_WB.coords.iter().map(|x| json!(x)).collect::<Value>(),
-            "velocity_m_s": numbers(&at.v_WB),
-            "angular_velocity_rad_s": numbers(&at.w_WB),
+            "orientation_xyzw": row.orientation_xyzw,
+            "velocity_m_s": row.velocity_m_s,
+            "angular_velocity_rad_s": row.angular_velocity_rad_s,
             "contact_force_n": numbers(&force_n(i)),
         })
     };

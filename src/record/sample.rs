@@ -6,6 +6,7 @@
 
 use super::name::RecordingName;
 use crate::outcome::Outcome;
+use crate::rows::BodyRow;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -111,7 +112,7 @@ pub struct Batch {
     pub step: Vec<u64>,
     pub time_s: Vec<f64>,
     /// samples × bodies, sample-major.
-    pub bodies: Vec<BodySample>,
+    pub bodies: Vec<BodyRow>,
     /// Contacts in each sample, when contacts or forces are on.
     pub contacts_len: Vec<u32>,
     /// All contacts of sample 0, then of sample 1, …
@@ -184,19 +185,9 @@ impl Batch {
 pub struct Sample<'a> {
     pub step: u64,
     pub time_s: f64,
-    pub bodies: &'a [BodySample],
+    pub bodies: &'a [BodyRow],
     pub contacts: &'a [ContactSample],
     pub energy: Option<&'a EnergySample>,
-}
-
-/// State of one body, world frame, at its centre of mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BodySample {
-    pub position_m: [f64; 3],
-    /// Body → world.
-    pub orientation_xyzw: [f64; 4],
-    pub velocity_m_s: [f64; 3],
-    pub angular_velocity_rad_s: [f64; 3],
 }
 
 /// One contact of the step that led to the sample.

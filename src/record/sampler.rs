@@ -3,7 +3,7 @@
 //! A recorded run is the same run: the sampler only looks. What no stream asks for is not computed.
 
 use super::RecordError;
-use super::sample::{BodySample, ContactSample, Ending, EnergySample, Event, Severity, Streams};
+use super::sample::{ContactSample, Ending, EnergySample, Event, Severity, Streams};
 use super::writer::Writer;
 use crate::clock::Clock;
 use crate::experiment::types::{Record, Stream};
@@ -11,9 +11,9 @@ use crate::measure::deepest_m;
 use crate::measure::energy::Energy;
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::rows::Measured;
+use crate::rows::{BodyRow, Measured};
 use crate::shown::ContactForce;
-use crate::state::{BodyState, State};
+use crate::state::State;
 
 /// Samples of one run.
 pub struct Sampler {
@@ -39,7 +39,7 @@ impl Sampler {
         batch.step.push(state.step);
         batch.time_s.push(state.time_s);
         if self.streams.bodies {
-            batch.bodies.extend(state.bodies.iter().map(body_sample));
+            batch.bodies.extend(state.bodies.iter().map(BodyRow::from));
         }
         if self.streams.any_contact() {
             batch.contacts_len.push(contacts.len() as u32);
@@ -93,15 +93,6 @@ pub fn streams(record: &Record) -> Streams {
 /// At least one; the whole number nearest to what is asked for.
 pub fn steps_between(record: &Record, clock: &Clock) -> u64 {
     ((record.every_s / clock.step_s).round() as u64).max(1)
-}
-
-fn body_sample(at: &BodyState) -> BodySample {
-    BodySample {
-        position_m: at.p_WB.into(),
-        orientation_xyzw: at.q_WB.coords.into(),
-        velocity_m_s: at.v_WB.into(),
-        angular_velocity_rad_s: at.w_WB.into(),
-    }
 }
 
 fn contact_sample(ContactForce { contact, force_W }: ContactForce) -> ContactSample {

@@ -18,7 +18,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("panics", &[]),
     ("clock", &["state"]),
     ("shape", &["math"]),
-    ("rows", &["digest", "math", "heading", "outcome", "work"]),
+    ("rows", &["state", "digest", "math", "heading", "outcome", "work"]),
     ("experiment", &["shape", "clock", "outcome"]),
     ("report", &["rows"]),
     ("model", &["experiment", "shape", "state"]),

@@ -4,9 +4,9 @@ use super::error::{self, ExperimentError, Kind, describe, shortened};
 use super::key_path::{KeyPath, Path, Segment};
 use super::later::BESIDE_EXPERIMENT;
 use super::overrides::split;
+use super::tree::{Mapping, Number, Value, cell, compact_json, shown};
 use super::value_de::from_value;
 use serde::Deserialize;
-use serde_yaml::{Mapping, Number, Value};
 use std::collections::HashMap;
 
 type Result<T> = std::result::Result<T, ExperimentError>;
@@ -53,29 +53,13 @@ impl From<Number> for AxisValue {
 impl AxisValue {
     /// How the value is shown: its label, the scalar itself, or compact JSON.
     pub fn shown(&self) -> String {
-        match (&self.label, &self.value) {
-            (Some(label), _) => label.clone(),
-            (None, Value::String(text)) => text.clone(),
-            (None, Value::Number(number)) => number.to_string(),
-            (None, other) => compact_json(other),
-        }
+        self.label.clone().unwrap_or_else(|| shown(&self.value))
     }
 
     /// What stands in the axis' column of a row: numbers and booleans stay what they are, all else is text.
     pub fn cell(&self) -> serde_json::Value {
-        match (&self.label, &self.value) {
-            (None, Value::Number(_) | Value::Bool(_) | Value::Null) => {
-                serde_json::to_value(&self.value).unwrap_or_default()
-            }
-            _ => serde_json::Value::String(self.shown()),
-        }
+        self.label.as_deref().map_or_else(|| cell(&self.value), serde_json::Value::from)
     }
-}
-
-/// A tree that came from a file always has text keys here, or its case is refused; a key that JSON does not know is
-/// shown as null.
-fn compact_json(value: &Value) -> String {
-    serde_json::to_string(value).unwrap_or_else(|_| "null".to_string())
 }
 
 impl Axes {

@@ -4,9 +4,9 @@ use super::axes::read_list;
 use super::checks::{Result, positive, unexpected};
 use super::error::number;
 use super::key_path::{KeyPath, Path};
+use super::tree::Value;
 use super::types::Method;
 use super::value_de::from_value;
-use serde_yaml::Value;
 
 /// Best and median of five: enough to see a disturbed run.
 const REPEATS: u32 = 5;

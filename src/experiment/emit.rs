@@ -4,8 +4,8 @@
 //! are numbers to them. It cannot be told otherwise: such a scalar is written behind a mark that the text does not
 //! have, and the mark is taken out again.
 
+use super::tree::{Number, Value};
 use super::types::Experiment;
-use serde_yaml::{Number, Value};
 
 /// As the user would write it; read again, it is the same experiment, bit for bit.
 pub fn to_yaml(experiment: &Experiment) -> String {

@@ -2,8 +2,8 @@
 
 use super::key_path::{KeyPath, Path};
 use super::nearest::nearest;
+use super::tree::Value;
 use serde::Serialize;
-use serde_yaml::Value;
 use std::fmt;
 
 /// What is wrong, where, what was expected, what was found. `Display` is the whole message in one line.

@@ -5,8 +5,8 @@ use super::error::{ExperimentError, number};
 use super::filter::Filter;
 use super::key_path::{KeyPath, Path};
 use super::predicate::{Bounds, Column, Predicate, PredicateText, Quantity, QuantityText};
+use super::tree::{Mapping, Value};
 use super::value_de::from_value;
-use serde_yaml::{Mapping, Value};
 
 /// One item of the list.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use super::key_path::KeyPath;
 use super::merge::{Graft, merge};
 use super::positions;
 use super::source::{parse, read};
-use serde_yaml::Value;
+use super::tree::Value;
 use std::path::{Path, PathBuf};
 
 type Result<T> = std::result::Result<T, ExperimentError>;

@@ -13,10 +13,10 @@ use super::overrides::{assign, resolve, split};
 use super::search::{Search, search_path};
 use super::source::read;
 use super::sweep::Sweep;
+use super::tree::{Number, Value};
 use super::types::Experiment;
 use super::validate::{normalise_quaternions, validate};
 use super::value_de::from_value;
-use serde_yaml::{Number, Value};
 use std::path::{Path, PathBuf};
 
 type Result<T> = std::result::Result<T, ExperimentError>;

@@ -1,13 +1,12 @@
 //! `where`: which rows, by their axes and columns.
 
-use super::axes::AxisValue;
 use super::checks::Result;
 use super::error::{ExperimentError, describe};
 use super::key_path::{KeyPath, Path};
 use super::predicate::Bounds;
+use super::tree::{Mapping, Value, cell};
 use super::value_de::from_value;
 use serde_json::Value as Cell;
-use serde_yaml::{Mapping, Value};
 use std::fmt;
 
 /// All of them must hold; none: every row.
@@ -148,11 +147,6 @@ impl fmt::Display for Filter {
         };
         f.write_str(&self.0.iter().map(shown).collect::<Vec<_>>().join(", "))
     }
-}
-
-/// A value as rows show it.
-fn cell(value: &Value) -> Cell {
-    AxisValue { label: None, value: value.clone() }.cell()
 }
 
 pub fn is_same(a: &Cell, b: &Cell) -> bool {

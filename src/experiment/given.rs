@@ -3,7 +3,7 @@
 use super::error::{ExperimentError, Kind};
 use super::key_path::KeyPath;
 use super::overrides::{Override, assign, resolve, split};
-use serde_yaml::{Mapping, Value};
+use super::tree::{self, Mapping, Value};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
 
@@ -162,12 +162,7 @@ fn label(item: &Value) -> Option<&str> {
 
 /// A scalar, as a label would be written.
 fn shown(item: &Value) -> Option<String> {
-    match item {
-        Value::String(text) => Some(text.clone()),
-        Value::Number(number) => Some(number.to_string()),
-        Value::Bool(flag) => Some(flag.to_string()),
-        _ => None,
-    }
+    (item.is_string() || item.is_number() || item.is_bool()).then(|| tree::shown(item))
 }
 
 /// Setting what an axis varies, or what is searched, fixes it.

@@ -5,8 +5,8 @@ use super::key_path::{KeyPath, Segment};
 use super::later::BESIDE_EXPERIMENT;
 use super::overrides::item_segment;
 use super::reading::{Reading, reading};
+use super::tree::{Mapping, Value};
 use super::value_de::item_name;
-use serde_yaml::{Mapping, Value};
 
 /// A part of a tree that came whole from the extending file.
 #[derive(Clone, Debug)]

@@ -3,8 +3,9 @@
 use super::error::{ExperimentError, Kind, describe, shortened};
 use super::key_path::{KeyPath, Path, Segment, is_addressable};
 use super::nearest::nearest;
+use super::source::parse_value;
+use super::tree::{Mapping, Value};
 use super::value_de::item_name;
-use serde_yaml::{Mapping, Value};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
 
@@ -20,10 +21,7 @@ impl Override {
         let Some((path, value)) = text.split_once('=') else {
             return Err(ExperimentError::unexpected(KeyPath::default(), "PATH=VALUE", &format!("`{text}`")));
         };
-        let value = serde_yaml::from_str(value).map_err(|error| {
-            let message = format!("the value is not valid YAML: {error}");
-            ExperimentError::new(Kind::Syntax, KeyPath::of_keys(&[path.trim()]), message)
-        })?;
+        let value = parse_value(value).map_err(|error| error.at(KeyPath::of_keys(&[path.trim()])))?;
         Ok(Override { path: split(path.trim())?, value })
     }
 }

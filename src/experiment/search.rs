@@ -7,7 +7,7 @@ use super::error::{ExperimentError, Kind, number};
 use super::key_path::{KeyPath, Path};
 use super::overrides::split;
 use super::predicate::{Predicate, PredicateText};
-use serde_yaml::Number;
+use super::tree::Number;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Search {

@@ -3,7 +3,7 @@
 use super::error::{ExperimentError, Kind, describe};
 use super::key_path::KeyPath;
 use super::positions::{self, Duplicate, Position};
-use serde_yaml::Value;
+use super::tree::Value;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -50,6 +50,14 @@ pub fn parse(text: &str) -> Result<Value> {
             &describe(&other),
         )),
     }
+}
+
+/// The value that a flag gives, with no place yet.
+pub fn parse_value(text: &str) -> Result<Value> {
+    serde_yaml::from_str(text).map_err(|error| {
+        let message = format!("the value is not valid YAML: {error}");
+        ExperimentError::new(Kind::Syntax, KeyPath::default(), message)
+    })
 }
 
 fn has_merge(tree: &Value) -> bool {

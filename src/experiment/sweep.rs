@@ -1,8 +1,8 @@
 //! `sweep:` as it is written; `axes.rs` and `search.rs` read it.
 
 use super::search::SearchText;
+use super::tree::Mapping;
 use serde::Deserialize;
-use serde_yaml::Mapping;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -7,12 +7,12 @@
 use super::error::{ExperimentError, describe, key_text};
 use super::key_path::{KeyPath, Path};
 use super::later::{all_keys, is_later};
+use super::tree::{Mapping, Number, Value};
 use serde::de::value::BorrowedStrDeserializer;
 use serde::de::{
     DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
 };
 use serde::forward_to_deserialize_any;
-use serde_yaml::{Mapping, Number, Value};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
 
@@ -289,7 +289,7 @@ impl<'de> SeqAccess<'de> for Items<'de, '_> {
 
 /// The entries of a mapping, in order.
 struct Entries<'de, 'p> {
-    entries: Option<serde_yaml::mapping::Iter<'de>>,
+    entries: Option<<&'de Mapping as IntoIterator>::IntoIter>,
     /// The entry whose key was read and whose value comes next.
     current: Option<(&'de str, &'de Value)>,
     path: &'p Path<'p>,

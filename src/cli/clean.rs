@@ -69,7 +69,7 @@ impl Command {
     }
 }
 
-/// A replay that is under way holds its lock.
+/// Refuses where a replay that is under way holds its lock.
 fn refuse_running(replays: &[PathBuf]) -> Result<(), CliError> {
     let mut locks = replays.iter().filter(|path| path.extension().is_some_and(|ending| ending == LOCK));
     Ok(locks.try_for_each(|path| open_alone(path, path).map(drop))?)

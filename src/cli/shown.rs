@@ -1,4 +1,4 @@
-//! What `run` shows of a run: a summary, or one JSON document with its columns, bodies and contacts.
+//! Output of `run` about a run: a summary, or one JSON document with its columns, bodies and contacts.
 
 use crate::build_info::BUILD;
 use crate::case::Case;
@@ -13,7 +13,8 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The columns of the row, and the state and contacts at the end. `recording`: its name, if there is one.
+/// JSON of a run: the columns of its row, and the state and contacts at the end. `recording` is its name, if there is
+/// one.
 pub(super) fn document(case: &Case, recording: Option<&str>, model: &Model, ended: &Ended) -> Value {
     let row = Row {
         case: case.id.clone(),
@@ -61,7 +62,7 @@ fn contact(model: &Model, ContactForce { contact, force_W }: &ContactForce) -> V
     })
 }
 
-/// Not finite: null.
+/// Components of a vector; null where one is not finite.
 fn numbers(v: &Vector3<f64>) -> Value {
     v.iter().map(|x| json!(x)).collect()
 }
@@ -98,7 +99,7 @@ pub(super) fn summary(id: &str, m: &Measured) -> String {
     lines.into_iter().chain(more).map(|(name, value)| format!("{name:>24}  {value}")).collect::<Vec<_>>().join("\n")
 }
 
-/// What the scene needs, and what is skipped.
+/// Prints the stages that the scene needs, and those that are skipped, each with the reason.
 pub(super) fn describe_plan(plan: &Plan) {
     for stage in &plan.stages {
         let how = if stage.runs { "runs" } else { "skipped" };
@@ -106,7 +107,7 @@ pub(super) fn describe_plan(plan: &Plan) {
     }
 }
 
-/// Where the recordings are, and how to open them.
+/// Prints where the recordings are, and how to open them.
 pub(super) fn say_where(dir: &Path, name: &str, targets: &[Target]) {
     for target in targets {
         let path = target.path(dir, name);

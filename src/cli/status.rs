@@ -67,7 +67,7 @@ impl Command {
     }
 }
 
-/// The words of all methods that are planned, in their order.
+/// Words of all methods that are planned, in their order.
 fn methods(folder: &Folder) -> Vec<&'static str> {
     let mut words: Vec<&str> = Vec::new();
     for word in folder.cases.iter().map(|planned| planned.case.experiment.method.word()) {

@@ -51,7 +51,7 @@ fn summary(swept: &Swept) -> String {
     text + &format!("\n  rows: {}", swept.dir.join("rows.csv").display())
 }
 
-/// One object for a file, a list for a folder.
+/// Prints one object for a file, a list for a folder.
 fn print_document(swept: &[Swept]) {
     let document = |s: &Swept| {
         let counted = Outcome::ALL.map(|outcome| (outcome.name().to_string(), count(&s.rows, outcome).into()));

@@ -8,14 +8,14 @@
 
 use crate::math::dd::Dd;
 
-/// What the start says; β > 0.
+/// Data of the start; β > 0.
 pub struct Start {
     pub a: Dd,
     pub beta: Dd,
-    /// 1 − u₀, 1 + u₀.
+    /// Distances 1 − u₀ and 1 + u₀.
     pub y: Dd,
     pub z: Dd,
-    /// b − a u₀, u̇₀, |ω⊥|².
+    /// Numbers b − a u₀, u̇₀ and |ω⊥|².
     pub h: Dd,
     pub u_dot: Dd,
     pub T: Dd,
@@ -23,25 +23,25 @@ pub struct Start {
 
 #[derive(Debug)]
 pub struct Roots {
-    /// uᵢ − u₀.
+    /// Distances uᵢ − u₀ from the start.
     pub v: [Dd; 3],
-    /// 1 − uᵢ.
+    /// Distances 1 − uᵢ from the upright position.
     pub y: [Dd; 3],
-    /// 1 + uᵢ.
+    /// Distances 1 + uᵢ from the hanging position.
     pub z: [Dd; 3],
-    /// u₂ − u₁, u₃ − u₂, u₃ − u₁.
+    /// Gaps u₂ − u₁, u₃ − u₂ and u₃ − u₁.
     pub gap_21: Dd,
     pub gap_32: Dd,
     pub gap_31: Dd,
 }
 
 impl Start {
-    /// b − a.
+    /// Difference b − a.
     pub fn d(&self) -> Dd {
         self.h - self.a * self.y
     }
 
-    /// b + a.
+    /// Sum b + a.
     pub fn sum(&self) -> Dd {
         self.h + self.a * self.z
     }

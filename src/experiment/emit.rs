@@ -7,14 +7,14 @@
 use super::tree::{Number, Value};
 use super::types::Experiment;
 
-/// As the user would write it; read again, it is the same experiment, bit for bit.
+/// YAML of an experiment as the user would write it; read again, it is the same experiment, bit for bit.
 pub fn to_yaml(experiment: &Experiment) -> String {
     let tree = serde_yaml::with::singleton_map_recursive::serialize(experiment, serde_yaml::value::Serializer);
     // Plain data always is a tree.
     emit(&tree.unwrap_or_default())
 }
 
-/// The text of a tree.
+/// YAML text of a tree.
 pub fn emit(tree: &Value) -> String {
     let text = written(tree);
     // It has its first letter once, and a scalar begins a line or follows a space: nothing else ends up as a mark.

@@ -45,7 +45,7 @@ pub struct ExperimentFile {
 pub struct Change {
     pub path: Vec<String>,
     pub value: Value,
-    /// Where it is written; None: nowhere.
+    /// Place where it is written; None: nowhere.
     pub written: Option<KeyPath>,
 }
 
@@ -66,7 +66,7 @@ struct Point<'a> {
 }
 
 impl ExperimentFile {
-    /// Reads a file and applies `sets` (`PATH=VALUE`) in their order.
+    /// The file with `sets` (`PATH=VALUE`) applied in their order.
     ///
     /// # Errors
     /// Whatever can be wrong before a single case is resolved; `is_machine` tells a failing machine from wrong input.
@@ -74,7 +74,7 @@ impl ExperimentFile {
         Self::load_given(path, &all_sets(sets))
     }
 
-    /// The same with flags of both kinds.
+    /// The file with flags of both kinds applied in their order.
     ///
     /// # Errors
     /// As `load`.
@@ -83,7 +83,7 @@ impl ExperimentFile {
         Self::from_text_given(path, &text, given)
     }
 
-    /// The same for a text; `path` is how messages call it, and what it extends is found from there.
+    /// The file of a text; `path` is how messages call it, and what it extends is found from there.
     ///
     /// # Errors
     /// As `load`.
@@ -91,7 +91,7 @@ impl ExperimentFile {
         Self::from_text_given(path, text, &all_sets(sets))
     }
 
-    /// The same with flags of both kinds.
+    /// The file of a text with flags of both kinds applied in their order.
     ///
     /// # Errors
     /// As `load`.
@@ -120,13 +120,13 @@ impl ExperimentFile {
         Ok(file)
     }
 
-    /// The text of what was asked for: the file on its bases, with all that flags change. It says the same as they do
+    /// Text of what was asked for: the file on its bases, with all that flags change. It says the same as they do
     /// together, without any of them.
     pub fn written(&self) -> String {
         emit(&self.asked)
     }
 
-    /// As the user named it.
+    /// Path of the file as the user named it.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -156,6 +156,8 @@ impl ExperimentFile {
         self.case(&[])
     }
 
+    /// Refuses a file that has axes.
+    ///
     /// # Errors
     /// Axes are left.
     pub fn refuse_any_axis(&self) -> Result<()> {
@@ -212,7 +214,7 @@ impl ExperimentFile {
         self.resolved_at(Point { indices: point, searched: None })
     }
 
-    /// The same, with a value of the searched key.
+    /// The experiment at a point of the grid, with a value of the searched key.
     ///
     /// # Errors
     /// As `case`.

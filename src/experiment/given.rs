@@ -1,4 +1,4 @@
-//! What the command line changes in a file: `--set` and `--axis`.
+//! Flags that change a file: `--set` and `--axis`.
 
 use super::error::{ExperimentError, Kind};
 use super::key_path::KeyPath;
@@ -10,9 +10,9 @@ type Result<T> = std::result::Result<T, ExperimentError>;
 /// A flag, with its `PATH=VALUE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Given {
-    /// `--set`: a value of the experiment, or anything else in the file.
+    /// A `--set`: a value of the experiment, or anything else in the file.
     Set(String),
-    /// `--axis`: the values that a key takes.
+    /// An `--axis`: the values that a key takes.
     Axis(String),
 }
 
@@ -24,14 +24,14 @@ impl Given {
         }
     }
 
-    /// `PATH=VALUE`.
+    /// The text `PATH=VALUE`.
     pub fn text(&self) -> &str {
         match self {
             Given::Set(text) | Given::Axis(text) => text,
         }
     }
 
-    /// Says which flag the error is about.
+    /// The error with the flag that it is about.
     pub(super) fn blamed(&self, mut error: ExperimentError) -> ExperimentError {
         error.details_mut().flag = Some(self.flag());
         error.details_mut().set = Some(self.text().to_string());
@@ -43,13 +43,13 @@ impl Given {
 #[derive(Clone, Debug)]
 pub(super) struct Applied {
     pub given: Given,
-    /// In the tree; an axis is one key below `sweep.axes`.
+    /// Path in the tree; an axis is one key below `sweep.axes`.
     pub path: Vec<String>,
     /// The topmost place that it changed.
     pub at: KeyPath,
     /// The value that it fixes or varies.
     target: KeyPath,
-    /// Of the axis that varied the same before.
+    /// Labels of the axis that varied the same before.
     labels: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What an extending file says, put over what its base says.
+//! Merge of what an extending file says over what its base says.
 
 use super::error::key_text;
 use super::key_path::{KeyPath, Segment};
@@ -11,9 +11,9 @@ use super::value_de::item_name;
 /// A part of a tree that came whole from the extending file.
 #[derive(Clone, Debug)]
 pub(super) struct Graft {
-    /// Where it is in the merged tree.
+    /// Place in the merged tree.
     pub at: KeyPath,
-    /// Where it is written in the extending file: a list that is merged has other indices there.
+    /// Place in the extending file, where a list that is merged has other indices.
     pub own: KeyPath,
 }
 

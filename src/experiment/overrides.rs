@@ -1,4 +1,4 @@
-//! Putting a value at a key path, for `--set` and for axes alike.
+//! Assignment of a value to a key path, for `--set` and for axes alike.
 
 use super::error::{ExperimentError, Kind, describe, shortened};
 use super::key_path::{KeyPath, Path, Segment, is_addressable};
@@ -17,6 +17,8 @@ pub struct Override {
 }
 
 impl Override {
+    /// # Errors
+    /// The text has no `=`, its value is no YAML, or its path is none.
     pub fn parse(text: &str) -> Result<Override> {
         let Some((path, value)) = text.split_once('=') else {
             return Err(ExperimentError::unexpected(KeyPath::default(), "PATH=VALUE", &format!("`{text}`")));
@@ -26,10 +28,13 @@ impl Override {
     }
 }
 
-/// Deeper than any key of the vocabulary; a tree of unlimited depth would overflow the stack.
+/// Most segments of a path: deeper than any key of the vocabulary. A tree of unlimited depth would overflow the stack.
 const DEEPEST: usize = 64;
 
-/// The segments of a dotted path.
+/// Segments of a dotted path.
+///
+/// # Errors
+/// The path has an empty segment, or too many of them.
 pub fn split(path: &str) -> Result<Vec<String>> {
     let segments: Vec<String> = path.split('.').map(str::to_string).collect();
     if segments.len() > DEEPEST || segments.iter().any(String::is_empty) {
@@ -40,8 +45,8 @@ pub fn split(path: &str) -> Result<Vec<String>> {
     Ok(segments)
 }
 
-/// Puts `value` at `path`, creating mappings on the way. Returns the topmost thing that is new or replaced: whatever
-/// is wrong below it came with the value.
+/// Puts `value` at `path`, creating mappings on the way. Returns the topmost thing that is new or replaced: whatever is
+/// wrong below it came with the value.
 ///
 /// # Errors
 /// An item that a list does not have; a path through a number or through a word other than the one written.
@@ -128,8 +133,8 @@ fn dead_end(node: &Value, key: &str, at: &KeyPath) -> ExperimentError {
     error
 }
 
-/// Where a path leads, with list items by index, so that two ways to write one place compare equal. The rest of a path
-/// that the tree does not have (yet) is taken for keys.
+/// Place where a path leads, with list items by index, so that two ways to write one place compare equal. The rest of a
+/// path that the tree does not have (yet) is taken for keys.
 pub fn resolve(tree: &Value, path: &[String]) -> KeyPath {
     let mut resolved = KeyPath::default();
     let mut node = Some(tree);

@@ -1,4 +1,4 @@
-//! Reads our types from YAML values, with errors that know the key path.
+//! Reader of our types from YAML values, with errors that know the key path.
 //!
 //! serde_yaml's own reader takes enums as `!tag`s and its errors know neither path nor nearest key. This one reads an
 //! enum as one word or as one key with settings, whole numbers where a number is expected, and nothing that is not
@@ -17,6 +17,9 @@ use serde::forward_to_deserialize_any;
 type Result<T> = std::result::Result<T, ExperimentError>;
 
 /// A `T` from the value that stands at `base`.
+///
+/// # Errors
+/// The value is not one; the error has the path of the part that is wrong.
 pub fn from_value<T: DeserializeOwned>(value: &Value, base: &KeyPath) -> Result<T> {
     T::deserialize(Node { value: Some(value), path: Path::Base(base) })
 }

@@ -41,6 +41,10 @@ struct PlannedBench {
 }
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         // Every trial of every file is checked before the first run.
         let planned = self.planned()?;

@@ -21,6 +21,10 @@ pub struct Command {
 }
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         if !Folder::is_one(&self.dir) {
             return Err(FolderError::NoResults(self.dir.display().to_string()).into());

@@ -47,6 +47,10 @@ struct Tally {
 }
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         let file = self.experiment.load(&self.config)?;
         let cases = cases(&file)?;

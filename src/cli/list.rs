@@ -50,6 +50,10 @@ struct Section {
 }
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         if self.markdown {
             print(page(&self.what).trim_end());

@@ -57,6 +57,10 @@ const DIGITS: usize = 8;
 type Cells = Map<String, Value>;
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         let folder = Folder::read(&self.dir)?;
         let rows = Table::new(&folder.plan.axes, &folder.rows());

@@ -19,6 +19,10 @@ pub struct Command {
 }
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         // Every case of every file is checked before the first run.
         let pool = self.sweep.run.pool()?;

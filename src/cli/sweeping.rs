@@ -71,6 +71,8 @@ impl Swept {
 }
 
 impl SweepArgs {
+    /// The file with the flags' changes.
+    ///
     /// # Errors
     /// The file cannot be read, or its experiment is wrong.
     pub fn load(&self, config: &Config) -> Result<ExperimentFile, CliError> {
@@ -94,6 +96,8 @@ impl SweepArgs {
         Ok(PlannedSweep { config, file, plan, targets })
     }
 
+    /// Runs what is missing of a file's sweep.
+    ///
     /// # Errors
     /// The machine failed, or the folder holds something else; a case that fails is a row.
     pub fn sweep(&self, planned: &PlannedSweep) -> Result<Swept, CliError> {

@@ -196,7 +196,7 @@ struct Frame {
     /// α, β times I₁ I₂ I₃.
     alpha: Dd,
     beta: Dd,
-    /// Likewise, times |L|².
+    /// Constant D, times I₁ I₂ I₃ |L|².
     D: Dd,
     L: [Dd; 3],
 }

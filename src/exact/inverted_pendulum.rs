@@ -25,9 +25,9 @@ pub struct InvertedPendulum {
 
 #[derive(Clone, Debug)]
 enum Path {
-    /// On which side of the top.
+    /// Path that turns back, on one side of the top.
     Turning { side: f64, turning: Turning },
-    /// In which direction.
+    /// Path that passes the top, in one direction.
     Passing { direction: f64, h: f64, jacobi: Jacobi },
 }
 

@@ -92,7 +92,7 @@ struct LadderAt {
     half_length_m: f64,
     axis_W: Vector3<f64>,
     up: Vector3<f64>,
-    /// From the wall.
+    /// Direction out from the wall.
     out: Vector3<f64>,
 }
 
@@ -112,7 +112,7 @@ impl LadderAt {
     }
 }
 
-/// On a smooth floor along a smooth wall.
+/// The motion of a capsule that leans on a smooth floor along a smooth wall.
 fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
     let at = &start.bodies[index];
     let acceleration = unhindered(model, index)?;

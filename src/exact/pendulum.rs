@@ -111,7 +111,7 @@ impl Pendulum {
 }
 
 impl Course {
-    /// From k′ and sn, cn ≥ 0, dn of the start.
+    /// Course from k′ and sn, cn ≥ 0, dn of the start.
     fn new(kc: Dd, [sn, cn, dn]: [Dd; 3], rate: Dd) -> Self {
         let x_start = sn.f64() * carlson_rf(cn.squared().f64(), dn.squared().f64(), 1.0);
         let half_period = (kc.f64() > 0.0).then(|| cel(kc, Dd::ONE, Dd::ONE, Dd::ONE) * Dd::from(2.0));

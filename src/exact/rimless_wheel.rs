@@ -238,7 +238,7 @@ fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lac
     Ok(ExactMotion::new(move |t_s| wheel.at(t_s)))
 }
 
-/// How many edges a regular prism about the axis has, one of them at `foot` from the centre of mass.
+/// Number of edges of a regular prism about the axis, one of them at `foot` from the centre of mass.
 fn spokes(body: &Body, at: &BodyState, axis_W: &Vector3<f64>, foot: &Vector3<f64>) -> Option<usize> {
     let corners: Vec<Vector3<f64>> = match &body.geometry {
         Geometry::Solid { solid: Solid::Box { half_m }, centre } => {

@@ -83,9 +83,9 @@ impl RockingBlock {
         (begun - 1, self.alpha_rad - psi, -rate)
     }
 
-    /// Least coefficient of friction that never slips, of I/(m R²) about the edge. In an impact it is cot α (1 − ε)/(1
-    /// + ε) for the part ε that is left of the speed; in between |ẍ|/(g + z̈), which is monotone in ψ̇², 0 in some
-    /// later arc.
+    /// Least coefficient of friction that never slips, for `inertia` I/(m R²) about the edge. In an impact it is
+    /// cot α (1 − ε)/(1 + ε) for the part ε that is left of the speed; in between |ẍ|/(g + z̈), which is monotone in
+    /// ψ̇², 0 in some later arc.
     pub fn friction(&self, inertia: f64, left: f64) -> f64 {
         const SAMPLES: u32 = 1000;
         let highest = self.highest;

@@ -111,7 +111,7 @@ impl Wave {
 }
 
 impl Shape {
-    /// With sn′ = cn dn, cn′ = −sn dn, dn′ = −k² sn cn.
+    /// The amplitude's number and its derivative by x, with sn′ = cn dn, cn′ = −sn dn, dn′ = −k² sn cn.
     fn at(&self, [sn, cn, dn]: [f64; 3], kk: f64) -> (Complex<f64>, Complex<f64>) {
         let real = |x: f64| Complex::new(x, 0.0);
         match *self {

@@ -82,7 +82,7 @@ impl Roots {
 
 /// The root that is farther from the middle one than the other is, and whether it is the highest.
 fn far_root(c: &[Dd; 4]) -> (Dd, bool) {
-    /// From 2r to at least √3 r, quadratically: six reach 32 digits.
+    /// Number of steps: from 2r to at least √3 r, quadratically, six reach 32 digits.
     const STEPS: usize = 9;
     let at = |v: Dd| ((c[3] * v + c[2]) * v + c[1]) * v + c[0];
     let slope = |v: Dd| (Dd::from(3.0) * c[3] * v + Dd::from(2.0) * c[2]) * v + c[1];

@@ -377,7 +377,7 @@ impl Spaced {
         Ok(self.integers_if_all_are(&values))
     }
 
-    /// From 2 to 32 in five logarithmic steps are five whole numbers, and stay so.
+    /// Whole numbers where all are: from 2 to 32 in five logarithmic steps are five whole numbers, and stay so.
     fn integers_if_all_are(&self, values: &[f64]) -> Vec<Number> {
         let is_integer = integer(&self.from).is_some() && integer(&self.to).is_some();
         let as_integer = |x: &f64| (x.fract() == 0.0).then(|| to_number(*x as i128)).flatten();

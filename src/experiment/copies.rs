@@ -9,7 +9,7 @@ use super::types::{Body, Copies, Experiment};
 const MOST: u64 = 100_000;
 
 impl Copies {
-    /// What stands behind the name, and where it is from the first one.
+    /// What stands behind the name of every copy, and its displacement from the first one.
     fn each(&self) -> Vec<(String, [f64; 3])> {
         let step_m = self.step_m;
         if let Some(count) = self.count {

@@ -44,7 +44,7 @@ fn mark_scalars(tree: &mut Value, mark: &str) {
     }
 }
 
-/// With a dot and a signed exponent: 1.0e-5, 1.0e+16.
+/// Text of a number with a dot and a signed exponent: 1.0e-5, 1.0e+16.
 fn with_exponent(number: &Number) -> Option<String> {
     let text = number.to_string();
     let (digits, exponent) = text.split_once('e')?;

@@ -157,7 +157,7 @@ impl ExperimentError {
         self
     }
 
-    /// The same complaint about another place.
+    /// The error about another place.
     pub(crate) fn at(mut self, path: KeyPath) -> Self {
         self.0.path = path;
         self

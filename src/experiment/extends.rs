@@ -13,7 +13,7 @@ type Result<T> = std::result::Result<T, ExperimentError>;
 /// Most files below one another. More, each standing on the next, are a slip.
 const DEEPEST: usize = 16;
 
-/// Which file said what, and on which line.
+/// Origin of every value: which file said it, and on which line.
 #[derive(Clone, Debug)]
 pub(super) struct Origins {
     /// The file itself, its base, the base of that, ….

@@ -28,11 +28,11 @@ pub struct ExperimentFile {
     origins: Origins,
     /// All that was asked for: the file on its bases, with what the flags change.
     asked: Value,
-    /// The same without `sweep`, `expect` and `bench`.
+    /// The tree without `sweep`, `expect` and `bench`.
     tree: Value,
     axes: Axes,
-    /// What changes from case to case, shorter paths first, so that `method.lecture.sweeps` changes what `method` has
-    /// put there.
+    /// Changes from case to case, shorter paths first, so that `method.lecture.sweeps` changes what `method` has put
+    /// there.
     order: Vec<Varied>,
     search: Option<Search>,
     expect: Vec<Expectation>,
@@ -49,10 +49,10 @@ pub struct Change {
     pub written: Option<KeyPath>,
 }
 
-/// What changes from case to case.
+/// One thing that changes from case to case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Varied {
-    /// By its index.
+    /// An axis, by its index.
     Axis(usize),
     Searched,
 }
@@ -60,7 +60,7 @@ enum Varied {
 /// A point of the axes, with a value of the searched key if there is one.
 #[derive(Clone, Copy)]
 struct Point<'a> {
-    /// For every axis the index of its value.
+    /// Index of its value for every axis.
     indices: &'a [usize],
     searched: Option<&'a Number>,
 }
@@ -329,7 +329,7 @@ impl ExperimentFile {
         Ok((tree, changes))
     }
 
-    /// Where a point changes the tree, and to what.
+    /// Path and value by which a point changes the tree.
     fn change(&self, varied: Varied, point: Point) -> Option<(&[String], Value)> {
         match varied {
             // A file without axes has no point: the axes stay as the file has them.
@@ -382,7 +382,7 @@ impl ExperimentFile {
         values.collect::<Vec<_>>().join(", ")
     }
 
-    /// Where the value at the error's path came from: the last flag that touched it, else its line in its file.
+    /// The error at the origin of the value at its path: the last flag that touched it, else its line in its file.
     pub(crate) fn placed(&self, error: ExperimentError) -> ExperimentError {
         let path = &error.details().path;
         match self.given.iter().rev().find(|given| path.starts_with(&given.at)) {

@@ -112,7 +112,7 @@ fn varied_by(path: &[String]) -> Option<&str> {
     }
 }
 
-/// After `sweep.axes` comes one key with dots in it: an axis that exists, else all that is left.
+/// Path with one key after `sweep.axes`, which has dots in it: an axis that exists, else all that is left.
 fn with_axis_key(tree: &Value, mut path: Vec<String>) -> Vec<String> {
     if varied_by(&path).is_none() {
         return path;
@@ -125,14 +125,14 @@ fn with_axis_key(tree: &Value, mut path: Vec<String>) -> Vec<String> {
     path
 }
 
-/// How the file writes the axis that varies the value at `path`, which is the name of a column too.
+/// Key by which the file writes the axis that varies the value at `path`, which is the name of a column too.
 fn axis_key(tree: &Value, path: &[String]) -> String {
     let written = path.join(".");
     let same = axes_of(tree, &resolve(tree, path));
     if same.is_empty() || same.contains(&written) { written } else { same[0].clone() }
 }
 
-/// Of two flags for one axis, one would be lost without a word.
+/// Refuses the second of two flags for one axis, of which one would be lost without a word.
 fn refuse_second(given: &Given, path: &[String], target: &KeyPath, before: &[Applied]) -> Result<()> {
     let is_axis = |given: &Given| matches!(given, Given::Axis(_));
     let is_lost = |applied: &&Applied| {

@@ -105,7 +105,7 @@ impl Merge {
         }
     }
 
-    /// Of two new ones that share a name both are appended, and refused later.
+    /// Merges lists by name. Of two new items that share a name both are appended, and refused later.
     fn items(&mut self, base: &mut Vec<Value>, own: Vec<Value>) {
         let mut is_merged = vec![false; base.len()];
         for (i, item) in own.into_iter().enumerate() {

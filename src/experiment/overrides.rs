@@ -17,6 +17,8 @@ pub struct Override {
 }
 
 impl Override {
+    /// Path and value of a flag's text.
+    ///
     /// # Errors
     /// The text has no `=`, its value is no YAML, or its path is none.
     pub fn parse(text: &str) -> Result<Override> {
@@ -92,7 +94,7 @@ fn step<'v>(node: &'v mut Value, key: &str, at: &mut KeyPath, new_from: &mut Opt
     }
 }
 
-/// By name, else by index from 0.
+/// Index of an item, by name, else by index from 0.
 fn find_item(items: &[Value], key: &str) -> Option<usize> {
     let by_name = items.iter().position(|item| item_name(item) == Some(key));
     by_name.or_else(|| key.parse().ok().filter(|index| *index < items.len()))

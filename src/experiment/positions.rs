@@ -65,7 +65,7 @@ fn stopped_at(result: Result<(), serde_yaml::Error>) -> Option<Position> {
 }
 
 struct Walk<'a> {
-    /// Of the node that is being read.
+    /// Path of the node that is being read.
     path: Vec<String>,
     is_end: &'a mut dyn FnMut(&[String]) -> bool,
     has_ended: bool,

@@ -177,6 +177,8 @@ impl PredicateText {
         Bounds { min: self.min, max: self.max, above: self.above, below: self.below }
     }
 
+    /// The predicate that the keys say.
+    ///
     /// # Errors
     /// Neither an outcome, nor a criterion, nor a column with bounds that some number meets.
     pub fn read(&self, at: Path) -> Result<Predicate> {
@@ -215,6 +217,8 @@ pub enum QuantityText {
 }
 
 impl QuantityText {
+    /// The quantity that the keys say.
+    ///
     /// # Errors
     /// A predicate that is none.
     pub fn read(&self, at: Path) -> Result<Quantity> {

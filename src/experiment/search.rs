@@ -48,6 +48,8 @@ pub fn search_path() -> KeyPath {
 }
 
 impl SearchText {
+    /// The search that the keys say, among these axes.
+    ///
     /// # Errors
     /// A key that cannot be searched, or a bracket, condition, share, axis or width that is none.
     pub fn read(&self, axes: &Axes) -> Result<Search> {

@@ -1,4 +1,4 @@
-//! From a file to a tree of YAML values.
+//! Reader of a file, whose text becomes a tree of YAML values.
 
 use super::error::{ExperimentError, Kind, describe};
 use super::key_path::KeyPath;

@@ -23,7 +23,7 @@ use strum::{IntoStaticStr, VariantArray};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Experiment {
-    /// What the experiment wants to know, in a sentence.
+    /// Question that the experiment answers, in a sentence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub question: Option<String>,
     pub scene: Scene,
@@ -126,7 +126,7 @@ pub enum RecordCases {
     All,
     Diverged,
     First,
-    /// As many cases as said, evenly through the plan.
+    /// A number of cases, evenly through the plan.
     Sample(u32),
 }
 

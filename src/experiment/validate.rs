@@ -147,7 +147,7 @@ fn validate_place(scene: &Scene, at: Path) -> Result<()> {
     Ok(())
 }
 
-/// What the method can do with the scene's contacts.
+/// Checks that the method can do what the scene's contacts ask for.
 fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
     let (scene, method) = (&experiment.scene, &experiment.method);
     if method.facts().needs_mesh {
@@ -183,7 +183,7 @@ fn validate_exact(experiment: &Experiment, at: Path) -> Result<()> {
     }
 }
 
-/// It has to be a motion that `event-driven` can follow, and the same one.
+/// Checks that the motion is one that `event-driven` can follow, and the same one.
 fn validate_reference(experiment: &Experiment, root: Path) -> Result<()> {
     let Some(reference) = &experiment.reference else { return Ok(()) };
     let at = root.key("reference");

@@ -46,7 +46,7 @@ pub(super) fn who_lacks(method: &Method) -> String {
     }
 }
 
-/// Where v = 0 the third derivative of a body with |v| v jumps, and no coefficient says so.
+/// Refuses |v| v: where v = 0 the third derivative of a body with it jumps, and no coefficient says so.
 fn no_quadratic_drag(scene: &Scene, at: Path) -> Result<()> {
     match scene.air {
         Some(air) if air.drag_coefficient > 0.0 => {

@@ -32,7 +32,7 @@ pub fn item_name(item: &Value) -> Option<&str> {
 /// A value and where it stands.
 #[derive(Clone, Copy)]
 struct Node<'de, 'p> {
-    /// None: the settings of a word that was written alone.
+    /// Value there; None for the settings of a word that was written alone.
     value: Option<&'de Value>,
     path: Path<'p>,
 }

@@ -30,7 +30,7 @@ pub enum Iteration {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Correction {
-    /// After a sweep, all contacts at once.
+    /// At the end of a sweep, for all contacts at once.
     AfterSweep,
     /// Right after the contact's three rows: this is projected Gauss–Seidel.
     PerContact,

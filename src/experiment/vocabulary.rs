@@ -135,10 +135,10 @@ fn some(takes: &Takes) -> Value {
     }
 }
 
-/// What a reader has been asked for.
+/// Questions that a reader has been asked.
 #[derive(Default)]
 struct Asked {
-    /// Which word it gives.
+    /// Number of the word that it gives.
     place: usize,
     names: Cell<&'static [&'static str]>,
     settings: RefCell<Vec<(&'static str, Takes)>>,

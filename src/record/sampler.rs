@@ -1,4 +1,4 @@
-//! From states to samples, at the rate asked for, into the recording thread's batches.
+//! Sampler of a run: from states to samples, at the rate asked for, into the recording thread's batches.
 //!
 //! A recorded run is the same run: the sampler only looks. What no stream asks for is not computed.
 
@@ -19,7 +19,7 @@ use crate::state::State;
 pub struct Sampler {
     writer: Writer,
     streams: Streams,
-    /// A sample every so many steps.
+    /// Number of steps from one sample to the next.
     every: u64,
     ending: Option<Ending>,
 }
@@ -33,7 +33,7 @@ impl Sampler {
         step.is_multiple_of(self.every)
     }
 
-    /// `contacts`: of the step that led to `state`.
+    /// Adds a sample; `contacts` are those of the step that led to `state`.
     pub fn sample(&mut self, model: &Model, state: &State, contacts: impl ExactSizeIterator<Item = ContactForce>) {
         let batch = self.writer.batch();
         batch.step.push(state.step);
@@ -75,6 +75,9 @@ impl Sampler {
     }
 
     /// Writes the rest and closes the files; those of a run that has not ended stay incomplete.
+    ///
+    /// # Errors
+    /// The machine failed, in this call or in a write before it.
     pub fn finish(self) -> Result<(), RecordError> {
         self.ending.map_or(Ok(()), |ending| self.writer.finish(ending))
     }
@@ -90,7 +93,7 @@ pub fn streams(record: &Record) -> Streams {
     }
 }
 
-/// At least one; the whole number nearest to what is asked for.
+/// Number of steps from one sample to the next: the whole number nearest to what is asked for, at least one.
 pub fn steps_between(record: &Record, clock: &Clock) -> u64 {
     ((record.every_s / clock.step_s).round() as u64).max(1)
 }

@@ -1,4 +1,4 @@
-//! Which program made a row or a recording.
+//! The program that made a row or a recording.
 
 pub const PROGRAM: &str = concat!("gotai ", env!("CARGO_PKG_VERSION"));
 

@@ -6,11 +6,11 @@ use serde_json::{Map, Value};
 
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// Depends on the resolved configuration alone.
+    /// Hash of the resolved configuration, which alone it depends on.
     pub id: String,
     /// Value on every axis, as the result columns show it.
     pub axes: Map<String, Value>,
-    /// Of a search: its first run.
+    /// The resolved experiment; of a search, that of its first run.
     pub experiment: Experiment,
 }
 
@@ -19,8 +19,8 @@ impl Case {
         Case { id: id(&[canonical(&experiment)]), axes, experiment }
     }
 
-    /// Many runs that make one row: `ends` are the experiments at both ends of a bracket, of everything that is tried
-    /// together; `rule` says how they are searched.
+    /// A case of many runs that make one row: `ends` are the experiments at both ends of a bracket, of everything that
+    /// is tried together; `rule` says how they are searched.
     ///
     /// # Panics
     /// Without an experiment.
@@ -33,13 +33,13 @@ impl Case {
     }
 }
 
-/// Everything that decides the motion: not the question, nor what is recorded of it.
+/// JSON of everything that decides the motion: not the question, nor what is recorded of it.
 pub fn canonical(experiment: &Experiment) -> Vec<u8> {
     let decisive = Experiment { question: None, record: Record::default(), ..experiment.clone() };
     serde_json::to_vec(&decisive).unwrap_or_default()
 }
 
-/// 64 bits of a hash.
+/// Id of these parts: 64 bits of their hash.
 pub fn id(parts: &[Vec<u8>]) -> String {
     sha256(parts.concat(), 8)
 }

@@ -11,13 +11,13 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// n = max(1, round(end/step)) equal steps of end/n.
+    /// A clock of n = max(1, round(end/step)) equal steps of end/n.
     pub fn new(step_s: f64, end_s: f64) -> Self {
         let steps = ((end_s / step_s).round() as u64).max(1);
         Clock { steps, end_s, step_s: end_s / steps as f64 }
     }
 
-    /// From the count, so that no rounding adds up.
+    /// Moves a state to the next step. Its time follows from the count of steps, so that no rounding adds up.
     pub fn advance(&self, state: &mut State) {
         state.step += 1;
         let passed_s = self.end_s * state.step as f64 / self.steps as f64;

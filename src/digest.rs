@@ -4,12 +4,15 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::io::{self, BufRead};
 
-/// The first bytes of a content's digest.
+/// The first bytes of a content's digest, in hexadecimal.
 pub fn sha256(content: impl AsRef<[u8]>, bytes: usize) -> String {
     hex(&Sha256::digest(content)[..bytes])
 }
 
 /// Length and digest of all that is left to read.
+///
+/// # Errors
+/// The reader's.
 ///
 /// # Errors
 /// The reader's.
@@ -27,9 +30,9 @@ pub fn sha256_of(mut content: impl BufRead) -> io::Result<(u64, String)> {
     }
 }
 
-/// Between what a sealed object says and its checksum.
+/// Text between what a sealed object says and its checksum.
 const SEAL: &str = ",\"sum\":\"";
-/// Of the checksum.
+/// Number of bytes of the checksum.
 const SEAL_BYTES: usize = 8;
 
 /// A JSON object with one more member, 64 bits of the SHA-256 of all before it.
@@ -39,7 +42,8 @@ pub fn sealed(object: &impl Serialize) -> String {
     format!("{said}{SEAL}{}\"}}", sha256(said, SEAL_BYTES))
 }
 
-/// What a sealed object said; none: it is not what was written. (The end of a line may have been translated.)
+/// Text of a sealed object without its seal; None where it is not what was written. (The end of a line may have been
+/// translated.)
 pub fn unsealed(text: &[u8]) -> Option<String> {
     let (said, sum) = std::str::from_utf8(text).ok()?.trim_end_matches(['\r', '\n']).rsplit_once(SEAL)?;
     let is_whole = sum.strip_suffix("\"}")? == sha256(said, SEAL_BYTES);

@@ -1,10 +1,10 @@
-//! Whole files or none, and what is said when the machine fails.
+//! Files that are whole or not there, and errors of the machine.
 
 use std::fs::{File, Metadata};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// The machine failed: disk full, no permission.
+/// Failure of the machine: disk full, no permission.
 #[derive(Debug, thiserror::Error)]
 #[error("{path}: {reason}")]
 pub struct FileError {
@@ -18,14 +18,17 @@ impl FileError {
     }
 }
 
-/// Under a temporary name first: a file with the final name is whole.
+/// Writes a file under a temporary name first: a file with the final name is whole.
+///
+/// # Errors
+/// The machine failed.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FileError> {
     let partial = path.with_extension("partial");
     std::fs::write(&partial, content).map_err(|error| FileError::new(&partial, error))?;
     std::fs::rename(&partial, path).map_err(|error| FileError::new(path, error))
 }
 
-/// The folder, made if it is not there.
+/// Makes a folder if it is not there, and those above it.
 ///
 /// # Errors
 /// The machine failed.
@@ -69,7 +72,7 @@ pub fn is_at(file: &File, path: &Path) -> bool {
     true
 }
 
-/// What is in a file.
+/// Content of a file.
 ///
 /// # Errors
 /// It is not there, or the machine failed.

@@ -4,7 +4,7 @@
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
-/// What the cells of a column hold; any of them may be null.
+/// Kind of the cells of a column; any of them may be null.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CellKind {
@@ -27,20 +27,20 @@ impl CellKind {
 /// One column, or the columns of a vector's components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heading {
-    /// Its name; `<body>.` at the start stands for each body's name.
+    /// Name of the column; `<body>.` at the start stands for each body's name.
     pub name: &'static str,
-    /// Names of the components, each a column `name.part`; none: the name is the column.
+    /// Names of the components, each a column `name.part`; where there are none, the name is the column.
     pub parts: &'static [&'static str],
     pub kind: CellKind,
-    /// What the number is, in whole sentences.
+    /// Meaning of the number, in whole sentences.
     pub meaning: &'static str,
 }
 
-/// What a name that belongs to each body begins with.
+/// Beginning of a name that belongs to each body.
 pub const EACH_BODY: &str = "<body>";
 
 impl Heading {
-    /// `meaning` as a doc comment has it: with a space before every line.
+    /// A heading of one column; `meaning` as a doc comment has it, with a space before every line.
     pub const fn new(name: &'static str, kind: CellKind, meaning: &'static str) -> Self {
         Heading { name, parts: &[], kind, meaning: meaning.trim_ascii() }
     }
@@ -80,7 +80,7 @@ pub fn unit_of(name: &str) -> &'static str {
     ends(name).or_else(|| ends(name.rsplit_once('.')?.0)).unwrap_or_default()
 }
 
-/// What stands last in a name, the longer before its own ending.
+/// Endings of names with their units, the longer before its own ending.
 const UNITS: [(&str, &str); 17] = [
     ("_m_s2", "m/s²"),
     ("_kg_m3", "kg/m³"),
@@ -140,7 +140,7 @@ impl<T: InCell> InCell for Option<T> {
 
 /// A row, or a part of one.
 pub trait Headings {
-    /// In the order in which serde writes the fields.
+    /// Headings in the order in which serde writes the fields.
     fn headings() -> Vec<Heading>;
 }
 

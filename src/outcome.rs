@@ -1,26 +1,26 @@
-//! How a run ended, and why.
+//! Outcome of a run, and the criterion that stopped it.
 
 use serde::{Deserialize, Serialize};
 
-/// How a run ended.
+/// Outcome of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
-    /// Reached its end time.
+    /// End time reached.
     #[default]
     Finished,
-    /// Met a divergence criterion: a result.
+    /// Divergence criterion met: a result.
     Diverged,
-    /// Could not go on: a result.
+    /// No way to go on: a result.
     Stalled,
-    /// The program failed: a panic.
+    /// Failure of the program: a panic.
     Failed,
 }
 
 impl Outcome {
     pub const ALL: [Outcome; 4] = [Outcome::Finished, Outcome::Diverged, Outcome::Stalled, Outcome::Failed];
 
-    /// As files write it.
+    /// Word of the outcome in files.
     pub fn name(self) -> &'static str {
         match self {
             Outcome::Finished => "finished",
@@ -31,7 +31,7 @@ impl Outcome {
     }
 }
 
-/// Why a run stopped; the column `criterion`.
+/// Reason why a run stopped; the column `criterion`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Criterion {
     NotFinite,
@@ -39,11 +39,11 @@ pub enum Criterion {
     Escape,
     Speed,
     Penetration,
-    /// A step could not be made to its tolerance: the run has stalled.
+    /// Step that could not be made to its tolerance: the run has stalled.
     NotConverged,
-    /// Sliding has no finite force that goes on, and no impulse ends it.
+    /// Slip that no finite force lets go on, and no impulse ends.
     Painleve,
-    /// One of `limits:` is used up.
+    /// Limit of `limits:` that is used up.
     Limit,
 }
 

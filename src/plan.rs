@@ -1,27 +1,27 @@
-//! What this scene needs: the stages that run, and the reasons why others are skipped.
+//! Needs of a scene: the stages that run, and the reasons why others are skipped.
 //!
 //! A skip follows from a property that is checked, never from one mesh or scene, and changes no bit of the motion.
 
 use crate::experiment::types::{Approach, ContactModel, Facts, Impact, Method, PositionCorrection};
 use crate::model::Model;
 
-/// Decided once a run.
+/// Stages of a run, decided once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Some body can touch something, and the method looks.
+    /// Whether some body can touch something, and the method looks.
     pub contact: bool,
-    /// Room to keep: every point touching the three faces of a corner at once; beyond some thousand contacts what keeps
+    /// Room for contacts: every point touching the three faces of a corner at once; beyond some thousand contacts what keeps
     /// them grows when they come.
     pub contacts: usize,
-    /// The method claims that its impulses obey the law of contact, and is held to it.
+    /// Whether the method claims that its impulses obey the law of contact, and is held to it.
     pub constraint: bool,
-    /// Tangent rows are solved.
+    /// Whether tangent rows are solved.
     pub friction: bool,
-    /// How it steps through a contact.
+    /// Way of the method through a contact.
     pub approach: Approach,
-    /// Restitution is Newton's law.
+    /// Whether restitution is Newton's law.
     pub newton: bool,
-    /// Of the springs that a method has in place of a law of contact.
+    /// Stiffness of the springs that a method has in place of a law of contact.
     pub stiffness_n_m: Option<f64>,
     pub stages: Vec<Stage>,
 }
@@ -127,7 +127,7 @@ fn position_correction(by: Option<PositionCorrection>, contact: bool) -> Stage {
     }
 }
 
-/// What a method that follows events does between them.
+/// Stage between the events of a method that follows them.
 fn events(model: &Model) -> Stage {
     let name = "integration between events";
     let moving = || model.bodies.iter().enumerate().filter(|(_, body)| !body.driven);
@@ -142,7 +142,7 @@ fn events(model: &Model) -> Stage {
     }
 }
 
-/// What `auto` considers.
+/// Stage of what `auto` considers.
 fn choice(tolerance: f64) -> Stage {
     let why = format!(
         "event-driven at {tolerance:e} and finer, until two runs agree to {tolerance:e} m; where all stall or fall \

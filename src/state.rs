@@ -1,4 +1,4 @@
-//! What changes during a run: time, poses, velocities.
+//! Variables of a run: time, poses, velocities.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -6,7 +6,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyState {
     pub p_WB: Vector3<f64>,
-    /// Body → world.
+    /// Attitude, body → world.
     pub q_WB: UnitQuaternion<f64>,
     pub v_WB: Vector3<f64>,
     pub w_WB: Vector3<f64>,
@@ -28,7 +28,7 @@ pub struct State {
 }
 
 impl State {
-    /// Becomes the other, of as many bodies, without allocating.
+    /// Makes this the other state, of as many bodies, without allocating.
     pub fn copy_from(&mut self, other: &State) {
         (self.step, self.time_s) = (other.step, other.time_s);
         self.bodies.copy_from_slice(&other.bodies);

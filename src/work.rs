@@ -1,10 +1,10 @@
-//! Work, counted in integers: the same on every machine, so that a test can hold it.
+//! Work of a run, counted in integers: the same on every machine, so that a test can hold it.
 
 use crate::heading::columns;
 use serde::{Deserialize, Serialize};
 
 columns! {
-    /// Columns `work_*` of a row.
+    /// Counters of a run, the columns `work_*` of a row.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     pub struct Work {
         /// Points that were held against a face.

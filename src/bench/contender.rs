@@ -1,4 +1,4 @@
-//! One method at one step or tolerance: what is planned, and the row that it makes.
+//! Contenders of a bench: a method at one step or tolerance, and the row that its run makes.
 
 use crate::check::{Schema, refuse_no_numbers};
 use crate::experiment::bench::{Bench, Listed, bench_path};
@@ -21,10 +21,10 @@ use std::path::Path;
 
 type Result<T> = std::result::Result<T, ExperimentError>;
 
-/// One method at one step or tolerance.
+/// A method at one step or tolerance.
 pub struct Contender {
     pub method: String,
-    /// Made by the method itself where it controls its error, and of no meaning to a closed form.
+    /// Length of the steps; made by the method itself where it controls its error, and of no meaning to a closed form.
     pub step_s: Option<f64>,
     pub tolerance: Option<f64>,
     pub experiment: Experiment,
@@ -32,7 +32,7 @@ pub struct Contender {
     pub start: State,
 }
 
-/// The program failed: timed and judged run of a contender end in different states.
+/// Failure of the program: the timed and the judged run of a contender end in different states.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}: the timed run ends in another state than the judged one; please report this")]
 pub struct NotDeterministic(String);
@@ -92,7 +92,7 @@ fn contender(file: &ExperimentFile, listed: &Listed, value: Option<(f64, KeyPath
     Ok(Contender { method: listed.label.clone(), step_s: by_step, tolerance, experiment, model, start })
 }
 
-/// Axes that mean nothing here.
+/// Whether a path is a step or the method, whose axes mean nothing here.
 fn is_set_by_bench(path: &[String]) -> bool {
     path[0] == "method" || path == ["time", "step_s"]
 }
@@ -109,7 +109,8 @@ fn check_error(experiment: &Experiment, bench: &Bench) -> Result<()> {
     Ok(())
 }
 
-/// Runs a contender: once judged, then as often as its time needs. References are kept in a folder, if there is one.
+/// The row of a contender, run once judged, then as often as its time needs. References are kept in a folder, if there
+/// is one.
 ///
 /// # Errors
 /// The two end in different states.

@@ -1,4 +1,4 @@
-//! A scene and a method in the plain words of a comparison of engines, timed, its end as one line of numbers.
+//! One engine of a comparison: a scene and a method in plain words, timed, the end of the run as one line of numbers.
 //!
 //! The scene is text, one item a line, SI units, as `benches/peer.rs` shows; it becomes an experiment file, so that
 //! what a user cannot write a comparison cannot either. `RESULT` is of stepping alone, the best of the repeats; of a
@@ -14,7 +14,7 @@ use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use std::path::Path;
 
-/// What is wrong with a scene or a setting, or why there is no result.
+/// Reason why there is no result: a scene or a setting that is wrong, or a run that does not come to its end.
 #[derive(Debug, thiserror::Error)]
 pub enum PeerError {
     #[error("line {line}: expected {expected}, found `{found}`")]
@@ -27,7 +27,7 @@ pub enum PeerError {
     Stalled(f64),
 }
 
-/// Times a scene; `settings` are `key=value`. The line of the result.
+/// The line of the result of a timed scene; `settings` are `key=value`.
 ///
 /// # Errors
 /// The scene or a setting is wrong, or the run does not come to its end.
@@ -115,14 +115,14 @@ fn body(line: &Line, index: usize) -> Result<Value, PeerError> {
     }))
 }
 
-/// Of the scene, numbered from 1.
+/// A line of the scene, numbered from 1.
 struct Line<'a> {
     number: usize,
     text: &'a str,
 }
 
 impl Line<'_> {
-    /// All that stands behind so many words.
+    /// Numbers behind the first `words` words of the line, which has no others.
     fn numbers<const N: usize>(&self, words: usize) -> Result<[f64; N], PeerError> {
         let numbers = self.text.split_whitespace().skip(words).map(str::parse::<f64>);
         let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().map_err(|_| self.expected("numbers"))?;

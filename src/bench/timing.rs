@@ -1,4 +1,4 @@
-//! How long the steps of a run take, and nothing but the steps: no judge, no recorder, no allocation.
+//! Run time of the steps of a run, and of nothing but the steps: no judge, no recorder, no allocation.
 
 use crate::experiment::types::Limits;
 use crate::model::Model;
@@ -7,20 +7,20 @@ use crate::state::State;
 use crate::study::choose::Chosen;
 use std::time::{Duration, Instant};
 
-/// Of one run.
+/// Best and median time of a run's steps (s), and the state in which it ends.
 pub struct Timed {
     pub best_s: f64,
     pub median_s: f64,
     pub end: State,
 }
 
-/// Repeats go on for so long, if ten times those asked for do not take as much.
+/// Time that repeats go on for, if ten times those asked for do not take as much.
 const ENOUGH: Duration = Duration::from_millis(50);
-/// Runs are timed together until they take this: thousands of times the clock's resolution.
+/// Least time of the runs that are timed together: thousands of times the clock's resolution.
 const READABLE: Duration = Duration::from_micros(200);
 const MOST_TOGETHER: usize = 1 << 12;
 
-/// Times a run that reaches its end.
+/// Times of a run that reaches its end, from at least `repeats` repeats.
 pub fn time(chosen: &Chosen, model: &Model, start: &State, repeats: u32) -> Timed {
     let (clock, limits) = (chosen.experiment.clock(), Limits::default());
     let fresh = || Advance::new(&chosen.method, model, start.clone(), clock, &limits);
@@ -46,20 +46,20 @@ pub fn time(chosen: &Chosen, model: &Model, start: &State, repeats: u32) -> Time
     Timed { best_s: samples[0], median_s: median(&samples), end: runs.swap_remove(0).state().clone() }
 }
 
-/// From the start to the end, run after run.
+/// Time of the runs, each from its start to its end, one after another.
 fn all_steps(runs: &mut [Advance], model: &Model) -> Duration {
     let started = Instant::now();
     runs.iter_mut().for_each(|run| run.run_out(model));
     started.elapsed()
 }
 
-/// Of sorted numbers, at least one.
+/// Median of sorted numbers, of which there is at least one.
 fn median(sorted: &[f64]) -> f64 {
     let middle = sorted.len() / 2;
     if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
 }
 
-/// Keeps this thread on one core, the last that it may use. False: the system does not let it.
+/// Keeps this thread on one core, the last that it may use. False where the system does not let it.
 pub fn pin() -> bool {
     let core = core_affinity::get_core_ids().and_then(|cores| cores.last().copied());
     core.is_some_and(core_affinity::set_for_current)

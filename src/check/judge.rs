@@ -1,4 +1,4 @@
-//! One expectation, one verdict.
+//! The verdict on an expectation.
 //!
 //! No row selected, a null or a number that is not finite: not met, never a pass.
 
@@ -19,11 +19,11 @@ pub struct Judged {
     pub measured: String,
     pub met: bool,
     pub why: Option<String>,
-    /// Rows it is about.
+    /// Number of rows that the expectation is about.
     pub rows: usize,
 }
 
-/// What was measured, and whether that is what was expected.
+/// A measurement in words, and whether it is what was expected.
 struct Verdict {
     measured: String,
     met: bool,
@@ -35,7 +35,7 @@ impl Verdict {
     }
 }
 
-/// Judges the rows, which have the columns of `schema`.
+/// Verdict on an expectation by the rows that it is about; rows have the columns of `schema`.
 pub fn judge(expectation: &Expectation, schema: &Schema, rows: &[Cells]) -> Judged {
     let rows = selected(&rows.iter().collect::<Vec<_>>(), &expectation.rows);
     let verdict = if rows.is_empty() {
@@ -200,7 +200,7 @@ fn trend_of_numbers(
     Ok((mann_kendall(&cells), arrows(&means)))
 }
 
-/// Level by level; of many levels the first and the last.
+/// Levels in their order, with arrows between them; of many levels the first and the last.
 fn arrows(levels: &[String]) -> String {
     const MOST: usize = 12;
     match levels.len() {
@@ -325,7 +325,7 @@ fn range(values: &[f64]) -> String {
     }
 }
 
-/// Four significant digits.
+/// A number to four significant digits.
 fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 || !x.is_finite() {

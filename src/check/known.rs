@@ -1,4 +1,4 @@
-//! What an expectation or a search names must exist: said before the first run, with file, line and key.
+//! Checks, before the first run, that what an expectation or a search names exists; errors have file, line and key.
 
 use super::schema::Schema;
 use crate::experiment::ExperimentError;
@@ -13,7 +13,11 @@ use crate::rows::columns;
 
 type Result = std::result::Result<(), ExperimentError>;
 
-/// The first name that nothing has. The error has no file and line yet.
+/// Checks every name of expectations and search against the columns and axes that rows will have.
+///
+/// # Errors
+/// The first name or value that nothing has, or a column of texts where numbers are needed. The error has no file and
+/// line yet.
 pub fn refuse_unknown(schema: &Schema, expectations: &[Expectation], search: Option<&Search>) -> Result {
     let base = KeyPath::of_keys(&["expect"]);
     let at = Path::Base(&base);
@@ -66,7 +70,10 @@ fn predicate(schema: &Schema, of: &Predicate, at: Path) -> Result {
     }
 }
 
-/// Refuses what no row has a number in.
+/// Checks that a column, or both of a quotient, are columns of numbers.
+///
+/// # Errors
+/// A name that no column has, or a column of texts.
 pub fn numbers(schema: &Schema, column: &Column, at: Path) -> Result {
     for name in column.names() {
         known(schema, name, at)?;

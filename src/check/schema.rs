@@ -16,14 +16,15 @@ pub type Cells = Map<String, Value>;
 pub struct Schema {
     /// Axes that rows show, with their values in the order of the plan.
     pub axes: Vec<(String, Vec<Value>)>,
-    /// Axes that advance together.
+    /// Groups of axes that advance together.
     groups: Vec<Vec<String>>,
     /// All columns, axes among them.
     pub columns: Vec<String>,
 }
 
 impl Schema {
-    /// `over` is the axis that a search has used up; `more` are the columns that only some experiments have.
+    /// The columns of a sweep's rows. `over` is the axis that a search has used up; `more` are the columns that only
+    /// some experiments have.
     pub fn new(axes: &Axes, over: Option<usize>, more: &[String]) -> Self {
         let path = |i: &usize| axes.axes[*i].path.clone();
         let shown = (0..axes.axes.len()).filter(|i| over != Some(*i));
@@ -44,20 +45,21 @@ impl Schema {
         self.axes.iter().find(|(path, _)| path == name).map(|(_, values)| values.as_slice())
     }
 
-    /// The axes that vary independently of this one: what tells cells apart.
+    /// Names of the axes that vary independently of this one; they tell cells apart.
     pub(super) fn others(&self, axis: &str) -> Vec<&str> {
         let tied = self.groups.iter().find(|group| group.iter().any(|name| name == axis));
         let is_tied = |path: &str| path == axis || tied.is_some_and(|group| group.iter().any(|name| name == path));
         self.axes.iter().map(|(path, _)| path.as_str()).filter(|path| !is_tied(path)).collect()
     }
 
-    /// The place of a row's value on the axis.
+    /// Place of a row's value among the values of the axis.
     pub(super) fn level(&self, axis: &str, row: &Cells) -> Option<usize> {
         let cell = row.get(axis)?;
         self.axis(axis)?.iter().position(|value| is_same(value, cell))
     }
 
-    /// A column, or all components of a vector (`cube.position_m`), or all vectors of all end states (`state`).
+    /// Columns of a name, vector by vector: a column, all components of a vector (`cube.position_m`), or all vectors of
+    /// all end states (`state`).
     pub(super) fn vectors(&self, name: &str) -> Vec<Vec<&str>> {
         if self.columns.iter().any(|column| column == name) {
             return vec![self.columns.iter().map(String::as_str).filter(|column| *column == name).collect()];
@@ -78,7 +80,7 @@ impl Schema {
     }
 }
 
-/// Rows as `check` reads them.
+/// Rows by the names of their columns.
 pub fn cells_of(rows: &[Row]) -> Vec<Cells> {
     rows.iter().map(cells).collect()
 }
@@ -87,7 +89,7 @@ pub(super) fn selected<'a>(rows: &[&'a Cells], filter: &Filter) -> Vec<&'a Cells
     rows.iter().copied().filter(|row| filter.takes(|name| row.get(name))).collect()
 }
 
-/// Rows, or what comes with a row, that agree in all of these axes; in the order of their first rows.
+/// Groups of rows, or of what comes with a row, that agree in all of these axes; in the order of their first rows.
 pub(super) fn strata<T>(rows: impl IntoIterator<Item = T>, cells: impl Fn(&T) -> &Cells, axes: &[&str]) -> Vec<Vec<T>> {
     let mut strata: Vec<Vec<T>> = Vec::new();
     let mut places = HashMap::new();

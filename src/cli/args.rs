@@ -11,10 +11,10 @@ use crate::sweep::runner::targets;
 use clap::{ArgMatches, Args, FromArgMatches, ValueEnum};
 use std::path::{Component, Path, PathBuf};
 
-/// Of every command that reads an experiment.
+/// Flags of every command that reads an experiment.
 #[derive(Clone, Debug)]
 pub(super) struct ExperimentArgs {
-    /// In the order on the command line, which each of the two flags alone does not tell.
+    /// Flags in the order on the command line, which each of the two kinds alone does not tell.
     given: Vec<Given>,
 }
 
@@ -58,7 +58,7 @@ impl FromArgMatches for ExperimentArgs {
     }
 }
 
-/// Of every command that prints.
+/// Flags of every command that prints.
 #[derive(Args, Clone, Copy, Debug)]
 pub(super) struct OutputArgs {
     /// One JSON document on stdout and nothing else there
@@ -72,7 +72,7 @@ pub(super) struct OutputArgs {
     pub(super) verbose: bool,
 }
 
-/// Of every command that runs cases.
+/// Flags of every command that runs cases.
 #[derive(Args, Clone, Debug)]
 pub(super) struct RunArgs {
     /// Folder for the results [default: recordings/<path of the config below configs/, without .yaml>+<what is set>]
@@ -106,7 +106,10 @@ impl From<RecordFlag> for RecordTo {
 }
 
 impl RunArgs {
-    /// The flag wins over the file.
+    /// Kinds of file to record into: those of the flag, else those of the file.
+    ///
+    /// # Errors
+    /// What is asked for is a kind that this build cannot write.
     pub(super) fn targets(&self, in_file: Option<RecordTo>) -> Result<Vec<Target>, CliError> {
         let targets = targets(self.record.map(RecordTo::from).or(in_file));
         match targets.iter().find(|target| !Target::AVAILABLE.contains(target)) {
@@ -118,6 +121,9 @@ impl RunArgs {
     }
 
     /// A pool of as many threads as asked for.
+    ///
+    /// # Errors
+    /// No thread is asked for, or the machine has none to give.
     pub(super) fn pool(&self) -> Result<rayon::ThreadPool, CliError> {
         if self.jobs == Some(0) {
             return Err(CliError::Input("--jobs: expected at least 1, found 0".into()));
@@ -132,7 +138,7 @@ impl ExperimentArgs {
         Ok(ExperimentFile::load_given(config, &self.given)?)
     }
 
-    /// Of a command that runs a single case.
+    /// Refuses axes on the command line of a command that runs a single case.
     pub(super) fn refuse_axes(&self) -> Result<(), CliError> {
         match self.given.iter().find(|given| matches!(given, Given::Axis(_))) {
             None => Ok(()),
@@ -143,18 +149,18 @@ impl ExperimentArgs {
         }
     }
 
-    /// The same of a text that stands in a file of another kind.
+    /// The experiment of a text that stands in a file of another kind, with the flags' changes.
     pub(super) fn read(&self, path: &Path, text: &str) -> Result<ExperimentFile, CliError> {
         Ok(ExperimentFile::from_text_given(path, text, &self.given)?)
     }
 
-    /// Nothing is changed.
+    /// Whether the flags change nothing.
     pub(super) fn is_empty(&self) -> bool {
         self.given.is_empty()
     }
 
-    /// recordings/<path of the config below configs/, without .yaml>, and what was set, so that no run overwrites the
-    /// table of another one. What a folder of results keeps goes on there.
+    /// Default folder of results: recordings/<path of the config below configs/, without .yaml>, and what was set, so
+    /// that no run overwrites the table of another one. What a folder of results keeps goes on there.
     pub(super) fn default_out(&self, config: &Path) -> PathBuf {
         let kept = config.parent().filter(|dir| config.ends_with(EXPERIMENT) && Folder::is_one(dir));
         let own = || Path::new("recordings").join(below_configs(config));

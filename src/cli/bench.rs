@@ -41,6 +41,10 @@ struct PlannedBench {
 }
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         // Every trial of every file is checked before the first run.
         let planned = self.planned()?;
@@ -93,7 +97,7 @@ impl Command {
         Ok(())
     }
 
-    /// All trials of a file, on a thread that stays where it is.
+    /// Rows of all trials of a file, made on a thread that stays on one core.
     fn on_one_core(&self, planned: &PlannedBench, dir: &Path) -> Result<Vec<Trial>, CliError> {
         let work = || {
             if !timing::pin() && !self.output.quiet {
@@ -120,13 +124,13 @@ impl Command {
     }
 }
 
-/// The question, else the file's name.
+/// Title of the diagram: the question, else the file's name.
 fn title(planned: &PlannedBench) -> String {
     let question = planned.trials.iter().find_map(|trial| trial.experiment.question.clone());
     question.unwrap_or_else(|| planned.file.path().display().to_string())
 }
 
-/// `bench.json`, `.csv`, `.svg`, `.png`.
+/// Writes `bench.json`, `.csv`, `.svg` and `.png`.
 fn write(dir: &Path, title: &str, rows: &[Trial]) -> Result<(), CliError> {
     let diagram = report::bench::diagram(title, rows);
     let failed = |error: &dyn std::fmt::Display| CliError::Machine(format!("{}: {error}", dir.display()));

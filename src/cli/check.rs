@@ -28,6 +28,10 @@ pub struct Command {
 }
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         let pool = self.sweep.run.pool()?;
         // Every case and every expectation of every file is checked before the first run.

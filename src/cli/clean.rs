@@ -21,6 +21,10 @@ pub struct Command {
 }
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         if !Folder::is_one(&self.dir) {
             return Err(FolderError::NoResults(self.dir.display().to_string()).into());
@@ -69,7 +73,7 @@ impl Command {
     }
 }
 
-/// A replay that is under way holds its lock.
+/// Refuses where a replay that is under way holds its lock.
 fn refuse_running(replays: &[PathBuf]) -> Result<(), CliError> {
     let mut locks = replays.iter().filter(|path| path.extension().is_some_and(|ending| ending == LOCK));
     Ok(locks.try_for_each(|path| open_alone(path, path).map(drop))?)

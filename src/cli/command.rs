@@ -42,6 +42,10 @@ enum Command {
 }
 
 impl Cli {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         match self.command {
             Command::Run(command) => command.run(),

@@ -1,4 +1,4 @@
-//! Why a command failed, and its exit code.
+//! Errors of the commands, with their exit codes.
 
 use crate::experiment::ExperimentError;
 use crate::files::FileError;
@@ -8,7 +8,7 @@ use crate::sweep::runner::SweepError;
 use crate::sweep::store::StoreError;
 use std::process::ExitCode;
 
-/// Why a command failed; says its exit code.
+/// Reason why a command failed; it says the exit code.
 #[derive(Debug, thiserror::Error)]
 pub enum CliError {
     #[error(transparent)]

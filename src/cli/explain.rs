@@ -29,7 +29,7 @@ pub struct Command {
     output: OutputArgs,
 }
 
-/// What a sweep costs, before it is run.
+/// Cost of a sweep, before it is run.
 struct Cost {
     cases: usize,
     references: usize,
@@ -38,7 +38,7 @@ struct Cost {
     bytes: u64,
 }
 
-/// The same stage in how many cases, with the reasons given.
+/// A stage with the number of cases that have it, and the reasons given.
 struct Tally {
     name: &'static str,
     runs: usize,
@@ -47,6 +47,10 @@ struct Tally {
 }
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         let file = self.experiment.load(&self.config)?;
         let cases = cases(&file)?;
@@ -112,10 +116,10 @@ fn tallies(cases: &[Planned]) -> Vec<Tally> {
     tallies
 }
 
-/// Extrapolated from trials of a few cases, evenly through the plan.
+/// Cost of all cases, extrapolated from trials of a few, evenly through the plan.
 fn cost(cases: &[Planned]) -> Cost {
     const TRIALS: usize = 12;
-    /// Of all trials together: nobody waits longer for an estimate.
+    /// Time of all trials together, in seconds: nobody waits longer for an estimate.
     const MOMENT_S: f64 = 1.0;
     let steps = cases.iter().map(|planned| planned.case.experiment.clock().steps * runs(planned)).sum();
     let trials = cases.len().min(TRIALS);
@@ -126,19 +130,20 @@ fn cost(cases: &[Planned]) -> Cost {
     Cost { cases: cases.len(), references: references.len(), steps, seconds, bytes: bytes(cases) }
 }
 
-/// All runs of a case or a search.
+/// Time of all runs of a case or a search, in seconds.
 fn trial_s(planned: &Planned, moment_s: f64) -> f64 {
     let experiment = &planned.case.experiment;
     let Ok((model, start)) = scene::build(experiment) else { return 0.0 };
     trial::seconds(experiment, &model, start, moment_s) * runs(planned) as f64
 }
 
-/// Of a search about how many; all counted with the steps of the first one, which is mostly the longest.
+/// Number of runs of a case; of a search about how many. All are counted with the steps of the first one, which is
+/// mostly the longest.
 fn runs(planned: &Planned) -> u64 {
     planned.search.as_ref().map_or(1, |cell| cell.expected_runs() as u64)
 }
 
-/// Sizes measured with one body and 0 to 8 contacts, zstd level 1: bytes a sample in one file.
+/// Size of all recordings, in bytes: of a sample in one file, measured with one body and 0 to 8 contacts, zstd level 1.
 fn bytes(cases: &[Planned]) -> u64 {
     const OF_A_BODY: u64 = 150;
     const OF_A_CONTACT: u64 = 60;

@@ -6,6 +6,8 @@ use crate::check::Judged;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::path::Path;
 
+/// Writes the verdicts of all files.
+///
 /// # Errors
 /// The machine failed.
 pub fn write(path: &Path, checked: &[Checked]) -> Result<(), CliError> {

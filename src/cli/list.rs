@@ -40,9 +40,9 @@ enum What {
     Measures,
 }
 
-/// Texts are Markdown.
+/// A list under a title; texts are Markdown.
 struct Section {
-    /// Empty: that of its list.
+    /// Title of its own; empty where the list's serves.
     title: String,
     lead: String,
     head: &'static [&'static str],
@@ -50,6 +50,10 @@ struct Section {
 }
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         if self.markdown {
             print(page(&self.what).trim_end());
@@ -103,7 +107,7 @@ impl What {
     }
 }
 
-/// A document of its own.
+/// The lists as one document of Markdown.
 fn page(whats: &[What]) -> String {
     let named: Vec<String> = whats.iter().map(|what| what.word()).collect();
     let titles: Vec<String> = whats.iter().map(|what| what.title().to_lowercase()).collect();
@@ -145,7 +149,7 @@ fn capital(text: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// For a terminal.
+/// A list as text for a terminal.
 fn plain(Section { title, lead, head, rows }: &Section) -> String {
     let without_marks = |text: &str| text.replace('`', "");
     let mut parts: Vec<String> =

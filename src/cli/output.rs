@@ -1,4 +1,4 @@
-//! What is printed.
+//! Output of the commands.
 
 use std::io::{ErrorKind, Write};
 
@@ -18,7 +18,7 @@ pub(super) fn print_json(value: &impl serde::Serialize) {
     print(serde_json::to_string(value).unwrap_or_default());
 }
 
-/// To a tenth of a megabyte.
+/// A number of bytes in megabytes, to a tenth of one.
 pub(super) fn megabytes(bytes: u64) -> String {
     format!("{:.1} MB", bytes as f64 / 1e6)
 }

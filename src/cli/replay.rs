@@ -73,6 +73,8 @@ struct Alone {
 }
 
 impl Alone {
+    /// The lock of a case among the replays.
+    ///
     /// # Errors
     /// Somebody else records this case at the same time, or the machine failed.
     fn with(replays: &Path, case: &str) -> Result<Self, FileError> {
@@ -89,7 +91,7 @@ impl Drop for Alone {
     }
 }
 
-/// The one case whose id begins so; the name of its recording holds the id too.
+/// The one case whose id begins with these digits; the name of its recording holds the id too.
 fn find<'a>(folder: &'a Folder, given: &str) -> Result<&'a Planned, CliError> {
     let dir = folder.dir.display();
     let name = given.strip_suffix(".mcap").or(given.strip_suffix(".rrd")).unwrap_or(given);
@@ -120,7 +122,7 @@ fn described(planned: &Planned) -> String {
     format!("{} ({})", planned.case.id, values.join(", "))
 }
 
-/// The row's experiment; of a search, that of its run at `search_low`.
+/// Case of a row with its recording at every step; of a search, that of its run at `search_low`.
 fn at_every_step(found: &Planned, row: Option<&Entry>) -> Result<Case, CliError> {
     let experiment = match (&found.search, row) {
         (None, _) => found.case.experiment.clone(),
@@ -136,7 +138,7 @@ fn at_every_step(found: &Planned, row: Option<&Entry>) -> Result<Case, CliError>
     Ok(Case { experiment: Experiment { record, ..experiment }, ..found.case.clone() })
 }
 
-/// Of what the run measured; the columns of a search are of many runs.
+/// Columns of what the run measured that the replay has not met; the columns of a search are of many runs.
 fn differing(row: &Measured, replay: &Measured) -> Vec<Differing> {
     let row = cells(row);
     let found = cells(replay).into_iter().filter(|(column, _)| !is_beside_the_run(column));

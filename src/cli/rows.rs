@@ -37,7 +37,7 @@ pub struct Command {
     output: OutputArgs,
 }
 
-/// Shown where nothing else is asked for, of what is not empty in all rows.
+/// Columns that are shown where nothing else is asked for, if they are not empty in all rows.
 const TELLING: [&str; 10] = [
     "outcome",
     "criterion",
@@ -51,12 +51,16 @@ const TELLING: [&str; 10] = [
     "search_high",
 ];
 
-/// Digits of an id that a person reads.
+/// Number of digits of an id that a person reads.
 const DIGITS: usize = 8;
 
 type Cells = Map<String, Value>;
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         let folder = Folder::read(&self.dir)?;
         let rows = Table::new(&folder.plan.axes, &folder.rows());
@@ -142,7 +146,7 @@ impl Command {
     }
 }
 
-/// Of an id its first digits are enough.
+/// Whether a filter takes a row; of an id its first digits are enough.
 fn takes(filter: &Filter, row: &Cells) -> bool {
     let begins = |id: &str, values: &[Value]| values.iter().any(|value| id.starts_with(&shown_cell(value)));
     let holds = |(name, condition): &(String, Condition)| match (name.as_str(), condition, row.get(name)) {
@@ -175,7 +179,7 @@ fn find<'a>(flag: &str, name: &str, known: &[&'a str]) -> Result<&'a str, CliErr
     })
 }
 
-/// Numbers by size, before texts by their letters.
+/// Order of two cells: numbers by size, before texts by their letters.
 fn order(a: &Value, b: &Value) -> Ordering {
     match (a.as_f64(), b.as_f64()) {
         (Some(a), Some(b)) => a.total_cmp(&b),
@@ -185,7 +189,7 @@ fn order(a: &Value, b: &Value) -> Ordering {
     }
 }
 
-/// For people: short ids, four digits of what was measured; axes and counts as they are.
+/// A cell for people: short ids, four digits of what was measured; axes and counts as they are.
 fn shown(name: &str, cell: &Value) -> String {
     match cell {
         Value::Null => String::new(),

@@ -1,4 +1,4 @@
-//! What `run` shows of a run: a summary, or one JSON document with its columns, bodies and contacts.
+//! Output of `run` about a run: a summary, or one JSON document with its columns, bodies and contacts.
 
 use crate::build_info::BUILD;
 use crate::case::Case;
@@ -6,14 +6,15 @@ use crate::model::{self, Model};
 use crate::outcome::Outcome;
 use crate::plan::Plan;
 use crate::record::writer::Target;
-use crate::rows::{Measured, Row};
+use crate::rows::{BodyRow, Measured, Row};
 use crate::run::Ended;
 use crate::shown::ContactForce;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The columns of the row, and the state and contacts at the end. `recording`: its name, if there is one.
+/// JSON of a run: the columns of its row, and the state and contacts at the end. `recording` is its name, if there is
+/// one.
 pub(super) fn document(case: &Case, recording: Option<&str>, model: &Model, ended: &Ended) -> Value {
     let row = Row {
         case: case.id.clone(),
@@ -35,14 +36,15 @@ fn bodies(model: &Model, ended: &Ended) -> Value {
         on_body.map(|((.., sign), force_W)| force_W * sign).sum::<Vector3<f64>>()
     };
     let body = |(i, (body, at)): (usize, (&model::Body, &crate::state::BodyState))| {
+        let row = BodyRow::from(at);
         json!({
             "name": body.name,
             "mass_kg": body.mass_kg,
-            "position_m": numbers(&at.p_WB),
+            "position_m": row.position_m,
             "origin_m": numbers(&body.p_WBo(at)),
-            "orientation_xyzw": at.q_WB.coords.iter().map(|x| json!(x)).collect::<Value>(),
-            "velocity_m_s": numbers(&at.v_WB),
-            "angular_velocity_rad_s": numbers(&at.w_WB),
+            "orientation_xyzw": row.orientation_xyzw,
+            "velocity_m_s": row.velocity_m_s,
+            "angular_velocity_rad_s": row.angular_velocity_rad_s,
             "contact_force_n": numbers(&force_n(i)),
         })
     };
@@ -60,7 +62,7 @@ fn contact(model: &Model, ContactForce { contact, force_W }: &ContactForce) -> V
     })
 }
 
-/// Not finite: null.
+/// Components of a vector; null where one is not finite.
 fn numbers(v: &Vector3<f64>) -> Value {
     v.iter().map(|x| json!(x)).collect()
 }
@@ -97,7 +99,7 @@ pub(super) fn summary(id: &str, m: &Measured) -> String {
     lines.into_iter().chain(more).map(|(name, value)| format!("{name:>24}  {value}")).collect::<Vec<_>>().join("\n")
 }
 
-/// What the scene needs, and what is skipped.
+/// Prints the stages that the scene needs, and those that are skipped, each with the reason.
 pub(super) fn describe_plan(plan: &Plan) {
     for stage in &plan.stages {
         let how = if stage.runs { "runs" } else { "skipped" };
@@ -105,7 +107,7 @@ pub(super) fn describe_plan(plan: &Plan) {
     }
 }
 
-/// Where the recordings are, and how to open them.
+/// Prints where the recordings are, and how to open them.
 pub(super) fn say_where(dir: &Path, name: &str, targets: &[Target]) {
     for target in targets {
         let path = target.path(dir, name);

@@ -26,7 +26,10 @@ pub struct Command {
 }
 
 impl Command {
-    /// Exit code 1 while incomplete.
+    /// Prints how much is done; the exit code is 1 while a row is missing or has failed.
+    ///
+    /// # Errors
+    /// The folder is none, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         let mut folder = Folder::read(&self.dir)?;
         let bytes = Bytes::of(&folder)?;
@@ -67,7 +70,7 @@ impl Command {
     }
 }
 
-/// The words of all methods that are planned, in their order.
+/// Words of all methods that are planned, in their order.
 fn methods(folder: &Folder) -> Vec<&'static str> {
     let mut words: Vec<&str> = Vec::new();
     for word in folder.cases.iter().map(|planned| planned.case.experiment.method.word()) {

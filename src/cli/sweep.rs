@@ -19,6 +19,10 @@ pub struct Command {
 }
 
 impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         // Every case of every file is checked before the first run.
         let pool = self.sweep.run.pool()?;
@@ -51,7 +55,7 @@ fn summary(swept: &Swept) -> String {
     text + &format!("\n  rows: {}", swept.dir.join("rows.csv").display())
 }
 
-/// One object for a file, a list for a folder.
+/// Prints one object for a file, a list for a folder.
 fn print_document(swept: &[Swept]) {
     let document = |s: &Swept| {
         let counted = Outcome::ALL.map(|outcome| (outcome.name().to_string(), count(&s.rows, outcome).into()));

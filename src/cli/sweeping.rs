@@ -1,4 +1,4 @@
-//! What `sweep` and `check` share: files of a folder, their cases, running what is missing.
+//! Sweeps of files and folders, for `sweep` and `check`: their cases, and running what is missing.
 
 use super::args::{ExperimentArgs, OutputArgs, RunArgs, below_configs};
 use super::error::CliError;
@@ -42,7 +42,7 @@ pub struct SweepArgs {
 /// An experiment file on the command line, or found in a folder there.
 pub struct Config {
     pub path: PathBuf,
-    /// Below `--out`: the file's place in its folder, or nothing for a file on its own.
+    /// Place of the file in its folder, below `--out`; nothing for a file on its own.
     below: PathBuf,
     pub is_of_folder: bool,
 }
@@ -55,7 +55,7 @@ pub struct PlannedSweep {
     targets: Vec<Target>,
 }
 
-/// What became of one file's sweep.
+/// Result of one file's sweep.
 pub struct Swept {
     pub config: PathBuf,
     pub dir: PathBuf,
@@ -71,11 +71,19 @@ impl Swept {
 }
 
 impl SweepArgs {
+    /// The file with the flags' changes.
+    ///
+    /// # Errors
+    /// The file cannot be read, or its experiment is wrong.
     pub fn load(&self, config: &Config) -> Result<ExperimentFile, CliError> {
         self.experiment.load(&config.path)
     }
 
-    /// All cases of a file, and what they are recorded into: `--record`, else `instead`, else what the file says.
+    /// A file's sweep: all its cases, and the kinds of file that they are recorded into: `--record`, else `instead`,
+    /// else what the file says.
+    ///
+    /// # Errors
+    /// A case is wrong, or this build cannot write what is asked for.
     pub fn planned(
         &self,
         config: Config,
@@ -88,6 +96,10 @@ impl SweepArgs {
         Ok(PlannedSweep { config, file, plan, targets })
     }
 
+    /// Runs what is missing of a file's sweep.
+    ///
+    /// # Errors
+    /// The machine failed, or the folder holds something else; a case that fails is a row.
     pub fn sweep(&self, planned: &PlannedSweep) -> Result<Swept, CliError> {
         let PlannedSweep { config, plan, targets, .. } = planned;
         let dir = config.out(self.run.out.as_deref(), &self.experiment);
@@ -113,7 +125,7 @@ impl SweepArgs {
 }
 
 impl Config {
-    /// Of several files every one has a folder of its own, also below `--out`.
+    /// Folder of a file's results; of several files every one has a folder of its own, also below `--out`.
     pub fn out(&self, given: Option<&Path>, experiment: &ExperimentArgs) -> PathBuf {
         match given {
             Some(out) if self.below.as_os_str().is_empty() => out.to_path_buf(),
@@ -123,7 +135,10 @@ impl Config {
     }
 }
 
-/// The files themselves, and all .yaml below folders in the order of their paths.
+/// The files that are given, and all .yaml below given folders in the order of their paths.
+///
+/// # Errors
+/// A path that is not there or cannot be read, a folder without a .yaml, or a folder of results.
 pub fn configs(given: &[PathBuf]) -> Result<Vec<Config>, CliError> {
     let mut all = Vec::new();
     for path in given {
@@ -173,7 +188,8 @@ fn files_of(given: &Path) -> Result<Vec<PathBuf>, CliError> {
     Ok(found)
 }
 
-/// On Ctrl-C or SIGTERM: no row is torn, the tables are written, and the exit code says which signal it was.
+/// Sees to it that on Ctrl-C or SIGTERM no row is torn, the tables are written, and the exit code says which signal it
+/// was.
 fn keep_rows_when_interrupted(store: &Arc<Mutex<Store>>, dir: &Path) -> Result<(), CliError> {
     let signals = Signals::new([SIGINT, SIGTERM]);
     let mut signals = signals.map_err(|error| CliError::Machine(format!("cannot listen for signals: {error}")))?;

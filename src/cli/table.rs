@@ -3,10 +3,10 @@
 use comfy_table::{ContentArrangement, Table, presets};
 use std::io::IsTerminal;
 
-/// Of a table in a file or a CI's log.
+/// Width of a table in a file or a CI's log, in letters.
 const WIDTH: u16 = 140;
 
-/// As wide as the terminal.
+/// An empty table with this header, as wide as the terminal.
 pub fn table(header: &[&str]) -> Table {
     let mut table = Table::new();
     table.load_preset(presets::UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic);

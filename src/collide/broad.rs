@@ -1,4 +1,4 @@
-//! Which of many bodies may touch: a uniform grid of the bodies' centres, and the few large ones against all.
+//! Pairs of bodies that may touch: a uniform grid of the bodies' centres, and the few large ones against all.
 //!
 //! Bodies no larger than a cell overlap only within neighbouring cells. Cells are sorted rather than hashed: the order
 //! is the same on every host, and once the buffers have grown nothing is allocated.
@@ -17,7 +17,7 @@ impl Bounds {
         Bounds { low_m: centre.add_scalar(-radius_m), high_m: centre.add_scalar(radius_m) }
     }
 
-    /// Touching counts.
+    /// Whether two boxes overlap; touching counts.
     pub fn overlaps(&self, other: &Bounds) -> bool {
         (0..3).all(|i| self.low_m[i] <= other.high_m[i] && other.low_m[i] <= self.high_m[i])
     }
@@ -27,16 +27,16 @@ impl Bounds {
     }
 }
 
-/// Cells along an axis, 20 bits; what lies beyond is in the last one.
+/// Most cells along an axis, 20 bits; what lies beyond is in the last one.
 const MOST_CELLS: f64 = 1_048_575.0;
-/// Of the median extent: small enough that few bodies share a cell, and bodies a little above the median count as
-/// small.
+/// Edge of a cell, of the median extent: small enough that few bodies share a cell, and bodies a little above the
+/// median count as small.
 const CELL: f64 = 1.5;
 
 #[derive(Clone, Debug, Default)]
 pub struct Broad {
     extents_m: Vec<f64>,
-    /// Cell and body, sorted.
+    /// Cell and body of every small body, sorted.
     small: Vec<(u64, u32)>,
     large: Vec<u32>,
 }
@@ -104,7 +104,7 @@ impl Broad {
     }
 }
 
-/// (dx, dy, dz from, dz to): one half of the 26 neighbours, and the cell itself.
+/// Neighbours of a cell as (dx, dy, dz from, dz to): one half of the 26, and the cell itself.
 const ROWS: [(i64, i64, i64, i64); 5] = [(0, 0, 0, 1), (0, 1, -1, 1), (1, -1, -1, 1), (1, 0, -1, 1), (1, 1, -1, 1)];
 
 /// Cell numbers from 1 to 2²⁰, so that neighbours need no sign and no carry.

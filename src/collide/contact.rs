@@ -6,16 +6,17 @@ use nalgebra::Vector3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     pub body: usize,
-    /// Of a higher index than `body`; none: the container.
+    /// Index of the other body, higher than `body`; None for the container.
     pub other: Option<usize>,
-    /// Face and node, or what of the two bodies meet: the same from step to step, to find last step's impulse by.
+    /// Face and node, or the features of the two bodies that meet: the same from step to step, to find last step's
+    /// impulse by.
     pub feature: (u32, u32),
-    /// From the body's centre of mass to the point, world axes (the lecture's ᴳu_c).
+    /// Lever arm from the body's centre of mass to the point, in metres, world axes (the lecture's ᴳu_c).
     pub r_BC_W: Vector3<f64>,
-    /// From the other body's centre of mass to the same point; zero for the container.
+    /// Lever arm from the other body's centre of mass to the same point; zero for the container.
     pub r_OC_W: Vector3<f64>,
     pub p_WC: Vector3<f64>,
-    /// From the container or the other body to the body.
+    /// Unit normal from the container or the other body to the body, world axes.
     pub normal: Vector3<f64>,
     pub gap_m: f64,
     pub friction: f64,
@@ -24,18 +25,19 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Its place in the order of contacts, and its name from step to step.
+    /// Place of the contact in the order of contacts, and its name from step to step.
     pub fn key(&self) -> Key {
         (self.body, self.other, self.feature)
     }
 
-    /// The bodies that it pushes: which, the lever arm, and the sign of the impulse.
+    /// Bodies that the contact pushes: index, lever arm in world axes, and sign of the impulse.
     pub fn ends(&self) -> impl Iterator<Item = (usize, Vector3<f64>, f64)> {
         let other = self.other.map(|other| (other, self.r_OC_W, -1.0));
         std::iter::once((self.body, self.r_BC_W, 1.0)).chain(other)
     }
 
-    /// Of the body's point against the other's, from the bodies' velocities and angular velocities by their index.
+    /// Velocity of the body's point against the other's, in m/s, world axes, from the bodies' velocities and angular
+    /// velocities by their index.
     pub fn velocity(&self, of: impl Fn(usize) -> [Vector3<f64>; 2]) -> Vector3<f64> {
         let of_point = |(i, r_W, sign): (usize, Vector3<f64>, f64)| {
             let [v, w] = of(i);
@@ -44,7 +46,7 @@ impl Contact {
         self.ends().map(of_point).sum()
     }
 
-    /// e₁ = n and two tangents; for the faces of a box the tangents are the other coordinate axes.
+    /// Axes of the contact: e₁ = n and two tangents; for the faces of a box the tangents are the other coordinate axes.
     pub fn frame(&self) -> [Vector3<f64>; 3] {
         let normal = self.normal;
         let least = normal.iamin();
@@ -54,10 +56,10 @@ impl Contact {
     }
 }
 
-/// Body, other body, feature.
+/// Key of a contact: body, other body, feature.
 pub type Key = (usize, Option<usize>, (u32, u32));
 
-/// A contact of the last step and the impulse that it put on its body, world axes.
+/// A contact of the last step and the impulse that it put on its body, in N s, world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolvedContact {
     pub contact: Contact,

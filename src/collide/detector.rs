@@ -11,28 +11,29 @@ use crate::state::{BodyState, State};
 use crate::work::Work;
 use nalgebra::Vector3;
 
-/// How far apart two things may be and still be a contact.
+/// Largest gap of what still is a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// Of the body's bounding radius: what touches with gap zero is a contact whatever its last bit says.
+    /// Gap that always counts as a contact, of the body's bounding radius: what touches with gap zero is one whatever
+    /// its last bit says.
     pub margin: f64,
-    /// Gaps that may close in this time are contacts as well.
+    /// Time ahead, in seconds: gaps that may close in it are contacts as well.
     pub ahead_s: f64,
 }
 
-/// Of the smaller body's bounding radius: bodies farther apart are not looked at ahead. The plane between two of them
-/// stands for their surfaces only nearby; a container's faces are planes.
+/// Largest gap that is looked at ahead, of the smaller body's bounding radius. The plane between two bodies stands for
+/// their surfaces only nearby; a container's faces are planes.
 const NEARBY: f64 = 0.3;
 
 impl Reach {
-    /// What is inside.
+    /// Reach of what is inside.
     pub const INSIDE: Reach = Reach { margin: 0.0, ahead_s: 0.0 };
 
     fn margin_m(&self, body: &Body, at: &BodyState) -> f64 {
         if self.margin == 0.0 { 0.0 } else { self.margin * body.bounding_radius_m + ULPS * at.p_WB.amax() }
     }
 
-    /// What gravity alone may close in the time.
+    /// Length that gravity alone may close in the time, in metres.
     fn fall_m(&self, model: &Model) -> f64 {
         model.gravity_m_s2.norm() * self.ahead_s * self.ahead_s
     }
@@ -60,7 +61,7 @@ impl Reach {
         a.max(b) + ahead_m.min(NEARBY * bodies[0].bounding_radius_m.min(bodies[1].bounding_radius_m))
     }
 
-    /// Around a body, for the search of pairs; two of them cover `body_reach_m`.
+    /// Reach around a body, for the search of pairs, in metres; two of them cover `body_reach_m`.
     fn around_m(&self, model: &Model, body: &Body, at: &BodyState) -> f64 {
         let margin_m = self.margin_m(body, at);
         if self.ahead_s == 0.0 {
@@ -75,7 +76,7 @@ impl Reach {
 #[derive(Debug, Default)]
 pub struct Detector {
     broad: Broad,
-    /// Bodies with a solid, and their bounds.
+    /// Indices of the bodies with a solid, and their bounds.
     solids: Vec<usize>,
     bounds: Vec<Bounds>,
     pairs: Vec<(u32, u32)>,

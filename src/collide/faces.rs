@@ -7,8 +7,8 @@ use crate::shape::solid::Solid;
 use crate::state::BodyState;
 use nalgebra::Vector3;
 
-/// Calls `visit(node, from the centre of mass to it in world axes, gap)` for all candidate points of a body whose gap
-/// to the face is below the limit; says how many points were looked at.
+/// Calls `visit(node, lever arm from the centre of mass in world axes, gap)` for all candidate points of a body whose
+/// gap to the face is below the limit, and returns the number of points that were looked at.
 pub fn each_near(
     body: &Body,
     at: &BodyState,
@@ -49,7 +49,8 @@ pub fn each_near(
     points
 }
 
-/// The body's point nearest to a face, the first of equals: from the centre of mass to it, world axes, and its gap.
+/// Point of a body nearest to a face, the first of equals: the vector from the centre of mass to it, world axes, and
+/// its gap in metres.
 pub fn nearest(body: &Body, at: &BodyState, face: &Face) -> Option<(Vector3<f64>, f64)> {
     let mut nearest: Option<(Vector3<f64>, f64)> = None;
     each_near(body, at, face, f64::INFINITY, |_, r_W, gap_m| {

@@ -1,5 +1,5 @@
-//! Few contacts of many on a face: the deepest, then always the one farthest from those already taken. On a face of a
-//! box that is its corners, and what holds all corners holds the face.
+//! Reduction of many contacts on a face to few: the deepest, then always the one farthest from those already taken. On
+//! a face of a box that is its corners, and what holds all corners holds the face.
 
 use super::Contact;
 
@@ -8,9 +8,9 @@ const TAKEN: f64 = -1.0;
 
 #[derive(Clone, Debug)]
 pub struct Reduction {
-    /// Contacts of one body on one face that are kept.
+    /// Number of contacts of one body on one face that are kept.
     most: usize,
-    /// Squared distance of every contact to the nearest taken one.
+    /// Squared distance of every contact to the nearest taken one, in m².
     nearest: Vec<f64>,
     /// Contacts of the last call that were not taken.
     pub left_out: Vec<Contact>,
@@ -22,7 +22,7 @@ impl Reduction {
         Reduction { most, nearest: Vec::with_capacity(contacts), left_out: Vec::with_capacity(contacts) }
     }
 
-    /// Leaves at most so many of every body's contacts with every face, in their order.
+    /// Leaves at most that many of every body's contacts with every face, in their order.
     pub fn apply(&mut self, contacts: &mut Vec<Contact>) {
         self.nearest.clear();
         self.left_out.clear();

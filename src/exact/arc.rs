@@ -12,7 +12,7 @@ const MANY: f64 = 256.0;
 
 #[derive(Clone, Debug)]
 pub struct Arc {
-    /// When it begins.
+    /// Time at which the arc begins, in seconds.
     pub t_s: f64,
     pub from: BodyState,
     pub acceleration_m_s2: Vector3<f64>,
@@ -20,7 +20,7 @@ pub struct Arc {
 }
 
 impl Arc {
-    /// Of a body that does not begin to turn.
+    /// An arc of a body that does not begin to turn.
     pub fn straight(t_s: f64, from: BodyState, acceleration_m_s2: Vector3<f64>) -> Self {
         Arc { t_s, from, acceleration_m_s2, angular_rad_s2: Vector3::zeros() }
     }
@@ -35,7 +35,7 @@ impl Arc {
         }
     }
 
-    /// The attitude after a time from the beginning.
+    /// The attitude after a time (s) from the beginning.
     pub fn turned(&self, t: f64) -> Turned {
         let (w, alpha) = (self.from.w_WB, self.angular_rad_s2);
         if w.cross(&alpha).norm() <= f64::EPSILON * w.norm() * alpha.norm() {
@@ -50,7 +50,7 @@ impl Arc {
     }
 }
 
-/// Of arcs that follow one another; the first is taken before its beginning as well.
+/// State at a time of arcs that follow one another; the first is taken before its beginning as well.
 pub fn at(arcs: &[Arc], t_s: f64) -> BodyState {
     let begun = arcs.partition_point(|arc| arc.t_s <= t_s);
     arcs[begun.max(1) - 1].at(t_s)

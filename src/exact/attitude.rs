@@ -4,19 +4,19 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-/// Of a step's series: what is left is below 10⁻²⁰.
+/// Number of terms of a step's series: what is left is below 10⁻²⁰.
 pub const TERMS: usize = 25;
 
-/// An attitude, and what it took.
+/// An attitude, and the number of steps that it took.
 #[derive(Clone, Copy, Debug)]
 pub struct Turned {
     pub q_WB: UnitQuaternion<f64>,
-    /// Of Taylor's series.
+    /// Number of steps of Taylor's series.
     pub steps: u64,
 }
 
-/// After a time, from Taylor's coefficients of ω at any time on the way, those that are not zero; `rate` is no less
-/// than |ω| and than the rate at which ω itself turns.
+/// The attitude after a time (s), from Taylor's coefficients of ω at any time on the way, those that are not zero;
+/// `rate` (rad/s) is no less than |ω| and than the rate at which ω itself turns.
 pub fn turned<const N: usize>(
     q_WB: &UnitQuaternion<f64>,
     t_s: f64,

@@ -39,17 +39,17 @@ const WEAKEST: f64 = 1e-18;
 /// Impacts that are looked at for the end of a slip across the slope; a ball that needs more is refused.
 const LOOKED_AT: u64 = 1_000_000;
 
-/// Of |v| + r|ω|: what is left of a slip that has ended.
+/// Slip that is none, of |v| + r|ω|: what is left of a slip that has ended.
 const NO_SLIP: f64 = 1e-12;
 
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// Unit, towards the ball.
+    /// Unit normal of the plane, towards the ball.
     pub normal: Vector3<f64>,
-    /// In flight.
+    /// Acceleration in flight, in m/s².
     pub acceleration_m_s2: Vector3<f64>,
     pub radius_m: f64,
-    /// k = I/(m r²).
+    /// Ratio k = I/(m r²).
     pub inertia: f64,
     pub friction: f64,
     pub restitution: f64,
@@ -62,35 +62,36 @@ pub struct Ball {
     start: BodyState,
     bounces: Option<Bounces>,
     flown: RefCell<Flown>,
-    /// After the last impact.
+    /// Arcs after the last impact.
     after: OnceCell<Vec<Arc>>,
 }
 
 /// The flight that was asked for last.
 #[derive(Clone, Debug)]
 struct Flown {
-    /// Before it.
+    /// Number of impacts before it.
     impacts: u64,
     arc: Arc,
-    /// By all that was asked for.
+    /// Number of impacts that all questions together have taken.
     taken: u64,
 }
 
-/// All impacts.
+/// Data of all impacts.
 #[derive(Clone, Debug)]
 struct Bounces {
     first_s: f64,
-    /// w of the first.
+    /// Normal speed w of the first.
     speed_m_s: f64,
     restitution: f64,
-    /// g_n.
+    /// Acceleration g_n towards the plane.
     press_m_s2: f64,
-    /// The height of the plane, of the centre.
+    /// Offset of the centre at an impact along the normal: that of the plane and the radius.
     offset_m: f64,
 }
 
 impl Ball {
-    /// From a height above the plane, which is 0 on it. None if the ball slides on a curve at some time.
+    /// The motion from a start at a height (m) of the ball above the plane, 0 on it. None if the ball slides on a curve
+    /// at some time.
     pub fn new(setting: Setting, start: &BodyState, height_m: f64) -> Option<Self> {
         let press = setting.press_m_s2();
         let normal_speed = setting.normal.dot(&start.v_WB);
@@ -121,7 +122,7 @@ impl Ball {
         arc::at(self.after.get_or_init(|| self.setting.on_plane(end_s, self.flight_at(end_s))), t_s)
     }
 
-    /// When the ball has flown for the last time.
+    /// Time at which the ball has flown for the last time, in seconds.
     pub fn end_s(&self) -> f64 {
         match &self.bounces {
             None if self.after.get().is_none() => f64::INFINITY,
@@ -130,12 +131,12 @@ impl Ball {
         }
     }
 
-    /// Impacts that were computed up to now, for all times that were asked for.
+    /// Number of impacts that were computed up to now, for all times that were asked for.
     pub fn taken(&self) -> u64 {
         self.flown.borrow().taken
     }
 
-    /// In the flight of this time, or at its beginning.
+    /// State in the flight of this time, or at its beginning.
     fn flight_at(&self, t_s: f64) -> BodyState {
         let g = self.setting.acceleration_m_s2;
         let mut flown = self.flown.borrow_mut();
@@ -205,7 +206,7 @@ impl Bounces {
 }
 
 impl Setting {
-    /// g_n.
+    /// Acceleration g_n towards the plane.
     fn press_m_s2(&self) -> f64 {
         -self.normal.dot(&self.acceleration_m_s2)
     }
@@ -219,7 +220,7 @@ impl Setting {
         self.along(&at.v_WB) - at.w_WB.cross(&self.normal) * self.radius_m
     }
 
-    /// What friction, of a unit mass, does to the spin.
+    /// Change of the spin by the friction of a unit mass.
     fn turning(&self, friction: &Vector3<f64>) -> Vector3<f64> {
         -self.normal.cross(friction) / (self.inertia * self.radius_m)
     }
@@ -234,13 +235,13 @@ impl Setting {
         at.w_WB += self.turning(&push);
     }
 
-    /// Of the acceleration, what acts along the plane.
+    /// Part of the acceleration along the plane.
     fn pull(&self) -> Vector3<f64> {
         let pull = self.along(&self.acceleration_m_s2);
         if pull.norm() <= 4.0 * f64::EPSILON * self.acceleration_m_s2.norm() { Vector3::zeros() } else { pull }
     }
 
-    /// A slip that is rounding.
+    /// Slip that is rounding, in m/s.
     fn no_slip_m_s(&self, at: &BodyState) -> f64 {
         NO_SLIP * (at.v_WB.norm() + at.w_WB.norm() * self.radius_m)
     }

@@ -16,6 +16,8 @@ pub struct Closed {
 }
 
 impl Closed {
+    /// The motion of the closed form in this scene.
+    ///
     /// # Errors
     /// What the scene should have, if it is not one of the closed form's.
     pub fn new(which: Exact, model: &Model, start: &State) -> Result<Self, Lacks> {
@@ -28,7 +30,7 @@ impl Closed {
         State { step: 0, time_s: t_s, bodies: self.bodies.iter().map(|motion| motion.at(t_s)).collect() }
     }
 
-    /// Up to when the closed form is the motion.
+    /// Time up to which the closed form is the motion, in seconds.
     pub fn holds_until_s(&self) -> f64 {
         self.bodies.iter().map(|motion| motion.holds_until_s).fold(f64::INFINITY, f64::min)
     }

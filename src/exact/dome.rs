@@ -25,14 +25,14 @@ pub(super) const FORM: ClosedForm = ClosedForm {
 #[derive(Clone, Debug)]
 pub struct Dome {
     pub swing: InvertedPendulum,
-    /// When it leaves the dome; never, if it rolls.
+    /// Time at which it leaves the dome, in seconds; infinite if it rolls.
     pub leaves_s: f64,
-    /// Up to when it rolls; for ever, if it slides.
+    /// Time up to which it rolls, in seconds; infinite if it slides.
     pub rolls_s: f64,
 }
 
 impl Dome {
-    /// At rest at 0 < θ₀ < π/2. None if it slips, and has friction.
+    /// The motion from rest at 0 < θ₀ < π/2. None if it slips, and has friction.
     pub fn new(angle_rad: f64, distance_m: f64, inertia: f64, friction: f64, gravity_m_s2: f64) -> Option<Self> {
         let start = libm::cos(angle_rad);
         let k = if friction == 0.0 { 0.0 } else { inertia };
@@ -52,10 +52,10 @@ impl Dome {
 struct OnDome {
     dome: Dome,
     start: BodyState,
-    /// Of the centres at the start.
+    /// Angle of the line of centres at the start, from the vertical.
     angle_rad: f64,
     distance_m: f64,
-    /// Of the fixed ball.
+    /// Centre of the fixed ball.
     centre_W: Vector3<f64>,
     up: Vector3<f64>,
     out: Vector3<f64>,

@@ -1,4 +1,4 @@
-//! What a scene has, as far as closed forms ask: forces, the air, pins. What touches: `touching.rs`.
+//! Facts of a scene, as far as closed forms ask: forces, the air, pins. What touches: `touching.rs`.
 
 use super::point_motion::{Harmonic, PointMotion};
 use crate::model::loads::AppliedForce;
@@ -7,10 +7,10 @@ use crate::model::{Body, Model};
 use crate::state::BodyState;
 use nalgebra::{Matrix3, Vector3};
 
-/// Moments, directions and lengths that differ by less, relative, are the same: what is written with ten digits is.
+/// Relative difference of moments, directions and lengths that are the same: what is written with ten digits is.
 pub(super) const SAME: f64 = 1e-10;
 
-/// What the scene lacks to be the closed form's.
+/// Sentence about what the scene lacks to be the closed form's.
 pub type Lacks = String;
 
 /// The other one of two bodies without a container; `two`: what they are.
@@ -20,7 +20,7 @@ pub(super) fn only_other(model: &Model, index: usize, two: &str) -> Result<usize
     if model.container.is_some() { Err("no `container`".into()) } else { Ok(other) }
 }
 
-/// Gravity, and forces of the world at the centre of mass.
+/// Acceleration of a point mass: by gravity, and by forces of the world at the centre of mass.
 pub(super) fn point(model: &Model, index: usize, at: &BodyState) -> Result<PointMotion, Lacks> {
     let body = unpinned(model, index)?;
     if !body.drag.is_none() {
@@ -57,7 +57,7 @@ pub(super) fn unpinned(model: &Model, index: usize) -> Result<&Body, Lacks> {
     if model.pins.iter().any(|pin| pin.holds(index)) { Err("no `pins`".into()) } else { Ok(&model.bodies[index]) }
 }
 
-/// Forces that do not turn the body.
+/// Forces on a body, none of which turns it.
 fn central_forces(model: &Model, index: usize) -> Result<Vec<&AppliedForce>, Lacks> {
     let forces: Vec<&AppliedForce> = model.forces.iter().filter(|force| force.body == index).collect();
     let is_central = |force: &&AppliedForce| {

@@ -24,15 +24,15 @@ pub(super) const FORM: ClosedForm = ClosedForm {
 
 const NODES: usize = 20;
 
-/// Of u. The error of a panel is below rounding.
+/// Length of a panel, in u. The error of a panel is below rounding.
 const PANEL: f64 = 0.25;
 
 #[derive(Clone, Debug)]
 pub struct FallingRod {
-    /// sin(θ₀/2).
+    /// The constant sin(θ₀/2).
     start: f64,
     inertia: f64,
-    /// √(l/g).
+    /// Unit of time √(l/g).
     unit_s: f64,
     rule: [(f64, f64); NODES],
     /// Times at u = 0, 1, 2 … panels, the last one flat.
@@ -41,7 +41,7 @@ pub struct FallingRod {
 }
 
 impl FallingRod {
-    /// At rest at 0 < θ₀ < π/2.
+    /// The motion from rest at 0 < θ₀ < π/2.
     pub fn new(angle_rad: f64, inertia: f64, half_length_m: f64, gravity_m_s2: f64) -> Self {
         let start = libm::sin(angle_rad / 2.0);
         let flat = libm::acosh(std::f64::consts::FRAC_1_SQRT_2 / start);
@@ -61,7 +61,7 @@ impl FallingRod {
         self.times_s[self.times_s.len() - 1]
     }
 
-    /// θ and θ̇, before it is flat.
+    /// Angle θ and its rate θ̇, before it is flat.
     pub fn at(&self, t_s: f64) -> (f64, f64) {
         let begun = self.times_s.partition_point(|time_s| *time_s <= t_s).clamp(1, self.times_s.len() - 1) - 1;
         let (left, time_s) = (begun as f64 * self.panel, self.times_s[begun]);
@@ -74,14 +74,14 @@ impl FallingRod {
         (2.0 * libm::asin(half), rate)
     }
 
-    /// dt/du.
+    /// Derivative dt/du.
     fn slope_s(&self, u: f64) -> f64 {
         let sin = self.start * libm::cosh(u);
         let cos_squared = 1.0 - sin * sin;
         self.unit_s * ((self.inertia + 4.0 * sin * sin * cos_squared) / cos_squared).sqrt()
     }
 
-    /// When it comes to an angle on its way.
+    /// Time at which it comes to an angle on its way, in seconds.
     pub fn comes_to_s(&self, angle_rad: f64) -> f64 {
         let u = libm::acosh((libm::sin(angle_rad / 2.0) / self.start).max(1.0));
         let begun = ((u / self.panel) as usize).min(self.times_s.len() - 2);
@@ -143,12 +143,12 @@ fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lac
     Ok(ExactMotion::new(move |t_s| rod.at(t_s)))
 }
 
-/// cos θ₀ − cos θ, without the difference.
+/// Difference cos θ₀ − cos θ, without cancellation.
 pub(super) fn fallen(from_rad: f64, to_rad: f64) -> f64 {
     2.0 * libm::sin((to_rad + from_rad) / 2.0) * libm::sin((to_rad - from_rad) / 2.0)
 }
 
-/// I/(m l²), l half the length, about an axis that it can turn about and lie flat.
+/// Ratio I/(m l²), l half the length, about an axis that it can turn about and lie flat.
 pub(super) fn of_rod(body: &Body, at: &BodyState, axis_W: &Vector3<f64>, half_length_m: f64) -> Result<f64, Lacks> {
     let I_axis = at.q_WB * (body.I_B * at.q_WB.inverse_transform_vector(axis_W));
     let about = axis_W.dot(&I_axis);
@@ -159,7 +159,7 @@ pub(super) fn of_rod(body: &Body, at: &BodyState, axis_W: &Vector3<f64>, half_le
     Ok(inertia)
 }
 
-/// Half the distance between the centres of its two spheres.
+/// Half the distance between the centres of a capsule's two spheres, in metres.
 pub(super) fn capsule_m(body: &Body) -> Result<f64, Lacks> {
     match &body.geometry {
         Geometry::Solid { solid: Solid::Capsule { half_height_m, .. }, centre }

@@ -24,7 +24,7 @@ const FAR: f64 = 10.0;
 /// Orders of the series. More gain nothing at `FAR`.
 const K: usize = 8;
 
-/// Of a stretch no longer than its distance from the singularities at s = ±iB: 10⁻¹⁷ of the integral.
+/// Nodes on a stretch no longer than its distance from the singularities at s = ±iB: 10⁻¹⁷ of the integral.
 const NODES: usize = 12;
 
 /// A phase that is rounding (rad).
@@ -33,14 +33,14 @@ const NO_PHASE: f64 = 1e-18;
 /// ω in its own axes and units.
 struct Passage {
     e: Matrix3<f64>,
-    /// √|α|: radians per second at ρ = 1.
+    /// Unit √|α|: radians per second at ρ = 1.
     unit_rad_s: Dd,
-    /// B.
+    /// The constant B.
     aside: Dd,
     series: [[f64; K + 1]; K + 1],
 }
 
-/// After a time, from ω at its beginning; α is not zero, nor along ω.
+/// The attitude after a time (s), from ω at its beginning; α is not zero, nor along ω.
 pub fn turned(q_WB: &UnitQuaternion<f64>, w: &Vector3<f64>, alpha: &Vector3<f64>, t_s: f64) -> Turned {
     let (passage, from) = Passage::new(w, alpha);
     let mut width = passage.unit_rad_s * Dd::from(t_s);
@@ -66,7 +66,7 @@ pub fn turned(q_WB: &UnitQuaternion<f64>, w: &Vector3<f64>, alpha: &Vector3<f64>
     turned
 }
 
-/// c_kj, at [k][j].
+/// Coefficients c_kj, at [k][j].
 fn series() -> [[f64; K + 1]; K + 1] {
     let mut c = [[0.0; K + 1]; K + 1];
     c[0][0] = 1.0;
@@ -80,13 +80,13 @@ fn series() -> [[f64; K + 1]; K + 1] {
     c
 }
 
-/// n of ρ^n.
+/// Exponent n of ρ^n.
 fn power(k: usize, j: usize) -> f64 {
     1.0 - (4 * k + 2 * j) as f64
 }
 
 impl Passage {
-    /// And the s of its beginning.
+    /// The passage, and the s of its beginning.
     fn new(w: &Vector3<f64>, alpha: &Vector3<f64>) -> (Self, Dd) {
         let e_1 = alpha.normalize();
         let across = |v: Vector3<f64>| v - e_1 * e_1.dot(&v);
@@ -102,12 +102,12 @@ impl Passage {
         (Passage { e, unit_rad_s, aside, series: series() }, from)
     }
 
-    /// |ω|.
+    /// Length |ω|.
     fn rho(&self, s: f64) -> f64 {
         (s * s + self.aside.f64() * self.aside.f64()).sqrt()
     }
 
-    /// By steps of at most a radian.
+    /// The attitude by steps of at most a radian.
     fn stepped(&self, q_WB: &UnitQuaternion<f64>, from: Dd, width: Dd) -> Turned {
         let unit = self.unit_rad_s.f64();
         let w = |s: Dd| self.e * Vector3::new(s.f64(), self.aside.f64(), 0.0) * unit;
@@ -125,7 +125,7 @@ impl Passage {
         UnitQuaternion::new_normalize((e * own * e.inverse()).into_inner())
     }
 
-    /// (u, e_3 across u, …) → e.
+    /// Rotation (u, e_3 across u, …) → e.
     fn frame(&self, s: f64) -> UnitQuaternion<f64> {
         let (_, u) = self.direction(s);
         let v = (Vector3::z() - u * u.z).normalize();
@@ -133,7 +133,7 @@ impl Passage {
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(frame))
     }
 
-    /// h/ρ − 1, and u.
+    /// The number h/ρ − 1, and u.
     fn direction(&self, s: f64) -> (f64, Vector3<f64>) {
         let (rho, aside) = (self.rho(s), self.aside.f64());
         let (p, y) = ((aside / rho) * (aside / rho), 1.0 / (rho * rho * rho * rho));
@@ -156,7 +156,7 @@ impl Passage {
         (more, u.component_mul(&lead))
     }
 
-    /// By which the body turns about u.
+    /// Angle by which the body turns about u.
     fn phase(&self, [from, to]: [Dd; 2], width: Dd) -> Dd {
         let zero = Dd::ZERO;
         if width.f64() < 0.0 {
@@ -170,7 +170,7 @@ impl Passage {
         }
     }
 
-    /// ∫ρ ds, 0 ≤ from ≤ to: (s ρ + B² asinh(s/B))/2 without differences of what is large.
+    /// Integral ∫ρ ds, 0 ≤ from ≤ to: (s ρ + B² asinh(s/B))/2 without differences of what is large.
     fn swept(&self, [from, to]: [Dd; 2], width: Dd) -> Dd {
         let square = self.aside.squared();
         let [rho, rho_to] = [from, to].map(|s| (s.squared() + square).sqrt());
@@ -179,7 +179,7 @@ impl Passage {
         Dd::from(0.5) * (width * (rho_to + from * slope) + square * angle)
     }
 
-    /// ∫ h/(1 − u_3²) − ρ ds, 0 ≤ from ≤ to, over stretches that grow with ρ.
+    /// Integral ∫ h/(1 − u_3²) − ρ ds, 0 ≤ from ≤ to, over stretches that grow with ρ.
     fn beyond(&self, from: f64, to: f64) -> f64 {
         let nodes = legendre::<NODES>();
         let (mut at, mut sum) = (from, 0.0);
@@ -203,7 +203,7 @@ impl Passage {
     }
 }
 
-/// ln(1 + x), x ≥ 0, by roots until x is small, then atanh.
+/// Logarithm ln(1 + x), x ≥ 0, by roots until x is small, then atanh.
 fn log_of_more(mut x: Dd) -> Dd {
     let mut times = 2.0;
     while x.f64() > 0.1 {

@@ -1,4 +1,4 @@
-//! What a closed form says of itself, and the motion that it gives.
+//! Closed forms as others see them: what lists say of one, and the motion that it gives.
 
 use super::facts::Lacks;
 use crate::model::Model;
@@ -11,26 +11,27 @@ pub struct ClosedForm {
     /// The motion.
     pub what: &'static str,
     pub source: &'static str,
-    /// That it is the motion of.
+    /// The scenes that it is the motion of.
     pub scenes: &'static str,
-    /// Of one of the model's bodies from its start, or what the scene should have.
+    /// The motion of one of the model's bodies from its start, or what the scene should have.
     pub(super) motion: fn(&Model, &State, usize) -> Result<ExactMotion, Lacks>,
 }
 
 /// The exact motion of one body.
 pub struct ExactMotion {
     at: Box<dyn Fn(f64) -> BodyState + Send>,
-    /// Up to when it is the motion.
+    /// Time up to which it is the motion, in seconds.
     pub holds_until_s: f64,
 }
 
 impl ExactMotion {
-    /// For ever.
+    /// A motion that holds for ever.
     pub(super) fn new(at: impl Fn(f64) -> BodyState + Send + 'static) -> Self {
         ExactMotion { at: Box::new(at), holds_until_s: f64::INFINITY }
     }
 
-    /// Position and velocity of the centre of mass, and apart from them the attitude and its rate.
+    /// A motion from two functions of time: position and velocity of the centre of mass, and apart from them the
+    /// attitude and its rate.
     pub(super) fn of(
         way: impl Fn(f64) -> (Vector3<f64>, Vector3<f64>) + Send + 'static,
         turning: impl Fn(f64) -> (UnitQuaternion<f64>, Vector3<f64>) + Send + 'static,

@@ -21,12 +21,12 @@ fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lac
     Ok(ExactMotion::of(move |t_s| way.at(t_s), move |t_s| rotation.at(t_s)))
 }
 
-/// Without torque.
+/// Rotation without torque.
 pub(super) fn turning(body: &Body, at: &BodyState) -> FreeRotation {
     FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB)
 }
 
-/// Even motion, of a driven body.
+/// Even motion of a driven body.
 pub(super) fn even(at: &BodyState) -> ExactMotion {
     let still = Vector3::zeros();
     let way = PointMotion { position_m: at.p_WB, velocity_m_s: at.v_WB, constant_m_s2: still, harmonics: Vec::new() };

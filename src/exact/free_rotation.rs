@@ -21,10 +21,10 @@ use crate::math::dd::{Dd, dot};
 use crate::math::elliptic::{Jacobi, ThirdKind, carlson_rf, cel};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
-/// A moment that is less than this, of the largest, is none: a rod.
+/// Moment that is none, of the largest: that of a rod about its axis.
 const NO_MOMENT: f64 = 1e-14;
 
-/// Spin that is nearer than √this to the middle axis is about it: squares would underflow.
+/// Distance from the middle axis, squared, below which spin is about that axis: squares would underflow.
 const MIDDLE: f64 = 1e-280;
 
 #[derive(Clone, Debug)]
@@ -61,22 +61,22 @@ struct Tumbling {
     jacobi: Jacobi,
     third: ThirdKind,
     s: f64,
-    /// β|L|/λ.
+    /// Weight β|L|/λ.
     weight: f64,
     lambda: Dd,
     epsilon: f64,
-    /// 2K; none on the separatrix.
+    /// Half period 2K; None on the separatrix.
     half_period: Option<Dd>,
-    /// |L| a₁.
+    /// Rate |L| a₁.
     psi_rate: Dd,
-    /// Of a half period, without `psi_rate`.
+    /// Gain of the phase in a half period, without `psi_rate`.
     psi_half_period: Dd,
-    /// At ε, likewise.
+    /// Phase at ε, likewise without `psi_rate`.
     psi_start: f64,
 }
 
 impl FreeRotation {
-    /// I_B about the centre of mass; of a rod, the other moments are equal.
+    /// The rotation from its start; `I_B` is about the centre of mass. The other two moments of a rod are equal.
     pub fn new(I_B: &Matrix3<f64>, q_WB: &UnitQuaternion<f64>, w_W: &Vector3<f64>) -> Self {
         let (moment, rate) = (power_of_two(I_B.amax()), power_of_two(w_W.amax()));
         let body = principal(&(I_B / moment));
@@ -87,7 +87,7 @@ impl FreeRotation {
         FreeRotation { motion }
     }
 
-    /// (q_WB, w_WB) at a time of either sign. q is continuous: it does not jump to −q.
+    /// Attitude and angular velocity (q_WB, w_WB) at a time of either sign. q is continuous: it does not jump to −q.
     pub fn at(&self, t_s: f64) -> (UnitQuaternion<f64>, Vector3<f64>) {
         match &self.motion {
             Motion::Steady(steady) => steady.at(t_s),
@@ -120,7 +120,7 @@ impl Steady {
 }
 
 impl Tumbling {
-    /// None if the motion is steady. The moments are scaled; ω is to be scaled by `rate`.
+    /// The turning of a body; None if the motion is steady. The moments are scaled; ω is to be scaled by `rate`.
     fn new(body: &Principal, q_WB: &UnitQuaternion<f64>, w_W: &Vector3<f64>, rate: f64) -> Option<Self> {
         let w_B = body_axes(q_WB, w_W);
         let frame = Frame::new(body, &w_B)?;
@@ -163,7 +163,7 @@ impl Tumbling {
         Some(tumbling)
     }
 
-    /// At |x| ≤ K, without `psi_rate`.
+    /// Phase at |x| ≤ K, without `psi_rate`.
     fn psi(&self, x: f64, [sn, cn, dn]: [f64; 3]) -> f64 {
         let azimuth = libm::atan2(self.third.c.sqrt() * sn, cn);
         self.s * (self.weight * self.third.at(x, [sn, cn, dn], &self.jacobi) + azimuth)
@@ -196,7 +196,7 @@ struct Frame {
     /// α, β times I₁ I₂ I₃.
     alpha: Dd,
     beta: Dd,
-    /// Likewise, times |L|².
+    /// Constant D, times I₁ I₂ I₃ |L|².
     D: Dd,
     L: [Dd; 3],
 }
@@ -258,7 +258,7 @@ fn half_period(kc: Dd, c: Dd, weight: Dd) -> (Option<Dd>, Dd) {
     (Some(two * cel(kc, Dd::ONE, Dd::ONE, Dd::ONE)), two * weight * J + Dd::PI)
 }
 
-/// Near the number, so that scaling by it neither rounds nor leaves squares out of range.
+/// A power of two near the number, so that scaling by it neither rounds nor leaves squares out of range.
 pub(super) fn power_of_two(x: f64) -> f64 {
     libm::ldexp(1.0, libm::frexp(x).1)
 }

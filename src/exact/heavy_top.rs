@@ -47,14 +47,14 @@ const VERTICAL: f64 = 5e-16;
 /// m g l/I₁ over the square of the fastest rate, below which there is no gravity.
 const WEIGHTLESS: f64 = 1e-60;
 
-/// Moments about the pin.
+/// A top, by its moments about the pin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Top {
     pub transverse_kg_m2: f64,
     pub axial_kg_m2: f64,
     /// The axis of symmetry in the body, any length; the centre of mass is on it.
     pub axis_B: Vector3<f64>,
-    /// m l, the distance l from pin to centre of mass positive along the axis.
+    /// First moment m l, the distance l from pin to centre of mass positive along the axis.
     pub first_moment_kg_m: f64,
     pub gravity_m_s2: Vector3<f64>,
 }
@@ -66,7 +66,7 @@ pub struct HeavyTop {
 
 #[derive(Clone, Debug)]
 enum Motion {
-    /// Without gravity, or upright or hanging for ever.
+    /// Motion without gravity, or upright or hanging for ever.
     Free(SymmetricBody),
     Nutating(Box<Nutating>),
 }
@@ -76,11 +76,11 @@ struct Nutating {
     q_WZ: UnitQuaternion<f64>,
     q_AB: UnitQuaternion<f64>,
     jacobi: Jacobi,
-    /// α from u₁, β from u₂.
+    /// Waves: α from u₁, β from u₂.
     waves: [Wave; 2],
     lambda: Dd,
     x_start: Dd,
-    /// K; none on the separatrix.
+    /// Quarter period K; None on the separatrix.
     quarter: Option<Dd>,
     /// (ω₃ − a)/2.
     spin_half: Dd,
@@ -91,7 +91,8 @@ struct Nutating {
 }
 
 impl HeavyTop {
-    /// None if the transverse moment is not positive, the axial one negative, or the axis none.
+    /// The motion from its start. None if the transverse moment is not positive, the axial one negative, or the axis
+    /// none.
     pub fn new(top: &Top, q_WB: &UnitQuaternion<f64>, w_W: &Vector3<f64>) -> Option<Self> {
         if !(top.transverse_kg_m2 > 0.0 && top.axial_kg_m2 >= 0.0 && top.axis_B.amax() > 0.0) {
             return None;
@@ -106,7 +107,7 @@ impl HeavyTop {
         Some(HeavyTop { motion })
     }
 
-    /// (q_WB, w_WB) at a time of either sign.
+    /// Attitude and angular velocity (q_WB, w_WB) at a time of either sign.
     pub fn at(&self, t_s: f64) -> (UnitQuaternion<f64>, Vector3<f64>) {
         match &self.motion {
             Motion::Free(free) => free.at(t_s),
@@ -114,7 +115,7 @@ impl HeavyTop {
         }
     }
 
-    /// The least and the largest cosine between up and the direction from pin to centre of mass; none without gravity.
+    /// The least and the largest cosine between up and the direction from pin to centre of mass; None without gravity.
     pub fn nutation(&self) -> Option<(f64, f64)> {
         match &self.motion {
             Motion::Free(_) => None,
@@ -122,8 +123,8 @@ impl HeavyTop {
         }
     }
 
-    /// Of u; in steady precession, that of small nutation. None without gravity, upright or hanging, and on the
-    /// separatrix.
+    /// Period of u, in seconds; in steady precession, that of small nutation. None without gravity, upright or hanging,
+    /// and on the separatrix.
     pub fn nutation_period_s(&self) -> Option<f64> {
         match &self.motion {
             Motion::Free(_) => None,

@@ -25,9 +25,9 @@ pub struct InvertedPendulum {
 
 #[derive(Clone, Debug)]
 enum Path {
-    /// On which side of the top.
+    /// Path that turns back, on one side of the top.
     Turning { side: f64, turning: Turning },
-    /// In which direction.
+    /// Path that passes the top, in one direction.
     Passing { direction: f64, h: f64, jacobi: Jacobi },
 }
 
@@ -45,7 +45,7 @@ impl Turning {
         Turning { natural_rad_s, highest, jacobi: Jacobi::new(highest) }
     }
 
-    /// θ and θ̇ at a time since the highest position.
+    /// Angle θ and rate θ̇ at a time (s) since the highest position.
     pub fn at(&self, since_s: f64) -> (f64, f64) {
         let p = self.natural_rad_s;
         let [sn, _, dn] = self.jacobi.at(p * since_s);
@@ -54,7 +54,7 @@ impl Turning {
     }
 }
 
-/// From a highest position to sin²(θ/2), which is more than there by `excess`.
+/// Time (s) from a highest position to sin²(θ/2), which is more than there by `excess`.
 pub fn from_highest_s(natural_rad_s: f64, excess: f64, squared: f64) -> f64 {
     if excess == 0.0 {
         return 0.0;
@@ -82,7 +82,7 @@ impl InvertedPendulum {
         pendulum
     }
 
-    /// |τ| on a path that turns back, τ on one that passes, at θ where θ̇²/4p² is `kinetic`.
+    /// Time |τ| on a path that turns back, τ on one that passes, at θ where θ̇²/4p² is `kinetic`.
     fn since_s(&self, angle_rad: f64, kinetic: f64) -> f64 {
         let sin = libm::sin(angle_rad / 2.0);
         match &self.path {
@@ -94,7 +94,7 @@ impl InvertedPendulum {
         }
     }
 
-    /// θ and θ̇.
+    /// Angle θ and rate θ̇ at a time (s).
     pub fn at(&self, t_s: f64) -> (f64, f64) {
         let since_s = self.start_s + t_s;
         match &self.path {
@@ -111,7 +111,7 @@ impl InvertedPendulum {
         }
     }
 
-    /// When it comes to an angle for the first time after the start, and its rate there.
+    /// Time (s) at which it comes to an angle for the first time after the start, and its rate there.
     pub fn comes_to(&self, angle_rad: f64) -> Option<(f64, f64)> {
         let (mean, half) = ((angle_rad + self.angle_rad) / 2.0, (angle_rad - self.angle_rad) / 2.0);
         // sin²(θ/2) − sin²(θ₀/2), without the difference.

@@ -28,11 +28,11 @@ pub struct Ladder {
     half_length_m: f64,
     on_wall: InvertedPendulum,
     leaves_s: f64,
-    /// At that time, of the centre: how far from the wall, and how fast.
+    /// Distance of the centre from the wall at that time; its speed follows.
     distance_m: f64,
     speed_m_s: f64,
     falling: FallingRod,
-    /// Since it would have been let go on the floor alone.
+    /// Time since it would have been let go on the floor alone.
     let_go_s: f64,
 }
 
@@ -46,7 +46,7 @@ pub struct Leaning {
 }
 
 impl Ladder {
-    /// At rest at 0 < θ₀ < π/2. None if rounding keeps it there.
+    /// The motion from rest at 0 < θ₀ < π/2. None if rounding keeps it there.
     pub fn new(angle_rad: f64, inertia: f64, half_length_m: f64, gravity_m_s2: f64) -> Option<Self> {
         let start = libm::cos(angle_rad);
         let natural_rad_s = (gravity_m_s2 / (half_length_m * (1.0 + inertia))).sqrt();
@@ -92,7 +92,7 @@ struct LadderAt {
     half_length_m: f64,
     axis_W: Vector3<f64>,
     up: Vector3<f64>,
-    /// From the wall.
+    /// Direction out from the wall.
     out: Vector3<f64>,
 }
 
@@ -112,7 +112,7 @@ impl LadderAt {
     }
 }
 
-/// On a smooth floor along a smooth wall.
+/// The motion of a capsule that leans on a smooth floor along a smooth wall.
 fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
     let at = &start.bodies[index];
     let acceleration = unhindered(model, index)?;

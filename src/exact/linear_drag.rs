@@ -22,9 +22,9 @@ pub(super) const FORM: ClosedForm = ClosedForm {
 pub struct LinearDrag {
     pub position_m: Vector3<f64>,
     pub velocity_m_s: Vector3<f64>,
-    /// g + F/m.
+    /// Acceleration g + F/m.
     pub acceleration_m_s2: Vector3<f64>,
-    /// c/m.
+    /// Rate c/m.
     pub rate_per_s: f64,
 }
 

@@ -1,5 +1,4 @@
-//! Closed forms and references, one a file, cited: the formula, which scenes it is the motion of, and what lists say of
-//! it.
+//! Closed forms, one a file, cited: the formula, the scenes that it is the motion of, and what lists say of it.
 
 pub mod arc;
 mod attitude;

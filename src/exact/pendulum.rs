@@ -29,9 +29,9 @@ const TOP: f64 = 2e-16;
 
 #[derive(Clone, Debug)]
 pub struct Pendulum {
-    /// Of the lowest position nearest to the start.
+    /// Angle of the lowest position nearest to the start.
     turns_rad: f64,
-    /// Of the start velocity: motion the other way is its mirror image.
+    /// Sign of the start velocity: motion the other way is its mirror image.
     sign: f64,
     motion: Motion,
 }
@@ -49,12 +49,12 @@ struct Course {
     jacobi: Jacobi,
     x_start: Dd,
     rate: Dd,
-    /// 2K; none on the separatrix.
+    /// Half period 2K; None on the separatrix.
     half_period: Option<Dd>,
 }
 
 impl Pendulum {
-    /// m g l and I about the pivot, positive.
+    /// The motion from its start; m g l and I, about the pivot, are positive.
     pub fn new(weight_moment_N_m: f64, inertia_kg_m2: f64, angle_rad: f64, rate_rad_s: f64) -> Self {
         let two_pi = Dd::PI + Dd::PI;
         let (turns, _) = Dd::from(angle_rad).reduce(two_pi);
@@ -81,7 +81,7 @@ impl Pendulum {
         Pendulum { turns_rad: (two_pi * Dd::from(turns)).f64(), sign, motion }
     }
 
-    /// (θ, θ̇) at a time of either sign.
+    /// Angle and rate (θ, θ̇) at a time of either sign.
     pub fn at(&self, t_s: f64) -> (f64, f64) {
         let (angle, rate) = match &self.motion {
             Motion::Rest { angle } => (*angle, 0.0),
@@ -99,7 +99,7 @@ impl Pendulum {
         (self.turns_rad + self.sign * angle, self.sign * rate)
     }
 
-    /// To and fro, or once around; none at rest and on the separatrix.
+    /// Period, in seconds: to and fro, or once around; None at rest and on the separatrix.
     pub fn period_s(&self) -> Option<f64> {
         let (course, times) = match &self.motion {
             Motion::Rest { .. } => return None,
@@ -111,7 +111,7 @@ impl Pendulum {
 }
 
 impl Course {
-    /// From k′ and sn, cn ≥ 0, dn of the start.
+    /// Course from k′ and sn, cn ≥ 0, dn of the start.
     fn new(kc: Dd, [sn, cn, dn]: [Dd; 3], rate: Dd) -> Self {
         let x_start = sn.f64() * carlson_rf(cn.squared().f64(), dn.squared().f64(), 1.0);
         let half_period = (kc.f64() > 0.0).then(|| cel(kc, Dd::ONE, Dd::ONE, Dd::ONE) * Dd::from(2.0));

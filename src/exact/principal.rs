@@ -4,7 +4,7 @@
 use crate::math::dd::{Dd, dot};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
-/// Moments in rising order; axes\[i\] in body axes.
+/// Principal moments in rising order; axes\[i\] in body axes.
 pub struct Principal {
     pub moments: [Dd; 3],
     pub axes: [[Dd; 3]; 3],
@@ -51,7 +51,7 @@ fn annihilate(A: &mut [[Dd; 3]; 3], axes: &mut [[Dd; 3]; 3], p: usize, q: usize)
     }
 }
 
-/// ω in body axes, free of rounding; q_WB is normalised here.
+/// Angular velocity ω in body axes, free of rounding; q_WB is normalised here.
 pub fn body_axes(q_WB: &UnitQuaternion<f64>, w_W: &Vector3<f64>) -> [Dd; 3] {
     let w = [w_W.x, w_W.y, w_W.z].map(Dd::from);
     let (s, v) = (Dd::from(q_WB.w), [-q_WB.i, -q_WB.j, -q_WB.k].map(Dd::from));

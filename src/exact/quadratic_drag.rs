@@ -24,13 +24,13 @@ pub(super) const FORM: ClosedForm = ClosedForm {
     motion,
 };
 
-/// Directions that differ by less are one.
+/// Difference of directions that are one.
 const PARALLEL: f64 = 1e-14;
 
 #[derive(Clone, Copy, Debug)]
 pub struct QuadraticDrag {
     position_m: Vector3<f64>,
-    /// Along g, or along the start velocity where there is none.
+    /// Direction of the line: that of g, or of the start velocity where there is no g.
     direction: Vector3<f64>,
     speed_m_s: f64,
     gravity_m_s2: f64,
@@ -38,7 +38,7 @@ pub struct QuadraticDrag {
 }
 
 impl QuadraticDrag {
-    /// None if the start velocity is not along gravity, or the drag is negative.
+    /// The motion from its start. None if the start velocity is not along gravity, or the drag is negative.
     pub fn new(
         position_m: Vector3<f64>,
         velocity_m_s: Vector3<f64>,
@@ -58,7 +58,7 @@ impl QuadraticDrag {
         })
     }
 
-    /// None where there is none: without gravity or without drag.
+    /// Terminal speed, in m/s; None without gravity or without drag.
     pub fn terminal_speed_m_s(&self) -> Option<f64> {
         (self.gravity_m_s2 > 0.0 && self.drag_per_m > 0.0).then(|| (self.gravity_m_s2 / self.drag_per_m).sqrt())
     }
@@ -95,7 +95,7 @@ impl QuadraticDrag {
 }
 
 fn falling(W: f64, tau: f64) -> (f64, f64) {
-    /// exp(−2τ) is below rounding.
+    /// Above it, exp(−2τ) is below rounding.
     const LATE: f64 = 20.0;
     let tanh = libm::tanh(tau);
     let v = (W + tanh) / (1.0 + W * tanh);

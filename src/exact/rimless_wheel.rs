@@ -30,28 +30,28 @@ const WEAKEST: f64 = 1e-18;
 
 #[derive(Clone, Copy, Debug)]
 pub struct RimlessWheel {
-    /// α.
+    /// Half angle α between two legs.
     pub half_angle_rad: f64,
-    /// γ: downward in the direction of positive ψ.
+    /// Slope γ: downward in the direction of positive ψ.
     pub slope_rad: f64,
-    /// g/l.
+    /// Gravity over the leg's length, g/l, in 1/s².
     pub gravity_rad_s2: f64,
-    /// κ.
+    /// Ratio κ = I/(m l²).
     pub inertia: f64,
-    /// ψ and its rate.
+    /// Angle ψ and its rate at the start.
     pub start: [f64; 2],
 }
 
-/// From one impact to the next.
+/// Motion from one impact to the next.
 #[derive(Clone, Debug)]
 struct Leg {
     begin_s: f64,
-    /// Edges forward since the start.
+    /// Number of edges forward since the start.
     steps: i64,
     swing: InvertedPendulum,
 }
 
-/// Of the next edge: when, at which end of the leg's swing, at which rate.
+/// Impact of the next edge: when, at which end of the leg's swing, at which rate.
 #[derive(Clone, Copy, Debug)]
 struct Impact {
     t_s: f64,
@@ -59,7 +59,7 @@ struct Impact {
     rate: f64,
 }
 
-/// Edges forward since the start, ψ, and its rate.
+/// Number of edges forward since the start, ψ, and its rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stance {
     pub steps: i64,
@@ -72,7 +72,7 @@ impl RimlessWheel {
         (self.gravity_rad_s2 / (1.0 + self.inertia)).sqrt()
     }
 
-    /// Of the rate, by an impact.
+    /// Part of the rate that an impact leaves.
     pub fn left(&self) -> f64 {
         (self.inertia + libm::cos(2.0 * self.half_angle_rad)) / (self.inertia + 1.0)
     }
@@ -115,12 +115,12 @@ impl RimlessWheel {
         Stance { steps: leg.steps, angle_rad: angle - self.slope_rad, rate_rad_s }
     }
 
-    /// The least friction that never slips; infinite if the wheel leaves the plane. In an impact it is
-    /// cot α (1 − ε)/(1 + ε) for the part ε that is left of the rate.
+    /// Least coefficient of friction that never slips; infinite if the wheel leaves the plane. In an impact it is cot α
+    /// (1 − ε)/(1 + ε) for the part ε that is left of the rate.
     pub fn friction(&self) -> f64 {
         const SAMPLES: u32 = 100;
         const MOST: u32 = 10_000;
-        /// Of the rate: legs that differ by less are the same.
+        /// Difference of the rates of legs that are the same, relative.
         const SAME: f64 = 1e-9;
         let (left, mut leg, mut before, mut fastest) = (self.left(), self.first(), [0.0; 2], 0.0_f64);
         let mut most = (1.0 - left) / (1.0 + left) / libm::tan(self.half_angle_rad);
@@ -142,7 +142,7 @@ impl RimlessWheel {
         most
     }
 
-    /// Along the plane over across it, of the force of the contact.
+    /// Quotient of the contact's force along the plane and across it.
     fn needed(&self, (angle, rate): (f64, f64)) -> f64 {
         let psi = angle - self.slope_rad;
         let gain = libm::sin(angle) / (1.0 + self.inertia);
@@ -158,7 +158,7 @@ impl RimlessWheel {
 struct Wheel {
     wheel: RimlessWheel,
     start: BodyState,
-    /// Of the plane, and the direction of rolling along it; about the axis the one turns to the other.
+    /// Normal of the plane, and the direction of rolling along it; about the axis the one turns to the other.
     normal: Vector3<f64>,
     forward: Vector3<f64>,
     axis_W: Vector3<f64>,
@@ -184,7 +184,7 @@ impl Wheel {
     }
 }
 
-/// Of an angle: a wheel that is nearer to the next edge stands on it.
+/// Angle to the next edge below which a wheel stands on it, relative.
 const STANDS: f64 = 1e-9;
 
 fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lacks> {
@@ -238,7 +238,7 @@ fn motion(model: &Model, start: &State, index: usize) -> Result<ExactMotion, Lac
     Ok(ExactMotion::new(move |t_s| wheel.at(t_s)))
 }
 
-/// How many edges a regular prism about the axis has, one of them at `foot` from the centre of mass.
+/// Number of edges of a regular prism about the axis, one of them at `foot` from the centre of mass.
 fn spokes(body: &Body, at: &BodyState, axis_W: &Vector3<f64>, foot: &Vector3<f64>) -> Option<usize> {
     let corners: Vec<Vector3<f64>> = match &body.geometry {
         Geometry::Solid { solid: Solid::Box { half_m }, centre } => {

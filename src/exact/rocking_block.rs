@@ -28,9 +28,9 @@ const WEAKEST: f64 = 1e-18;
 #[derive(Clone, Debug)]
 pub struct RockingBlock {
     alpha_rad: f64,
-    /// x₁ of the first arc.
+    /// Turning point x₁ of the first arc.
     highest: f64,
-    /// Until the first impact, then from one to the next.
+    /// Arcs: until the first impact, then from one to the next.
     arcs: Vec<Rock>,
     end_s: f64,
 }
@@ -43,8 +43,8 @@ struct Rock {
 }
 
 impl RockingBlock {
-    /// From a tilt θ ≥ 0 and its rate; α, p and what an impact leaves of the speed. None if it overturns, or never
-    /// leaves the ground.
+    /// The motion from a tilt θ ≥ 0 and its rate; α, p and the part of the speed that an impact leaves. None if it
+    /// overturns, or never leaves the ground.
     pub fn new(alpha_rad: f64, natural_rad_s: f64, left: f64, tilt_rad: f64, rate_rad_s: f64) -> Option<Self> {
         let flat = libm::sin(alpha_rad / 2.0);
         let kinetic = (rate_rad_s / (2.0 * natural_rad_s)).powi(2);
@@ -71,7 +71,8 @@ impl RockingBlock {
         Some(block)
     }
 
-    /// Impacts so far, tilt about the edge of that number (0: the first; even and odd take turns) and its rate.
+    /// Number of impacts so far, tilt about the edge of that number (0: the first; even and odd take turns) and its
+    /// rate.
     pub fn at(&self, t_s: f64) -> (usize, f64, f64) {
         let begun = self.arcs.partition_point(|arc| arc.begin_s <= t_s).max(1);
         if t_s >= self.end_s {
@@ -82,8 +83,9 @@ impl RockingBlock {
         (begun - 1, self.alpha_rad - psi, -rate)
     }
 
-    /// The least that never slips, of I/(m R²) about the edge. In an impact it is cot α (1 − ε)/(1 + ε) for the part ε
-    /// that is left of the speed; in between |ẍ|/(g + z̈), which is monotone in ψ̇², 0 in some later arc.
+    /// Least coefficient of friction that never slips, for `inertia` I/(m R²) about the edge. In an impact it is
+    /// cot α (1 − ε)/(1 + ε) for the part ε that is left of the speed; in between |ẍ|/(g + z̈), which is monotone in
+    /// ψ̇², 0 in some later arc.
     pub fn friction(&self, inertia: f64, left: f64) -> f64 {
         const SAMPLES: u32 = 1000;
         let highest = self.highest;
@@ -100,7 +102,7 @@ impl RockingBlock {
         })
     }
 
-    /// When each impact comes.
+    /// Times of the impacts, in seconds.
     pub fn impacts_s(&self) -> impl Iterator<Item = f64> {
         let later = self.arcs.iter().skip(1).map(|arc| arc.begin_s);
         later.chain(std::iter::once(self.end_s))
@@ -112,7 +114,7 @@ struct Block {
     rocking: RockingBlock,
     flat: BodyState,
     edges_W: [Vector3<f64>; 2],
-    /// About which a tilt on the first edge is positive.
+    /// Axis about which a tilt on the first edge is positive.
     axis_W: Vector3<f64>,
 }
 

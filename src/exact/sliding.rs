@@ -25,8 +25,8 @@ pub struct Sliding {
 }
 
 impl Sliding {
-    /// Along the plane everything accelerates with `pull`, and presses on it with `press` > 0 (of a unit mass). None if
-    /// it moves across the pull: then it slides on a curve.
+    /// The motion from its start. Along the plane everything accelerates with `pull`, and presses on it with `press` >
+    /// 0 (of a unit mass). None if it moves across the pull: then it slides on a curve.
     pub fn new(start: &BodyState, pull: Vector3<f64>, press: f64, friction: f64) -> Option<Self> {
         let grip = friction * press;
         if grip == 0.0 {
@@ -58,7 +58,7 @@ impl Sliding {
         arc::at(&self.arcs, t_s)
     }
 
-    /// What it does at one time or another.
+    /// Accelerations that it has at one time or another, in m/s².
     pub fn accelerations(&self) -> impl Iterator<Item = Vector3<f64>> {
         self.arcs.iter().map(|arc| arc.acceleration_m_s2)
     }

@@ -24,31 +24,31 @@ pub(super) const FORM: ClosedForm = ClosedForm {
 #[derive(Clone, Debug)]
 pub struct StickSlip {
     start: BodyState,
-    /// Unit; A > 0 along it.
+    /// Unit vector along the line; A > 0 along it.
     line: Vector3<f64>,
     constant_m_s2: f64,
     amplitude_m_s2: f64,
     /// ω > 0.
     rate_rad_s: f64,
     phase_rad: f64,
-    /// μ g_n.
+    /// Deceleration μ g_n of a slip.
     grip_m_s2: f64,
 }
 
 #[derive(Clone, Debug)]
 struct Phase {
     begin_s: f64,
-    /// Of the velocity; 0: it sticks.
+    /// Sign of the velocity; 0 where it sticks.
     sign: f64,
     way: PointMotion,
 }
 
-/// Of a period: a slip that begins at rest does not end sooner.
+/// Shortest slip that begins at rest, of a period.
 const SHORTEST: f64 = 1e-9;
 
 impl StickSlip {
-    /// `drive`: what accelerates it along the plane but friction. None if the velocity is not along the drive, or a
-    /// constant part of the drive outweighs friction.
+    /// The motion from its start. `drive` is what accelerates it along the plane but friction. None if the velocity is
+    /// not along the drive, or a constant part of the drive outweighs friction.
     pub fn new(start: &BodyState, constant: Vector3<f64>, drive: &Harmonic, grip_m_s2: f64) -> Option<Self> {
         use super::facts::SAME;
         let line = drive.amplitude_m_s2.try_normalize(0.0)?;
@@ -80,7 +80,7 @@ impl StickSlip {
         }
     }
 
-    /// When it begins to slip, or ceases to, up to a time.
+    /// Times up to `until_s` at which it begins to slip, or ceases to.
     pub fn changes_s(&self, until_s: f64) -> Vec<f64> {
         let (mut phase, mut changes) = (self.first(), Vec::new());
         loop {
@@ -155,7 +155,8 @@ impl StickSlip {
         outgrows(1.0).min(outgrows(-1.0))
     }
 
-    /// The speed falls from arccos to 2π − arccos, backward from −arccos to arccos: in one such time it comes to zero.
+    /// Time at which the slip ends: the speed falls from arccos to 2π − arccos, backward from −arccos to arccos, and in
+    /// one such time it comes to zero.
     fn stops_s(&self, phase: &Phase) -> f64 {
         let edge = libm::acos(self.cosine(phase.sign).clamp(-1.0, 1.0));
         let least_angle = if phase.sign > 0.0 { 2.0 * PI - edge } else { edge };
@@ -171,7 +172,7 @@ impl StickSlip {
     }
 }
 
-/// Where a speed that falls between two times comes to zero.
+/// Time between two others at which a speed that falls comes to zero.
 fn root_s([mut before_s, mut after_s]: [f64; 2], speed: impl Fn(f64) -> f64) -> f64 {
     loop {
         let middle_s = (before_s + after_s) / 2.0;

@@ -22,17 +22,17 @@ pub(super) const FORM: ClosedForm = ClosedForm {
 pub struct SymmetricBody {
     q_WB: UnitQuaternion<f64>,
     axis_B: Vector3<f64>,
-    /// Of L.
+    /// Direction of L.
     axis_W: Vector3<f64>,
-    /// |L|/I₁
+    /// Rate |L|/I₁ of the axis about L.
     precession: Dd,
-    /// (1 − I₃/I₁) ω₃
+    /// Rate (1 − I₃/I₁) ω₃ about the axis.
     spin: Dd,
     w_W: Vector3<f64>,
 }
 
 impl SymmetricBody {
-    /// Moments across (positive) and along the axis, which has any length but zero.
+    /// The rotation from its start, by the moments across (positive) and along the axis, which has any length but zero.
     pub fn new(
         transverse_kg_m2: f64,
         axial_kg_m2: f64,
@@ -60,7 +60,7 @@ impl SymmetricBody {
         }
     }
 
-    /// (q_WB, w_WB) at a time of either sign.
+    /// Attitude and angular velocity (q_WB, w_WB) at a time of either sign.
     pub fn at(&self, t_s: f64) -> (UnitQuaternion<f64>, Vector3<f64>) {
         let t = Dd::from(t_s);
         let around = turn(&self.axis_W, self.precession * t);

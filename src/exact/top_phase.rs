@@ -6,7 +6,7 @@ use crate::math::dd::Dd;
 use crate::math::elliptic::{Jacobi, ThirdKind, cel};
 use nalgebra::Complex;
 
-/// √2 α from u₁ or √2 β from u₂, but for ρt: over √2, |α| or |β|.
+/// A wave √2 α from u₁ or √2 β from u₂, but for ρt: over √2, |α| or |β|.
 #[derive(Clone, Debug)]
 pub struct Wave {
     shape: Shape,
@@ -15,7 +15,7 @@ pub struct Wave {
     /// Phase = linear x + weight J(x).
     linear: f64,
     weight: f64,
-    /// What the phase gains in 2K.
+    /// Gain of the phase in 2K.
     pub half_period: Dd,
 }
 
@@ -38,7 +38,7 @@ pub struct Amplitude {
 }
 
 impl Wave {
-    /// α; `sum` is b + a.
+    /// The wave α; `sum` is b + a.
     pub fn hanging(roots: &Roots, sum: Dd, twice_lambda: Dd, kc: Dd) -> Wave {
         let Roots { z, gap_31, .. } = roots;
         let shape = Shape::Crossing {
@@ -50,7 +50,7 @@ impl Wave {
         Wave::new(shape, roots, z[2] / *gap_31, [Dd::ZERO, sum / (twice_lambda * z[2])], kc)
     }
 
-    /// β; `d` is b − a.
+    /// The wave β; `d` is b − a.
     pub fn upright(roots: &Roots, d: Dd, twice_lambda: Dd, kc: Dd) -> Wave {
         let Roots { y, gap_21, gap_32, gap_31, .. } = roots;
         let over = -y[2];
@@ -89,12 +89,12 @@ impl Wave {
         }
     }
 
-    /// In 2K; else its period is 2K.
+    /// Whether the amplitude changes its sign in 2K; else its period is 2K.
     pub fn changes_sign(&self) -> bool {
         matches!(self.shape, Shape::Crossing { .. })
     }
 
-    /// At |x| ≤ K.
+    /// The amplitude at |x| ≤ K.
     pub fn at(&self, x: f64, jacobi: &Jacobi) -> Amplitude {
         let functions = jacobi.at(x);
         let [sn, cn, _] = functions;
@@ -111,7 +111,7 @@ impl Wave {
 }
 
 impl Shape {
-    /// With sn′ = cn dn, cn′ = −sn dn, dn′ = −k² sn cn.
+    /// The amplitude's number and its derivative by x, with sn′ = cn dn, cn′ = −sn dn, dn′ = −k² sn cn.
     fn at(&self, [sn, cn, dn]: [f64; 3], kk: f64) -> (Complex<f64>, Complex<f64>) {
         let real = |x: f64| Complex::new(x, 0.0);
         match *self {

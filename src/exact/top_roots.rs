@@ -8,14 +8,14 @@
 
 use crate::math::dd::Dd;
 
-/// What the start says; β > 0.
+/// Data of the start; β > 0.
 pub struct Start {
     pub a: Dd,
     pub beta: Dd,
-    /// 1 − u₀, 1 + u₀.
+    /// Distances 1 − u₀ and 1 + u₀.
     pub y: Dd,
     pub z: Dd,
-    /// b − a u₀, u̇₀, |ω⊥|².
+    /// Numbers b − a u₀, u̇₀ and |ω⊥|².
     pub h: Dd,
     pub u_dot: Dd,
     pub T: Dd,
@@ -23,25 +23,25 @@ pub struct Start {
 
 #[derive(Debug)]
 pub struct Roots {
-    /// uᵢ − u₀.
+    /// Distances uᵢ − u₀ from the start.
     pub v: [Dd; 3],
-    /// 1 − uᵢ.
+    /// Distances 1 − uᵢ from the upright position.
     pub y: [Dd; 3],
-    /// 1 + uᵢ.
+    /// Distances 1 + uᵢ from the hanging position.
     pub z: [Dd; 3],
-    /// u₂ − u₁, u₃ − u₂, u₃ − u₁.
+    /// Gaps u₂ − u₁, u₃ − u₂ and u₃ − u₁.
     pub gap_21: Dd,
     pub gap_32: Dd,
     pub gap_31: Dd,
 }
 
 impl Start {
-    /// b − a.
+    /// Difference b − a.
     pub fn d(&self) -> Dd {
         self.h - self.a * self.y
     }
 
-    /// b + a.
+    /// Sum b + a.
     pub fn sum(&self) -> Dd {
         self.h + self.a * self.z
     }
@@ -82,7 +82,7 @@ impl Roots {
 
 /// The root that is farther from the middle one than the other is, and whether it is the highest.
 fn far_root(c: &[Dd; 4]) -> (Dd, bool) {
-    /// From 2r to at least √3 r, quadratically: six reach 32 digits.
+    /// Number of steps: from 2r to at least √3 r, quadratically, six reach 32 digits.
     const STEPS: usize = 9;
     let at = |v: Dd| ((c[3] * v + c[2]) * v + c[1]) * v + c[0];
     let slope = |v: Dd| (Dd::from(3.0) * c[3] * v + Dd::from(2.0) * c[2]) * v + c[1];

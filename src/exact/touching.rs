@@ -1,4 +1,4 @@
-//! What a body touches, as far as closed forms ask: planes under it, the points on them, the ball that it is.
+//! Contacts of a body, as far as closed forms ask: planes under it, the points on them, the ball that it is.
 
 use super::facts::{Lacks, SAME, constant_acceleration, unpinned};
 use crate::collide::faces;
@@ -8,14 +8,14 @@ use crate::shape::solid::Solid;
 use crate::state::BodyState;
 use nalgebra::Vector3;
 
-/// The only thing that it touches, and the acceleration by all that acts on it but the contact.
+/// The only face that the body touches, and the acceleration by all that acts on it but the contact.
 pub(super) fn on_its_own(model: &Model, index: usize) -> Result<(Face, Vector3<f64>), Lacks> {
     let acceleration = unhindered(model, index)?;
     let [face] = only_faces(model).ok_or("a `container` of one plane, and one body with a shape")?;
     Ok((face, acceleration))
 }
 
-/// If there is nothing else to touch.
+/// The faces of the container, if there is nothing else to touch.
 pub(super) fn only_faces<const N: usize>(model: &Model) -> Option<[Face; N]> {
     let faces = model.container.as_ref().map(|container| container.faces.as_slice());
     faces.filter(|_| !model.touching_pairs).and_then(|faces| faces.try_into().ok())
@@ -28,7 +28,7 @@ pub(super) fn unhindered(model: &Model, index: usize) -> Result<Vector3<f64>, La
     constant_acceleration(model, index)
 }
 
-/// The points on the plane, and the state, moving along the plane.
+/// Points on the plane of a body that lies on it, and its state, moving along the plane.
 pub(super) fn lying_flat(body: &Body, at: &BodyState, face: &Face) -> Result<(Vec<Vector3<f64>>, BodyState), Lacks> {
     let across = face.normal.dot(&at.v_WB);
     if across.abs() > SAME * at.v_WB.norm() || at.w_WB != Vector3::zeros() {
@@ -41,14 +41,14 @@ pub(super) fn lying_flat(body: &Body, at: &BodyState, face: &Face) -> Result<(Ve
     Ok((feet, BodyState { v_WB: at.v_WB - face.normal * across, ..*at }))
 }
 
-/// What is nearer to a plane, of the size of the body and of the distance from the origin, is on it.
+/// Distance from a plane of what is on it, relative to the size of the body and the distance from the origin.
 pub(super) const ON: f64 = 1e-9;
 
 pub(super) fn rounding_m(size_m: f64, at: &BodyState) -> f64 {
     ON * size_m + 8.0 * f64::EPSILON * at.p_WB.amax()
 }
 
-/// From the centre of mass to the points on the plane.
+/// Vectors from the centre of mass to the points on the plane.
 pub(super) fn feet(body: &Body, at: &BodyState, face: &Face) -> Vec<Vector3<f64>> {
     let near_m = rounding_m(body.bounding_radius_m, at);
     let mut feet = Vec::new();
@@ -60,13 +60,13 @@ pub(super) fn feet(body: &Body, at: &BodyState, face: &Face) -> Vec<Vector3<f64>
     feet
 }
 
-/// A vector along the plane; none if it is rounding of `scale`.
+/// A vector along the plane; zero if it is rounding of `scale`.
 pub(super) fn along(v: &Vector3<f64>, normal: &Vector3<f64>, scale: f64) -> Vector3<f64> {
     let along = v - normal * normal.dot(v);
     if along.norm() <= 4.0 * f64::EPSILON * scale { Vector3::zeros() } else { along }
 }
 
-/// Not on one line.
+/// Whether the points do not lie on one line.
 fn spread(points: &[Vector3<f64>], normal: &Vector3<f64>, size_m: f64) -> bool {
     let Some(first) = points.first() else { return false };
     let apart = |p: &&Vector3<f64>| (**p - first).norm();
@@ -105,7 +105,7 @@ pub(super) fn level(model: &Model, index: usize) -> Result<(Face, f64), Lacks> {
     Ok((face, press_on(&face, &acceleration).ok_or("a level plane")?))
 }
 
-/// g, if the plane is level.
+/// Acceleration g towards the plane, if the plane is level.
 pub(super) fn press_on(face: &Face, acceleration: &Vector3<f64>) -> Option<f64> {
     let press = -face.normal.dot(acceleration);
     (press > 0.0 && along(acceleration, &face.normal, press).norm() <= SAME * press).then_some(press)

@@ -26,18 +26,18 @@ pub(super) const FORM: ClosedForm = ClosedForm {
 #[derive(Clone, Debug)]
 pub struct Turntable {
     start: BodyState,
-    /// Unit, up.
+    /// Unit normal, up.
     normal: Vector3<f64>,
-    /// λ.
+    /// Rate λ.
     rate_rad_s: f64,
-    /// What of ω does not turn with λ.
+    /// Part of ω that does not turn with λ.
     steady_W: Vector3<f64>,
-    /// What does, at the start.
+    /// Part of ω that does, at the start.
     turning_W: Vector3<f64>,
 }
 
 impl Turntable {
-    /// Of a ball that rolls at the start; `from_axis` to its centre, along the table.
+    /// The motion of a ball that rolls at the start; `from_axis` leads to its centre, along the table.
     pub fn new(
         start: &BodyState,
         normal: Vector3<f64>,
@@ -55,17 +55,17 @@ impl Turntable {
         Turntable { start: *start, normal, rate_rad_s, steady_W, turning_W }
     }
 
-    /// v̇, which friction must hold.
+    /// Acceleration v̇, which friction must hold, in m/s².
     pub fn acceleration_m_s2(&self) -> f64 {
         self.rate_rad_s.abs() * self.start.v_WB.norm()
     }
 
-    /// Radius of the circle; none if the table is at rest.
+    /// Radius of the circle, in metres; None if the table is at rest.
     pub fn radius_m(&self) -> f64 {
         self.start.v_WB.norm() / self.rate_rad_s.abs()
     }
 
-    /// From the ball's centre at the start to the circle's.
+    /// Vector from the ball's centre at the start to the circle's, in metres.
     pub fn to_centre_m(&self) -> Vector3<f64> {
         self.normal.cross(&self.start.v_WB) / self.rate_rad_s
     }

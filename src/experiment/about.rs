@@ -1,11 +1,11 @@
-//! What lists say of the words of the vocabulary: what each is, and where it comes from. Settings, their words and
+//! Texts of lists about the words of the vocabulary: what each is, and where it comes from. Settings, their words and
 //! defaults are asked of the parser (`vocabulary.rs`).
 
 use super::facts::{About, about};
 use super::types::{Measure, Shape};
 
 impl Shape {
-    /// What of it touches.
+    /// Sentence for lists about what of the shape touches.
     pub fn about(&self) -> About {
         match self {
             Shape::Sphere(_) => about("Touches with its surface, or the nodes of its mesh (`subdivisions`).", ""),

@@ -1,11 +1,11 @@
-//! What makes a method more accurate.
+//! The setting that makes a method more accurate.
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accuracy {
-    /// A shorter `time.step_s`.
+    /// A step: `time.step_s`, which is made shorter.
     Step,
-    /// A smaller tolerance, which is at this path; the method finds its own steps inside those of the clock.
+    /// A tolerance, at this path, which is made smaller; the method finds its own steps inside those of the clock.
     Tolerance(&'static [&'static str]),
-    /// Nothing: it is a closed form.
+    /// No setting: the method is a closed form.
     Closed,
 }

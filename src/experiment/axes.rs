@@ -4,22 +4,22 @@ use super::error::{self, ExperimentError, Kind, describe, shortened};
 use super::key_path::{KeyPath, Path, Segment};
 use super::later::BESIDE_EXPERIMENT;
 use super::overrides::split;
+use super::tree::{Mapping, Number, Value, cell, compact_json, shown};
 use super::value_de::from_value;
 use serde::Deserialize;
-use serde_yaml::{Mapping, Number, Value};
 use std::collections::HashMap;
 
 type Result<T> = std::result::Result<T, ExperimentError>;
 
-/// More values than anyone means to write on one axis: a slip in `step`, caught before it fills the memory.
+/// Most values on an axis. More is a slip in `step`, caught before it fills the memory.
 const MOST_VALUES: u128 = 1_000_000;
-/// More cases than can be planned; caught before an index overflows.
+/// Most cases of a plan; more is caught before an index overflows.
 const MOST_CASES: usize = 1_000_000_000;
 
 /// All axes of a file; none is a grid of one point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axes {
-    /// In the order written.
+    /// Axes in the order written.
     pub axes: Vec<Axis>,
     /// Indices of the axes that advance together; every axis is in exactly one group, groups in the order of their
     /// first member.
@@ -29,11 +29,11 @@ pub struct Axes {
 /// One key path and the values it takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// As written: also the name of the column.
+    /// Key path as written, which is also the name of the column.
     pub path: String,
-    /// `path`, split at its dots.
+    /// Segments of `path`, split at its dots.
     pub segments: Vec<String>,
-    /// At least one, none twice.
+    /// Values of the axis: at least one, none twice.
     pub values: Vec<AxisValue>,
 }
 
@@ -51,35 +51,22 @@ impl From<Number> for AxisValue {
 }
 
 impl AxisValue {
-    /// How the value is shown: its label, the scalar itself, or compact JSON.
+    /// Text of the value: its label, the scalar itself, or compact JSON.
     pub fn shown(&self) -> String {
-        match (&self.label, &self.value) {
-            (Some(label), _) => label.clone(),
-            (None, Value::String(text)) => text.clone(),
-            (None, Value::Number(number)) => number.to_string(),
-            (None, other) => compact_json(other),
-        }
+        self.label.clone().unwrap_or_else(|| shown(&self.value))
     }
 
-    /// What stands in the axis' column of a row: numbers and booleans stay what they are, all else is text.
+    /// Cell of the value in the axis' column of a row: numbers and booleans stay what they are, all else is text.
     pub fn cell(&self) -> serde_json::Value {
-        match (&self.label, &self.value) {
-            (None, Value::Number(_) | Value::Bool(_) | Value::Null) => {
-                serde_json::to_value(&self.value).unwrap_or_default()
-            }
-            _ => serde_json::Value::String(self.shown()),
-        }
+        self.label.as_deref().map_or_else(|| cell(&self.value), serde_json::Value::from)
     }
-}
-
-/// A tree that came from a file always has text keys here, or its case is refused; a key that JSON does not know is
-/// shown as null.
-fn compact_json(value: &Value) -> String {
-    serde_json::to_string(value).unwrap_or_else(|_| "null".to_string())
 }
 
 impl Axes {
-    /// From what stands in `sweep:`: the axes, and groups of them that advance side by side.
+    /// Axes from what stands in `sweep:`, and groups of them that advance side by side.
+    ///
+    /// # Errors
+    /// An axis that is none, or has a value twice; a group of axes of different lengths; too many cases.
     pub fn read(axes: &Mapping, together: &[Vec<String>]) -> Result<Axes> {
         let axes = read_axes(axes)?;
         let groups = read_groups(together, &axes)?;
@@ -92,12 +79,12 @@ impl Axes {
         self.axes.is_empty()
     }
 
-    /// The number of points: 1 without axes.
+    /// Number of points: 1 without axes.
     pub fn len(&self) -> usize {
         self.groups.iter().map(|group| self.group_len(group)).product()
     }
 
-    /// For every axis the index of its value at point `i` of the grid; `i` counts from 0 to `len()` and wraps there.
+    /// Point `i` of the grid: for every axis the index of its value. `i` counts from 0 to `len()` and wraps there.
     pub fn point(&self, mut i: usize) -> Vec<usize> {
         let mut point = vec![0; self.axes.len()];
         for group in self.groups.iter().rev() {
@@ -126,12 +113,12 @@ impl Axes {
     }
 }
 
-/// Where an axis stands in the file.
+/// Place of an axis in the file.
 pub fn axis_path(key: &str) -> KeyPath {
     KeyPath::of_keys(&["sweep", "axes", key])
 }
 
-/// Where a value of an axis stands in the file, if it is written there; else its axis is the nearest.
+/// Place of a value of an axis in the file, if it is written there; else its axis is the nearest.
 pub fn value_path(key: &str, index: usize) -> KeyPath {
     let mut path = axis_path(key);
     path.push(Segment::Item { index, name: None });
@@ -184,7 +171,7 @@ fn read_span(text: &str, at: &KeyPath) -> Result<Vec<AxisValue>> {
     Ok((from..=to).filter_map(to_number).map(AxisValue::from).collect())
 }
 
-/// What a number of YAML holds.
+/// A whole number, if YAML can hold it.
 fn whole(text: &str) -> Option<i128> {
     let n = text.trim().parse().ok()?;
     to_number(n).map(|_| n)
@@ -294,7 +281,7 @@ pub(super) enum Form {
     Linear(Spaced),
 }
 
-/// `from`, `from + step`, … up to `to`.
+/// Numbers `from`, `from + step`, … up to `to`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Range {
@@ -308,7 +295,7 @@ fn one() -> Number {
     Number::from(1)
 }
 
-/// `count` values, both ends exact, rising or falling.
+/// Numbers from one end to the other, `count` of them, both ends exact, rising or falling.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Spaced {
@@ -390,7 +377,7 @@ impl Spaced {
         Ok(self.integers_if_all_are(&values))
     }
 
-    /// From 2 to 32 in five logarithmic steps are five whole numbers, and stay so.
+    /// Whole numbers where all are: from 2 to 32 in five logarithmic steps are five whole numbers, and stay so.
     fn integers_if_all_are(&self, values: &[f64]) -> Vec<Number> {
         let is_integer = integer(&self.from).is_some() && integer(&self.to).is_some();
         let as_integer = |x: &f64| (x.fract() == 0.0).then(|| to_number(*x as i128)).flatten();
@@ -416,7 +403,7 @@ fn logarithmic(from: f64, to: f64, t: f64, at: Path) -> Result<f64> {
     Ok(if is_normal { from * libm::pow(ratio, t) } else { libm::pow(from, 1.0 - t) * libm::pow(to, t) })
 }
 
-/// To 15 significant digits: what a decimal step means (0.3), instead of the rounding of its multiples
+/// A number to 15 significant digits: what a decimal step means (0.3), instead of the rounding of its multiples
 /// (0.30000000000000004).
 pub(crate) fn decimal(x: f64) -> f64 {
     format!("{x:.14e}").parse().unwrap_or(x)
@@ -438,7 +425,7 @@ fn to_number(n: i128) -> Option<Number> {
     i64::try_from(n).map(Number::from).or_else(|_| u64::try_from(n).map(Number::from)).ok()
 }
 
-/// A `Number` always converts; the reader of values has refused what is not finite.
+/// The number as f64. A `Number` always converts; the reader of values has refused what is not finite.
 pub(crate) fn float(number: &Number) -> f64 {
     number.as_f64().unwrap_or(f64::NAN)
 }

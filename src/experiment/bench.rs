@@ -1,27 +1,28 @@
-//! `bench:`: which methods are compared, at which steps and tolerances, by which error. How it is done is in `bench/`.
+//! The vocabulary of `bench:`: the methods that are compared, their steps and tolerances, the error. How it is done is
+//! in `bench/`.
 
 use super::axes::read_list;
 use super::checks::{Result, positive, unexpected};
 use super::error::number;
 use super::key_path::{KeyPath, Path};
+use super::tree::Value;
 use super::types::Method;
 use super::value_de::from_value;
-use serde_yaml::Value;
 
-/// Best and median of five: enough to see a disturbed run.
+/// Repeats where none are given. Best and median of five are enough to see a disturbed run.
 const REPEATS: u32 = 5;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bench {
-    /// At least one, each with a label of its own.
+    /// Methods to compare: at least one, each with a label of its own.
     pub methods: Vec<Listed>,
-    /// Of methods that advance by a given step; empty: `time.step_s`.
+    /// Steps of methods that advance by a given one, in seconds; where it is empty, `time.step_s`.
     pub steps_s: Vec<f64>,
-    /// Of methods that control their error; empty: the method's own tolerance.
+    /// Tolerances of methods that control their error; where it is empty, each method's own.
     pub tolerances: Vec<f64>,
-    /// A column of numbers.
+    /// Name of the column of numbers that is the error.
     pub error: String,
-    /// At least 1.
+    /// Number of timed runs of a trial, at least 1.
     pub repeats: u32,
 }
 
@@ -30,11 +31,11 @@ pub struct Bench {
 pub struct Listed {
     pub label: String,
     pub method: Method,
-    /// As written, and where; None: it is the file's own method.
+    /// The method as it is written, and where; None for the file's own.
     pub written: Option<(Value, KeyPath)>,
 }
 
-/// As it is written.
+/// The keys of `bench:` as they are written.
 #[derive(serde::Deserialize)]
 #[serde(rename = "Bench", deny_unknown_fields)]
 pub(super) struct BenchText {
@@ -47,12 +48,15 @@ pub(super) struct BenchText {
     repeats: Option<u32>,
 }
 
-/// Where a key of `bench:` stands in the file.
+/// Place of a key of `bench:` in the file.
 pub fn bench_path(key: &str) -> KeyPath {
     KeyPath::of_keys(&["bench", key])
 }
 
-/// Reads what stands below `bench:`; `own` is the file's `method:`.
+/// The bench that stands below `bench:`; `own` is the file's `method:`.
+///
+/// # Errors
+/// A key, step, tolerance or method that is wrong, or two methods with one label.
 pub fn read(value: &Value, own: Option<&Value>) -> Result<Bench> {
     let base = KeyPath::of_keys(&["bench"]);
     let at = Path::Base(&base);
@@ -96,7 +100,7 @@ fn listed(items: &[Value], at: Path) -> Result<Vec<Listed>> {
     Ok(methods)
 }
 
-/// The method's word and the settings that are written; an integrator says all by its name.
+/// Label of a method: its word and the settings that are written; an integrator says all by its name.
 fn label(method: &Method, written: Option<&Value>) -> String {
     if let Some(integrator) = method.facts().integrator {
         return format!("{} {}", method.word(), integrator.word());

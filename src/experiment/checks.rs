@@ -1,4 +1,4 @@
-//! Checks of one value: its bounds, and what is said when it is outside.
+//! Checks of one value: its bounds, and the message where it is outside.
 
 use super::error::{ExperimentError, number};
 use super::key_path::Path;
@@ -10,7 +10,7 @@ pub(super) fn unexpected(at: Path, expected: &str, found: &str) -> ExperimentErr
     ExperimentError::unexpected(at.to_key_path(), expected, found)
 }
 
-/// «a, b and c».
+/// Text «a, b and c».
 pub(super) fn series(items: &[impl AsRef<str>], last: &str) -> String {
     let items: Vec<&str> = items.iter().map(AsRef::as_ref).collect();
     match &items[..] {
@@ -19,7 +19,7 @@ pub(super) fn series(items: &[impl AsRef<str>], last: &str) -> String {
     }
 }
 
-/// Words of the file, in a sentence.
+/// Words of the file as part of a sentence.
 pub(super) fn listed(words: impl Iterator<Item = &'static str>) -> String {
     series(&words.map(|word| format!("`{word}`")).collect::<Vec<_>>(), "and")
 }
@@ -32,7 +32,7 @@ pub(super) fn not_negative(x: f64, at: Path) -> Result<()> {
     if x >= 0.0 { Ok(()) } else { Err(unexpected(at, "a number of at least 0", &number(x))) }
 }
 
-/// A coefficient of restitution.
+/// Checks a coefficient of restitution.
 pub(super) fn a_part(x: f64, at: Path) -> Result<()> {
     if (0.0..=1.0).contains(&x) { Ok(()) } else { Err(unexpected(at, "a number from 0 to 1", &number(x))) }
 }
@@ -41,7 +41,7 @@ pub(super) fn at_least_one(n: u32, at: Path) -> Result<()> {
     if n >= 1 { Ok(()) } else { Err(unexpected(at, "a whole number of at least 1", &n.to_string())) }
 }
 
-/// Outside of these no sweep converges.
+/// Checks a relaxation; outside of these bounds no sweep converges.
 pub(super) fn relaxation(x: f64, at: Path) -> Result<()> {
     if x > 0.0 && x < 2.0 { Ok(()) } else { Err(unexpected(at, "a number between 0 and 2", &number(x))) }
 }
@@ -51,7 +51,7 @@ pub(super) fn holds_a_face(contacts: u32, at: Path) -> Result<()> {
     if contacts >= 3 { Ok(()) } else { Err(unexpected(at, expected, &contacts.to_string())) }
 }
 
-/// A tolerance of the whole motion.
+/// Checks a tolerance of the whole motion.
 pub(super) fn reachable(tolerance: f64, at: Path) -> Result<()> {
     if tolerance >= SMALLEST_GLOBAL {
         return Ok(());

@@ -5,11 +5,11 @@ use super::checks::{Result, unexpected};
 use super::key_path::Path;
 use super::types::{Body, Copies, Experiment};
 
-/// More is a slip, and would end in a lack of memory.
+/// Most bodies that copies make. More is a slip, and would end in a lack of memory.
 const MOST: u64 = 100_000;
 
 impl Copies {
-    /// What stands behind the name, and where it is from the first one.
+    /// What stands behind the name of every copy, and its displacement from the first one.
     fn each(&self) -> Vec<(String, [f64; 3])> {
         let step_m = self.step_m;
         if let Some(count) = self.count {
@@ -38,19 +38,19 @@ impl Body {
         }
     }
 
-    /// How the scene calls it, or the first of its copies.
+    /// Name of the body in the scene, or of the first of its copies.
     pub fn called(&self) -> String {
         let first = self.copies.and_then(|copies| copies.each().into_iter().next());
         first.map_or_else(|| self.name.clone(), |(number, _)| format!("{}[{number}]", self.name))
     }
 }
 
-/// The name in the file of a body in the scene.
+/// Name that a body of the scene has in the file.
 pub fn described_as(name: &str) -> &str {
     name.split_once('[').map_or(name, |(described, _)| described)
 }
 
-/// Its name without the number of a copy, if that is written as `each` writes it.
+/// Name of a copy without its number, if that is written as `each` writes it.
 pub fn without_number(name: &str) -> Option<&str> {
     let (described, number) = name.strip_suffix(']')?.split_once('[')?;
     let is_index = |text: &str| text.parse::<u32>().is_ok_and(|n| n.to_string() == text);
@@ -58,6 +58,10 @@ pub fn without_number(name: &str) -> Option<&str> {
     ([1, 3].contains(&indices.len()) && indices.into_iter().all(is_index)).then_some(described)
 }
 
+/// Checks that copies have a `count` or a `grid`, and how many bodies they make.
+///
+/// # Errors
+/// Neither of the two or both, no body, or too many.
 pub fn validate_copies(copies: &Copies, at: Path) -> Result<()> {
     let number = match (copies.count, copies.grid) {
         (Some(count), None) => u64::from(count),

@@ -1,6 +1,7 @@
-//! What is left out of a resolved experiment.
+//! Values that a resolved experiment leaves out.
 
-/// Left out of the resolved experiment, so that a case that does not use a newer key keeps its id.
+/// Whether a value is the default, which a resolved experiment leaves out, so that a case that does not use a newer key
+/// keeps its id.
 pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }

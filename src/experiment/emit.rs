@@ -4,17 +4,17 @@
 //! are numbers to them. It cannot be told otherwise: such a scalar is written behind a mark that the text does not
 //! have, and the mark is taken out again.
 
+use super::tree::{Number, Value};
 use super::types::Experiment;
-use serde_yaml::{Number, Value};
 
-/// As the user would write it; read again, it is the same experiment, bit for bit.
+/// YAML of an experiment as the user would write it; read again, it is the same experiment, bit for bit.
 pub fn to_yaml(experiment: &Experiment) -> String {
     let tree = serde_yaml::with::singleton_map_recursive::serialize(experiment, serde_yaml::value::Serializer);
     // Plain data always is a tree.
     emit(&tree.unwrap_or_default())
 }
 
-/// The text of a tree.
+/// YAML text of a tree.
 pub fn emit(tree: &Value) -> String {
     let text = written(tree);
     // It has its first letter once, and a scalar begins a line or follows a space: nothing else ends up as a mark.
@@ -44,7 +44,7 @@ fn mark_scalars(tree: &mut Value, mark: &str) {
     }
 }
 
-/// With a dot and a signed exponent: 1.0e-5, 1.0e+16.
+/// Text of a number with a dot and a signed exponent: 1.0e-5, 1.0e+16.
 fn with_exponent(number: &Number) -> Option<String> {
     let text = number.to_string();
     let (digits, exponent) = text.split_once('e')?;

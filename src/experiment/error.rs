@@ -2,11 +2,12 @@
 
 use super::key_path::{KeyPath, Path};
 use super::nearest::nearest;
+use super::tree::Value;
 use serde::Serialize;
-use serde_yaml::Value;
 use std::fmt;
 
-/// What is wrong, where, what was expected, what was found. `Display` is the whole message in one line.
+/// Error of the input: what is wrong, where, what was expected, what was found. `Display` is the whole message in one
+/// line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExperimentError(Box<Details>);
 
@@ -16,21 +17,21 @@ pub struct Details {
     pub kind: Kind,
     /// The experiment file, as it was named by the user.
     pub file: Option<String>,
-    /// From 1. Absent when the value did not come from the file.
+    /// Line in the file, from 1; None where the value did not come from the file.
     pub line: Option<usize>,
-    /// From 1.
+    /// Column in the line, from 1.
     pub column: Option<usize>,
     /// The flag that the value came from: `--set` or `--axis`.
     pub flag: Option<&'static str>,
-    /// Its `PATH=VALUE`.
+    /// The `PATH=VALUE` of that flag.
     pub set: Option<String>,
     /// `path = value` of the axis that the value came from.
     pub axis: Option<String>,
-    /// The axes' values, when the error shows only together with them.
+    /// Values of the axes, where the error shows only together with them.
     pub case: Option<String>,
-    /// Empty: the whole file.
+    /// Place in the experiment; empty for the whole file.
     pub path: KeyPath,
-    /// What is wrong, without the place.
+    /// The complaint, without the place.
     pub message: String,
     pub expected: Option<String>,
     pub found: Option<String>,
@@ -46,22 +47,22 @@ pub struct Details {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    /// The machine failed: the file exists but cannot be read.
+    /// Failure of the machine: the file exists but cannot be read.
     Unreadable,
-    /// No such file, a folder, not UTF-8, empty.
+    /// File that is none: there is no such file, or it is a folder, not UTF-8, or empty.
     File,
     Syntax,
     DuplicateKey,
     UnknownKey,
     UnknownWord,
-    /// In the vocabulary of a later version.
+    /// Key, word or combination of a later version.
     NotAvailable,
     Missing,
     /// A value of the wrong type or out of its bounds, or one that does not fit another.
     Unexpected,
     /// A `--set` or an axis whose path leads nowhere, or where another one leads already.
     Path,
-    /// A single run was asked for, and the file still has axes.
+    /// Axes that are left where a single run was asked for.
     AxesLeft,
 }
 
@@ -86,7 +87,7 @@ impl ExperimentError {
         }))
     }
 
-    /// `expected …, found …`.
+    /// The error `expected …, found …`.
     pub(crate) fn unexpected(path: KeyPath, expected: &str, found: &str) -> Self {
         let mut error = Self::new(Kind::Unexpected, path, format!("expected {expected}, found {found}"));
         error.0.expected = Some(expected.to_string());
@@ -111,12 +112,12 @@ impl ExperimentError {
         Self::new(Kind::NotAvailable, path, format!("{subject}not available in this version"))
     }
 
-    /// A combination that a later version can do.
+    /// The error of a combination that a later version can do.
     pub(crate) fn feature_not_available(path: KeyPath, feature: &str) -> Self {
         Self::new(Kind::NotAvailable, path, format!("{feature} is not available in this version"))
     }
 
-    /// `what` says what to write there, and may be empty.
+    /// The error of a value that is missing; `what` says what to write there, and may be empty.
     pub(crate) fn missing(path: KeyPath, what: &str) -> Self {
         let message = if what.is_empty() { "missing".to_string() } else { format!("missing: {what}") };
         let mut error = Self::new(Kind::Missing, path, message);
@@ -141,7 +142,7 @@ impl ExperimentError {
         &mut self.0
     }
 
-    /// True: the machine failed, the input may be fine. False: the input is wrong.
+    /// Whether the machine failed, and the input may be fine; else the input is wrong.
     pub fn is_machine(&self) -> bool {
         self.0.kind == Kind::Unreadable
     }
@@ -156,13 +157,13 @@ impl ExperimentError {
         self
     }
 
-    /// The same complaint about another place.
+    /// The error about another place.
     pub(crate) fn at(mut self, path: KeyPath) -> Self {
         self.0.path = path;
         self
     }
 
-    /// Says which file the experiment is in.
+    /// Names the file that the experiment is in.
     pub(crate) fn named(mut self, file: &std::path::Path) -> Self {
         self.0.file = Some(file.display().to_string());
         self
@@ -248,7 +249,7 @@ pub(crate) fn describe(value: &Value) -> String {
     }
 }
 
-/// A mapping's key, in a message.
+/// A mapping's key as it is named in a message.
 pub(crate) fn key_text(key: &Value) -> String {
     match key {
         Value::String(text) => shortened(text),
@@ -263,7 +264,7 @@ fn in_one_line(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
-/// Messages stay short.
+/// Text in one line and cut, so that messages stay short.
 pub(crate) fn shortened(text: &str) -> String {
     const LONGEST: usize = 60;
     let flat = in_one_line(text);

@@ -1,18 +1,18 @@
-//! `expect:`: what the rows of a sweep are expected to say. How it is judged is in `check/`.
+//! The vocabulary of `expect:`: what the rows of a sweep are expected to say. How it is judged is in `check/`.
 
 use super::checks::Result;
 use super::error::{ExperimentError, number};
 use super::filter::Filter;
 use super::key_path::{KeyPath, Path};
 use super::predicate::{Bounds, Column, Predicate, PredicateText, Quantity, QuantityText};
+use super::tree::{Mapping, Value};
 use super::value_de::from_value;
-use serde_yaml::{Mapping, Value};
 
-/// One item of the list.
+/// One item of the list `expect:`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expectation {
     pub what: What,
-    /// The rows it is about: `where`.
+    /// The rows that it is about: `where`.
     pub rows: Filter,
     pub why: Option<String>,
 }
@@ -23,11 +23,12 @@ pub enum What {
     Column { column: Column, quantile: Option<f64>, bounds: Bounds },
     /// Share of the rows.
     Fraction { of: Predicate, bounds: Bounds },
-    /// Pooled over the other axes: Cochran–Armitage for shares, Mann–Kendall for numbers; one-sided.
+    /// Trend along an axis, pooled over the other axes: Cochran–Armitage for shares, Mann–Kendall for numbers;
+    /// one-sided.
     Trend { of: Quantity, along: String, rising: bool, p_max: f64 },
     /// Slope of log column against log axis, in every cell of the other axes.
     Order { column: Column, against: String, bounds: Bounds },
-    /// The same in every cell of the other axes, relative to the largest.
+    /// One value in every cell of the other axes, to a difference relative to the largest.
     Equal { column: String, across: String, within_rel: f64 },
     /// Mean (or quantile) of a column, or a share, in some rows against others.
     Compare { how: Comparison, quantity: Quantity, quantile: Option<f64>, of: Filter, to: Filter, bounds: Bounds },
@@ -48,7 +49,7 @@ impl Comparison {
     }
 }
 
-/// As it is written.
+/// The keys of an item as they are written.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Expect {
@@ -78,7 +79,7 @@ struct Expect {
     why: Option<String>,
 }
 
-/// The kinds of expectation, and the keys that each may carry besides `where` and `why`.
+/// Kinds of expectation, each with the keys that it may carry besides `where` and `why`.
 const KINDS: [(&str, &[&str]); 7] = [
     ("column", &["min", "max", "above", "below", "between", "quantile"]),
     ("fraction", &["min", "max", "above", "below", "between"]),
@@ -89,7 +90,10 @@ const KINDS: [(&str, &[&str]); 7] = [
     ("difference", &["of", "to", "min", "max", "above", "below", "between", "quantile"]),
 ];
 
-/// Reads the list that stands below `expect:`.
+/// The expectations of the list that stands below `expect:`.
+///
+/// # Errors
+/// The first item that is none, with its place.
 pub fn read(value: &Value) -> Result<Vec<Expectation>> {
     let base = KeyPath::of_keys(&["expect"]);
     let items: Vec<Value> = from_value(value, &base)?;

@@ -1,28 +1,29 @@
-//! `extends:` a file that stands on another one, and from the merged tree back to the lines of both.
+//! The key `extends:`: a file that stands on another one, and from the merged tree back to the lines of both.
 
 use super::error::{ExperimentError, Kind, describe};
 use super::key_path::KeyPath;
 use super::merge::{Graft, merge};
 use super::positions;
 use super::source::{parse, read};
-use serde_yaml::Value;
+use super::tree::Value;
 use std::path::{Path, PathBuf};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
 
-/// More files, each standing on the next, are a slip.
+/// Most files below one another. More, each standing on the next, are a slip.
 const DEEPEST: usize = 16;
 
-/// Which file said what, and on which line.
+/// Origin of every value: which file said it, and on which line.
 #[derive(Clone, Debug)]
 pub(super) struct Origins {
     /// The file itself, its base, the base of that, ….
     texts: Vec<SourceText>,
-    /// By the place in `texts`, in the order in which they were put over each other: the last one counts.
+    /// Grafts by the place of their file in `texts`, in the order in which they were put over each other: the last one
+    /// counts.
     grafts: Vec<(usize, Graft)>,
 }
 
-/// What was read.
+/// A file that was read.
 #[derive(Clone, Debug)]
 struct SourceText {
     path: PathBuf,
@@ -79,7 +80,7 @@ fn read_base(base: &Value, texts: &[SourceText]) -> Result<(PathBuf, String)> {
     }
 }
 
-/// Equal for two ways to name one file.
+/// Path that is equal for two ways to name one file.
 fn identity(path: &Path) -> PathBuf {
     std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or_else(|_| path.to_path_buf())
 }

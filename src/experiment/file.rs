@@ -13,10 +13,10 @@ use super::overrides::{assign, resolve, split};
 use super::search::{Search, search_path};
 use super::source::read;
 use super::sweep::Sweep;
+use super::tree::{Number, Value};
 use super::types::Experiment;
 use super::validate::{normalise_quaternions, validate};
 use super::value_de::from_value;
-use serde_yaml::{Number, Value};
 use std::path::{Path, PathBuf};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
@@ -28,11 +28,11 @@ pub struct ExperimentFile {
     origins: Origins,
     /// All that was asked for: the file on its bases, with what the flags change.
     asked: Value,
-    /// The same without `sweep`, `expect` and `bench`.
+    /// The tree without `sweep`, `expect` and `bench`.
     tree: Value,
     axes: Axes,
-    /// What changes from case to case, shorter paths first, so that `method.lecture.sweeps` changes what `method` has
-    /// put there.
+    /// Changes from case to case, shorter paths first, so that `method.lecture.sweeps` changes what `method` has put
+    /// there.
     order: Vec<Varied>,
     search: Option<Search>,
     expect: Vec<Expectation>,
@@ -45,14 +45,14 @@ pub struct ExperimentFile {
 pub struct Change {
     pub path: Vec<String>,
     pub value: Value,
-    /// Where it is written; None: nowhere.
+    /// Place where it is written; None: nowhere.
     pub written: Option<KeyPath>,
 }
 
-/// What changes from case to case.
+/// One thing that changes from case to case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Varied {
-    /// By its index.
+    /// An axis, by its index.
     Axis(usize),
     Searched,
 }
@@ -60,13 +60,13 @@ enum Varied {
 /// A point of the axes, with a value of the searched key if there is one.
 #[derive(Clone, Copy)]
 struct Point<'a> {
-    /// For every axis the index of its value.
+    /// Index of its value for every axis.
     indices: &'a [usize],
     searched: Option<&'a Number>,
 }
 
 impl ExperimentFile {
-    /// Reads a file and applies `sets` (`PATH=VALUE`) in their order.
+    /// The file with `sets` (`PATH=VALUE`) applied in their order.
     ///
     /// # Errors
     /// Whatever can be wrong before a single case is resolved; `is_machine` tells a failing machine from wrong input.
@@ -74,7 +74,7 @@ impl ExperimentFile {
         Self::load_given(path, &all_sets(sets))
     }
 
-    /// The same with flags of both kinds.
+    /// The file with flags of both kinds applied in their order.
     ///
     /// # Errors
     /// As `load`.
@@ -83,7 +83,7 @@ impl ExperimentFile {
         Self::from_text_given(path, &text, given)
     }
 
-    /// The same for a text; `path` is how messages call it, and what it extends is found from there.
+    /// The file of a text; `path` is how messages call it, and what it extends is found from there.
     ///
     /// # Errors
     /// As `load`.
@@ -91,7 +91,7 @@ impl ExperimentFile {
         Self::from_text_given(path, text, &all_sets(sets))
     }
 
-    /// The same with flags of both kinds.
+    /// The file of a text with flags of both kinds applied in their order.
     ///
     /// # Errors
     /// As `load`.
@@ -120,13 +120,13 @@ impl ExperimentFile {
         Ok(file)
     }
 
-    /// The text of what was asked for: the file on its bases, with all that flags change. It says the same as they do
+    /// Text of what was asked for: the file on its bases, with all that flags change. It says the same as they do
     /// together, without any of them.
     pub fn written(&self) -> String {
         emit(&self.asked)
     }
 
-    /// As the user named it.
+    /// Path of the file as the user named it.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -156,6 +156,8 @@ impl ExperimentFile {
         self.case(&[])
     }
 
+    /// Refuses a file that has axes.
+    ///
     /// # Errors
     /// Axes are left.
     pub fn refuse_any_axis(&self) -> Result<()> {
@@ -212,7 +214,7 @@ impl ExperimentFile {
         self.resolved_at(Point { indices: point, searched: None })
     }
 
-    /// The same, with a value of the searched key.
+    /// The experiment at a point of the grid, with a value of the searched key.
     ///
     /// # Errors
     /// As `case`.
@@ -327,7 +329,7 @@ impl ExperimentFile {
         Ok((tree, changes))
     }
 
-    /// Where a point changes the tree, and to what.
+    /// Path and value by which a point changes the tree.
     fn change(&self, varied: Varied, point: Point) -> Option<(&[String], Value)> {
         match varied {
             // A file without axes has no point: the axes stay as the file has them.
@@ -380,7 +382,7 @@ impl ExperimentFile {
         values.collect::<Vec<_>>().join(", ")
     }
 
-    /// Where the value at the error's path came from: the last flag that touched it, else its line in its file.
+    /// The error at the origin of the value at its path: the last flag that touched it, else its line in its file.
     pub(crate) fn placed(&self, error: ExperimentError) -> ExperimentError {
         let path = &error.details().path;
         match self.given.iter().rev().find(|given| path.starts_with(&given.at)) {

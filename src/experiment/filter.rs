@@ -1,23 +1,22 @@
-//! `where`: which rows, by their axes and columns.
+//! The vocabulary of `where`: rows that are chosen by their axes and columns.
 
-use super::axes::AxisValue;
 use super::checks::Result;
 use super::error::{ExperimentError, describe};
 use super::key_path::{KeyPath, Path};
 use super::predicate::Bounds;
+use super::tree::{Mapping, Value, cell};
 use super::value_de::from_value;
 use serde_json::Value as Cell;
-use serde_yaml::{Mapping, Value};
 use std::fmt;
 
-/// All of them must hold; none: every row.
+/// Conditions that must all hold; without any, every row is taken.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Filter(pub Vec<(String, Condition)>);
 
-/// On the value of one axis or column.
+/// Condition on the value of one axis or column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Condition {
-    /// One of these; numbers match within 1e-9 relative.
+    /// Values of which it is one; numbers match within 1e-9 relative.
     Is(Vec<Cell>),
     IsNot(Cell),
     Bounds(Bounds),
@@ -26,12 +25,14 @@ pub enum Condition {
 /// Longer ones first.
 const SIGNS: [&str; 10] = ["<=", ">=", "!=", "==", "≤", "≥", "≠", "<", ">", "="];
 
-/// Numbers of a file and of a row are the same if they differ by no more than this, relative: 5e-3 and 0.005 written as
-/// a quotient.
+/// Relative difference up to which numbers of a file and of a row are the same: 5e-3 and 0.005 written as a quotient.
 const SAME: f64 = 1e-9;
 
 impl Filter {
-    /// A mapping, or a list of mappings and of texts like `"time.step_s <= 0.01"`.
+    /// The filter that a mapping says, or a list of mappings and of texts like `"time.step_s <= 0.01"`.
+    ///
+    /// # Errors
+    /// A condition that is none, with its place.
     pub fn read(written: Option<&Value>, at: Path) -> Result<Filter> {
         let mut filter = Filter::default();
         match written {
@@ -46,7 +47,10 @@ impl Filter {
         Ok(filter)
     }
 
-    /// Texts like `time.step_s <= 0.01`.
+    /// The filter of texts like `time.step_s <= 0.01`.
+    ///
+    /// # Errors
+    /// A text that is no condition.
     pub fn of_texts(texts: &[String]) -> Result<Filter> {
         let base = KeyPath::of_keys(&["where"]);
         let mut filter = Filter::default();
@@ -78,7 +82,7 @@ impl Filter {
         }
     }
 
-    /// `cell` gives a row's value by the name of its column.
+    /// Whether a row is taken; `cell` gives its value by the name of a column.
     pub fn takes<'a>(&self, cell: impl Fn(&str) -> Option<&'a Cell>) -> bool {
         self.0.iter().all(|(key, condition)| cell(key).is_some_and(|cell| condition.holds(cell)))
     }
@@ -148,11 +152,6 @@ impl fmt::Display for Filter {
         };
         f.write_str(&self.0.iter().map(shown).collect::<Vec<_>>().join(", "))
     }
-}
-
-/// A value as rows show it.
-fn cell(value: &Value) -> Cell {
-    AxisValue { label: None, value: value.clone() }.cell()
 }
 
 pub fn is_same(a: &Cell, b: &Cell) -> bool {

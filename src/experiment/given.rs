@@ -1,18 +1,18 @@
-//! What the command line changes in a file: `--set` and `--axis`.
+//! Flags that change a file: `--set` and `--axis`.
 
 use super::error::{ExperimentError, Kind};
 use super::key_path::KeyPath;
 use super::overrides::{Override, assign, resolve, split};
-use serde_yaml::{Mapping, Value};
+use super::tree::{self, Mapping, Value};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
 
 /// A flag, with its `PATH=VALUE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Given {
-    /// `--set`: a value of the experiment, or anything else in the file.
+    /// A `--set`: a value of the experiment, or anything else in the file.
     Set(String),
-    /// `--axis`: the values that a key takes.
+    /// An `--axis`: the values that a key takes.
     Axis(String),
 }
 
@@ -24,14 +24,14 @@ impl Given {
         }
     }
 
-    /// `PATH=VALUE`.
+    /// The text `PATH=VALUE`.
     pub fn text(&self) -> &str {
         match self {
             Given::Set(text) | Given::Axis(text) => text,
         }
     }
 
-    /// Says which flag the error is about.
+    /// The error with the flag that it is about.
     pub(super) fn blamed(&self, mut error: ExperimentError) -> ExperimentError {
         error.details_mut().flag = Some(self.flag());
         error.details_mut().set = Some(self.text().to_string());
@@ -43,13 +43,13 @@ impl Given {
 #[derive(Clone, Debug)]
 pub(super) struct Applied {
     pub given: Given,
-    /// In the tree; an axis is one key below `sweep.axes`.
+    /// Path in the tree; an axis is one key below `sweep.axes`.
     pub path: Vec<String>,
     /// The topmost place that it changed.
     pub at: KeyPath,
     /// The value that it fixes or varies.
     target: KeyPath,
-    /// Of the axis that varied the same before.
+    /// Labels of the axis that varied the same before.
     labels: Vec<String>,
 }
 
@@ -112,7 +112,7 @@ fn varied_by(path: &[String]) -> Option<&str> {
     }
 }
 
-/// After `sweep.axes` comes one key with dots in it: an axis that exists, else all that is left.
+/// Path with one key after `sweep.axes`, which has dots in it: an axis that exists, else all that is left.
 fn with_axis_key(tree: &Value, mut path: Vec<String>) -> Vec<String> {
     if varied_by(&path).is_none() {
         return path;
@@ -125,14 +125,14 @@ fn with_axis_key(tree: &Value, mut path: Vec<String>) -> Vec<String> {
     path
 }
 
-/// How the file writes the axis that varies the value at `path`, which is the name of a column too.
+/// Key by which the file writes the axis that varies the value at `path`, which is the name of a column too.
 fn axis_key(tree: &Value, path: &[String]) -> String {
     let written = path.join(".");
     let same = axes_of(tree, &resolve(tree, path));
     if same.is_empty() || same.contains(&written) { written } else { same[0].clone() }
 }
 
-/// Of two flags for one axis, one would be lost without a word.
+/// Refuses the second of two flags for one axis, of which one would be lost without a word.
 fn refuse_second(given: &Given, path: &[String], target: &KeyPath, before: &[Applied]) -> Result<()> {
     let is_axis = |given: &Given| matches!(given, Given::Axis(_));
     let is_lost = |applied: &&Applied| {
@@ -162,12 +162,7 @@ fn label(item: &Value) -> Option<&str> {
 
 /// A scalar, as a label would be written.
 fn shown(item: &Value) -> Option<String> {
-    match item {
-        Value::String(text) => Some(text.clone()),
-        Value::Number(number) => Some(number.to_string()),
-        Value::Bool(flag) => Some(flag.to_string()),
-        _ => None,
-    }
+    (item.is_string() || item.is_number() || item.is_bool()).then(|| tree::shown(item))
 }
 
 /// Setting what an axis varies, or what is searched, fixes it.

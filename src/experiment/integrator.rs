@@ -4,7 +4,7 @@ use super::accuracy::Accuracy;
 use serde::{Deserialize, Serialize};
 use strum::{IntoStaticStr, VariantArray};
 
-/// What each promises: `integrate::claims`.
+/// Integrator of `free`; `integrate::claims` says what each promises.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr, VariantArray)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
@@ -16,11 +16,11 @@ pub enum Integrator {
     SemiImplicitEuler,
     /// The trapezoidal rule.
     CrankNicolson,
-    /// Keeps energy and angular momentum.
+    /// The implicit midpoint rule, which keeps energy and angular momentum.
     ImplicitMidpoint,
     /// The classical Runge–Kutta method.
     Rk4,
-    /// Keeps energy and angular momentum, and the symplectic form.
+    /// The discrete Moser–Veselov equations, which keep energy, angular momentum and the symplectic form.
     MoserVeselov,
     /// Dormand and Prince's 8(5,3) with error control.
     Dop853,
@@ -33,12 +33,12 @@ pub enum Integrator {
 impl Integrator {
     pub const ALL: &'static [Integrator] = Integrator::VARIANTS;
 
-    /// Its word in the file.
+    /// Word of the integrator in the file.
     pub fn word(self) -> &'static str {
         self.into()
     }
 
-    /// What makes it more accurate.
+    /// Setting that makes the integrator more accurate.
     pub fn accuracy(self) -> Accuracy {
         match self {
             Integrator::Dop853 | Integrator::Taylor => Accuracy::Tolerance(&["method", "free", "tolerance"]),
@@ -52,7 +52,7 @@ impl Integrator {
         }
     }
 
-    /// Forces need a Taylor series everywhere on the way.
+    /// Whether forces need a Taylor series everywhere on the way.
     pub fn needs_series(self) -> bool {
         self == Integrator::Taylor
     }

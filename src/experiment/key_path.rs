@@ -1,4 +1,4 @@
-//! Where a value stands in the experiment: `scene.bodies.cube.mass_kg`.
+//! Place of a value in the experiment: `scene.bodies.cube.mass_kg`.
 
 use serde::{Serialize, Serializer};
 use std::fmt;
@@ -41,7 +41,8 @@ impl fmt::Display for Segment {
     }
 }
 
-/// From the root of the experiment down to a value that need not exist. Shown with dots; empty for the whole file.
+/// Path from the root of the experiment down to a value that need not exist. It is shown with dots; empty for the whole
+/// file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct KeyPath(Vec<Segment>);
 
@@ -67,28 +68,28 @@ impl KeyPath {
         self.0.is_empty()
     }
 
-    /// What is left of this path below one that is `above` segments long.
+    /// Rest of this path below one that is `above` segments long.
     pub fn below(&self, above: usize) -> KeyPath {
         KeyPath(self.0.iter().skip(above).cloned().collect())
     }
 
-    /// This path, then the other.
+    /// Path of this one, then the other.
     pub fn join(mut self, below: KeyPath) -> Self {
         self.0.extend(below.0);
         self
     }
 
-    /// True also for the path itself. Items are compared by their index.
+    /// Whether this path leads through the other, or is it. Items are compared by their index.
     pub fn starts_with(&self, above: &KeyPath) -> bool {
         above.len() <= self.len() && above.0.iter().zip(&self.0).all(|(a, b)| a.same(b))
     }
 
-    /// The same place; items are compared by their index.
+    /// Whether both are the same place; items are compared by their index.
     pub fn is_same(&self, other: &KeyPath) -> bool {
         self.len() == other.len() && self.starts_with(other)
     }
 
-    /// The segments as the source positions know them.
+    /// Segments as the source positions know them.
     pub fn lookup(&self) -> Vec<String> {
         self.0.iter().map(Segment::lookup).collect()
     }

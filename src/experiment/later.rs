@@ -1,7 +1,7 @@
 //! Keys and words of the vocabulary that a type does not know: those of a later version, refused with their own message
 //! until then, and those that are taken out before the type is read.
 
-/// What the key or word stands in (the Rust type of `types.rs`), and the words. A word leaves this list in the change
+/// Words of a later version by what they stand in (the Rust type of `types.rs`). A word leaves this list in the change
 /// that adds its field or variant.
 const LATER: &[(&str, &[&str])] = &[("Sweep", &["where", "sample"]), ("Container", &["mesh"]), ("Shape", &["mesh"])];
 

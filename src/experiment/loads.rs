@@ -11,13 +11,13 @@ pub struct Force {
     pub body: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force_n: Option<[f64; 3]>,
-    /// About the centre of mass, beside what the force exerts.
+    /// Torque about the centre of mass, beside what the force exerts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub torque_n_m: Option<[f64; 3]>,
-    /// Where the force acts, in the body frame. Absent: the centre of mass.
+    /// Point where the force acts, in the body frame; where absent, the centre of mass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_m: Option<[f64; 3]>,
-    /// Whose axes the components are in.
+    /// Frame that the components are in.
     #[serde(default)]
     pub frame: Frame,
     #[serde(default, rename = "as")]
@@ -32,20 +32,20 @@ pub enum Frame {
     Body,
 }
 
-/// How it goes with time.
+/// Course of a force with time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Course {
     #[default]
     Constant,
-    /// F cos(ωt + φ).
+    /// A harmonic course F cos(ωt + φ).
     Cosine(Cosine),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cosine {
-    /// ω.
+    /// Frequency ω.
     pub frequency_rad_s: f64,
     #[serde(default)]
     pub phase_rad: f64,
@@ -57,11 +57,11 @@ pub struct Cosine {
 pub struct Air {
     #[serde(default, skip_serializing_if = "is_default")]
     pub density_kg_m3: f64,
-    /// C of ½ ρ C A |v| v, with a quarter of the body's surface as A: the mean over all attitudes of a convex body's
-    /// silhouette (Cauchy), of a sphere always π r².
+    /// Coefficient C of ½ ρ C A |v| v, with a quarter of the body's surface as A: the mean over all attitudes of a
+    /// convex body's silhouette (Cauchy), of a sphere always π r².
     #[serde(default, skip_serializing_if = "is_default")]
     pub drag_coefficient: f64,
-    /// c of c v, of every body (Stokes).
+    /// Coefficient c of c v, of every body (Stokes).
     #[serde(default, skip_serializing_if = "is_default")]
     pub linear_drag_n_s_m: f64,
 }
@@ -71,19 +71,19 @@ pub struct Air {
 #[serde(deny_unknown_fields)]
 pub struct Pin {
     pub body: String,
-    /// In the body frame.
+    /// Pinned point in the body frame.
     pub point_m: [f64; 3],
-    /// Absent: the world.
+    /// Name of the other body; where absent, the pin is on the world.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with: Option<String>,
 }
 
-/// Constant velocities, whatever acts on the body.
+/// Constant velocities of a body, whatever acts on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Kinematic {
-    /// Of the centre of mass, world frame.
+    /// Velocity of the centre of mass, world frame.
     pub velocity_m_s: [f64; 3],
-    /// World frame.
+    /// Angular velocity, world frame.
     pub angular_velocity_rad_s: [f64; 3],
 }

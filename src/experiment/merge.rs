@@ -1,19 +1,19 @@
-//! What an extending file says, put over what its base says.
+//! Merge of what an extending file says over what its base says.
 
 use super::error::key_text;
 use super::key_path::{KeyPath, Segment};
 use super::later::BESIDE_EXPERIMENT;
 use super::overrides::item_segment;
 use super::reading::{Reading, reading};
+use super::tree::{Mapping, Value};
 use super::value_de::item_name;
-use serde_yaml::{Mapping, Value};
 
 /// A part of a tree that came whole from the extending file.
 #[derive(Clone, Debug)]
 pub(super) struct Graft {
-    /// Where it is in the merged tree.
+    /// Place in the merged tree.
     pub at: KeyPath,
-    /// Where it is written in the extending file: a list that is merged has other indices there.
+    /// Place in the extending file, where a list that is merged has other indices.
     pub own: KeyPath,
 }
 
@@ -105,7 +105,7 @@ impl Merge {
         }
     }
 
-    /// Of two new ones that share a name both are appended, and refused later.
+    /// Merges lists by name. Of two new items that share a name both are appended, and refused later.
     fn items(&mut self, base: &mut Vec<Value>, own: Vec<Value>) {
         let mut is_merged = vec![false; base.len()];
         for (i, item) in own.into_iter().enumerate() {

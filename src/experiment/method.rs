@@ -15,7 +15,7 @@ use super::variants::*;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
-/// The exchangeable unit is the whole step. One word, or one key with settings.
+/// A method: one word, or one key with settings. The exchangeable unit is the whole step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[strum(serialize_all = "kebab-case")]
@@ -91,22 +91,22 @@ impl Method {
         self.settings().facts()
     }
 
-    /// What makes it more accurate.
+    /// Setting that makes the method more accurate.
     pub fn accuracy(&self) -> Accuracy {
         self.facts().accuracy
     }
 
-    /// What it controls its error by.
+    /// Tolerance that the method controls its error by.
     pub fn tolerance(&self) -> Option<f64> {
         self.facts().tolerance
     }
 
-    /// It goes from event to event, and the clock says only when to end.
+    /// Whether the method goes from event to event; the clock then says only when to end.
     pub fn follows_events(&self) -> bool {
         self.facts().follows_events
     }
 
-    /// The law of its impacts; of a method that has no choice of them, Newton's.
+    /// Law of the method's impacts; Newton's where it has no choice of them.
     pub fn impact(&self) -> Impact {
         self.facts().impact.unwrap_or(Impact::Newton)
     }
@@ -124,7 +124,7 @@ impl Method {
         }
     }
 
-    /// Its word in the file.
+    /// Word of the method in the file.
     pub fn word(&self) -> &'static str {
         self.into()
     }
@@ -136,7 +136,7 @@ impl Method {
 pub struct Free {
     #[serde(default)]
     pub integrator: Integrator,
-    /// Of `dop853` and `taylor`: error of one inner step, relative and absolute. Absent: 1e-9.
+    /// Error of one inner step of `dop853` and `taylor`, relative and absolute; where absent, 1e-9.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
 }
@@ -266,7 +266,7 @@ pub struct Penalty {
     pub stiffness_n_m: f64,
     #[serde(default)]
     pub damping_n_s_m: f64,
-    /// Below this slip the regularised Coulomb force falls linearly to 0.
+    /// Slip below which the regularised Coulomb force falls linearly to 0.
     #[serde(default = "default_slip_speed")]
     pub slip_speed_m_s: f64,
     #[serde(default)]
@@ -323,11 +323,11 @@ pub struct TimeStepping {
     pub solver: Solver,
     pub scheme: Scheme,
     pub impact: Impact,
-    /// Most sweeps of a step; of `newton` most proximal problems. Absent: the solver's own.
+    /// Most sweeps of a step; of `newton` most proximal problems. Where absent, the solver's own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweeps: Option<u32>,
-    /// Stop when a sweep changes no impulse by more than this part of the largest; 0: only when nothing changes. Of
-    /// `newton` the residual of the law of contact. Absent: the solver's own.
+    /// Change of an impulse below which sweeps stop, of the largest impulse; 0: only when nothing changes. Of `newton`
+    /// the residual of the law of contact. Where absent, the solver's own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     pub position_correction: PositionCorrection,
@@ -339,8 +339,8 @@ pub struct TimeStepping {
     pub relaxation: f64,
     #[serde(skip_serializing_if = "is_default")]
     pub order: Order,
-    /// So many contacts of a body on a face are solved, the deepest and those farthest from each other; the others get
-    /// no impulse. Absent: all.
+    /// Most contacts of a body on a face that are solved, the deepest and those farthest from each other; the others
+    /// get no impulse. Where absent, all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contacts_per_face: Option<u32>,
 }
@@ -367,12 +367,12 @@ impl Default for TimeStepping {
 }
 
 impl TimeStepping {
-    /// Given, or the solver's own.
+    /// Most sweeps of a step: those given, or the solver's own.
     pub fn sweeps(&self) -> u32 {
         self.sweeps.unwrap_or(self.solver.facts().sweeps)
     }
 
-    /// Given, or the solver's own.
+    /// Tolerance of the solver: the one given, or the solver's own.
     pub fn tolerance(&self) -> f64 {
         self.tolerance.unwrap_or(self.solver.facts().tolerance)
     }
@@ -514,14 +514,14 @@ pub struct Auto {
 }
 
 impl Default for Auto {
-    /// A micrometre: what no engine with a fixed step reaches through an impact.
+    /// A tolerance of a micrometre: what no engine with a fixed step reaches through an impact.
     fn default() -> Self {
         Auto { tolerance: 1e-6 }
     }
 }
 
 impl MethodSettings for Auto {
-    /// Those of what it tries first, but for the law of impact, which is left to what it chooses.
+    /// Facts of what it tries first, but for the law of impact, which is left to what it chooses.
     fn facts(&self) -> Facts {
         Facts {
             accuracy: Accuracy::Tolerance(&["method", "auto", "tolerance"]),

@@ -36,6 +36,7 @@ mod solver;
 mod source;
 mod sweep;
 pub mod tolerances;
+mod tree;
 pub mod types;
 mod validate;
 mod validate_body;
@@ -48,5 +49,4 @@ pub use emit::to_yaml;
 pub use error::ExperimentError;
 pub use file::ExperimentFile;
 pub use given::Given;
-// What callers name of the YAML library: nobody else needs to know which one it is.
-pub use serde_yaml::{Number, Value};
+pub use tree::{Number, Value};

@@ -1,10 +1,11 @@
-//! Putting a value at a key path, for `--set` and for axes alike.
+//! Assignment of a value to a key path, for `--set` and for axes alike.
 
 use super::error::{ExperimentError, Kind, describe, shortened};
 use super::key_path::{KeyPath, Path, Segment, is_addressable};
 use super::nearest::nearest;
+use super::source::parse_value;
+use super::tree::{Mapping, Value};
 use super::value_de::item_name;
-use serde_yaml::{Mapping, Value};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
 
@@ -16,22 +17,26 @@ pub struct Override {
 }
 
 impl Override {
+    /// Path and value of a flag's text.
+    ///
+    /// # Errors
+    /// The text has no `=`, its value is no YAML, or its path is none.
     pub fn parse(text: &str) -> Result<Override> {
         let Some((path, value)) = text.split_once('=') else {
             return Err(ExperimentError::unexpected(KeyPath::default(), "PATH=VALUE", &format!("`{text}`")));
         };
-        let value = serde_yaml::from_str(value).map_err(|error| {
-            let message = format!("the value is not valid YAML: {error}");
-            ExperimentError::new(Kind::Syntax, KeyPath::of_keys(&[path.trim()]), message)
-        })?;
+        let value = parse_value(value).map_err(|error| error.at(KeyPath::of_keys(&[path.trim()])))?;
         Ok(Override { path: split(path.trim())?, value })
     }
 }
 
-/// Deeper than any key of the vocabulary; a tree of unlimited depth would overflow the stack.
+/// Most segments of a path: deeper than any key of the vocabulary. A tree of unlimited depth would overflow the stack.
 const DEEPEST: usize = 64;
 
-/// The segments of a dotted path.
+/// Segments of a dotted path.
+///
+/// # Errors
+/// The path has an empty segment, or too many of them.
 pub fn split(path: &str) -> Result<Vec<String>> {
     let segments: Vec<String> = path.split('.').map(str::to_string).collect();
     if segments.len() > DEEPEST || segments.iter().any(String::is_empty) {
@@ -42,8 +47,8 @@ pub fn split(path: &str) -> Result<Vec<String>> {
     Ok(segments)
 }
 
-/// Puts `value` at `path`, creating mappings on the way. Returns the topmost thing that is new or replaced: whatever
-/// is wrong below it came with the value.
+/// Puts `value` at `path`, creating mappings on the way. Returns the topmost thing that is new or replaced: whatever is
+/// wrong below it came with the value.
 ///
 /// # Errors
 /// An item that a list does not have; a path through a number or through a word other than the one written.
@@ -89,7 +94,7 @@ fn step<'v>(node: &'v mut Value, key: &str, at: &mut KeyPath, new_from: &mut Opt
     }
 }
 
-/// By name, else by index from 0.
+/// Index of an item, by name, else by index from 0.
 fn find_item(items: &[Value], key: &str) -> Option<usize> {
     let by_name = items.iter().position(|item| item_name(item) == Some(key));
     by_name.or_else(|| key.parse().ok().filter(|index| *index < items.len()))
@@ -130,8 +135,8 @@ fn dead_end(node: &Value, key: &str, at: &KeyPath) -> ExperimentError {
     error
 }
 
-/// Where a path leads, with list items by index, so that two ways to write one place compare equal. The rest of a path
-/// that the tree does not have (yet) is taken for keys.
+/// Place where a path leads, with list items by index, so that two ways to write one place compare equal. The rest of a
+/// path that the tree does not have (yet) is taken for keys.
 pub fn resolve(tree: &Value, path: &[String]) -> KeyPath {
     let mut resolved = KeyPath::default();
     let mut node = Some(tree);

@@ -1,4 +1,4 @@
-//! Which line a key path stands on.
+//! Lines on which key paths stand.
 //!
 //! serde_yaml's values do not know, but its errors do: so the text is read once more, by a reader that fails when it is
 //! there. Slow beside a map of positions, but wanted for one error only; and it cannot disagree with the parser of the
@@ -11,7 +11,7 @@ use serde::de::{
 use std::collections::HashSet;
 use std::fmt;
 
-/// Line and column, from 1.
+/// Line and column in a text, both from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Position {
     pub line: usize,
@@ -26,7 +26,7 @@ pub struct Duplicate {
     pub second: Position,
 }
 
-/// The position of the path's key or list item, or of its nearest ancestor in the text: a default, or what a merged key
+/// Position of the path's key or list item, or of its nearest ancestor in the text: a default, or what a merged key
 /// brought, has no place of its own.
 pub fn nearest(text: &str, path: &KeyPath) -> Option<Position> {
     let segments = path.lookup();
@@ -45,7 +45,7 @@ pub fn duplicate(text: &str) -> Option<Duplicate> {
     Some(Duplicate { path: KeyPath::of_keys(&keys), first: position(text, &path)?, second })
 }
 
-/// Where a second document starts, of which serde_yaml only says that there is one.
+/// Position where a second document starts, of which serde_yaml only says that there is one.
 pub fn second_document(text: &str) -> Option<Position> {
     let second = serde_yaml::Deserializer::from_str(text).nth(1)?;
     stopped_at(second.deserialize_any(Stop))
@@ -65,7 +65,7 @@ fn stopped_at(result: Result<(), serde_yaml::Error>) -> Option<Position> {
 }
 
 struct Walk<'a> {
-    /// Of the node that is being read.
+    /// Path of the node that is being read.
     path: Vec<String>,
     is_end: &'a mut dyn FnMut(&[String]) -> bool,
     has_ended: bool,

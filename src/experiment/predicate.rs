@@ -20,7 +20,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// False for what is not a number.
+    /// Whether a number is in the interval; what is not a number never is.
     pub fn contain(&self, x: f64) -> bool {
         self.min.is_none_or(|min| x >= min)
             && self.max.is_none_or(|max| x <= max)
@@ -33,7 +33,10 @@ impl Bounds {
         *self == Bounds::default()
     }
 
-    /// At least one bound, and a number that meets all of them.
+    /// Checks that there is at least one bound, and a number that meets all of them.
+    ///
+    /// # Errors
+    /// No bound, or bounds that no number meets.
     pub fn check(&self, at: Path) -> Result<()> {
         if self.is_none() {
             return Err(ExperimentError::missing(at.to_key_path(), "a bound (min, max, above or below)"));
@@ -49,7 +52,10 @@ impl Bounds {
         Ok(())
     }
 
-    /// The same, of a share: some number from 0 to 1.
+    /// Checks the bounds of a share: some number from 0 to 1.
+    ///
+    /// # Errors
+    /// As `check`, or a bound outside of 0 to 1.
     pub fn check_share(&self, at: Path) -> Result<()> {
         self.check(at)?;
         let out = |x: &Option<f64>| x.is_some_and(|x| !(0.0..=1.0).contains(&x));
@@ -85,7 +91,8 @@ impl Column {
         }
     }
 
-    /// `cell` gives a row's value by the name of its column. Null and what is not a number: none.
+    /// The number of a row, whose values `cell` gives by the name of their column; None for null and what is not a
+    /// number.
     pub fn value<'a>(&self, cell: impl Fn(&str) -> Option<&'a Cell>) -> Option<f64> {
         let number = |name: &str| cell(name).and_then(Cell::as_f64);
         match &self.divided_by {
@@ -105,7 +112,7 @@ impl fmt::Display for Column {
     }
 }
 
-/// What is true of some rows and not of others.
+/// Statement that is true of some rows and not of others.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Predicate {
     Outcome(Outcome),
@@ -114,7 +121,7 @@ pub enum Predicate {
 }
 
 impl Predicate {
-    /// Of a row; none: the number that would decide it is not there.
+    /// Whether it is true of a row; None where the number that would decide it is not there.
     pub fn holds<'a>(&self, cell: impl Fn(&str) -> Option<&'a Cell>) -> Option<bool> {
         let is = |name: &str, word: &str| cell(name).and_then(Cell::as_str) == Some(word);
         match self {
@@ -170,6 +177,10 @@ impl PredicateText {
         Bounds { min: self.min, max: self.max, above: self.above, below: self.below }
     }
 
+    /// The predicate that the keys say.
+    ///
+    /// # Errors
+    /// Neither an outcome, nor a criterion, nor a column with bounds that some number meets.
     pub fn read(&self, at: Path) -> Result<Predicate> {
         let bounds = self.bounds();
         match (self.outcome, &self.criterion, &self.column, &self.fraction) {
@@ -206,6 +217,10 @@ pub enum QuantityText {
 }
 
 impl QuantityText {
+    /// The quantity that the keys say.
+    ///
+    /// # Errors
+    /// A predicate that is none.
     pub fn read(&self, at: Path) -> Result<Quantity> {
         match self {
             QuantityText::Column(name) => Ok(Quantity::Column(Column::new(name))),

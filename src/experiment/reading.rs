@@ -1,4 +1,4 @@
-//! How the vocabulary reads what stands at a place: as an enum's word, as keys, as a plain value.
+//! Readings of a place in the vocabulary: as an enum's word, as keys, as a plain value.
 //!
 //! The types are asked themselves: a reader leads them down the path and notes what they want at its end, so that no
 //! list of places is kept by hand.
@@ -16,7 +16,7 @@ use serde::de::{
 use serde::forward_to_deserialize_any;
 use std::cell::Cell;
 
-/// What stands at a place.
+/// Reading of what stands at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Reading {
     /// One word, or one key with settings.
@@ -30,7 +30,7 @@ pub(super) enum Reading {
 /// Types whose keys are alternatives; that they exclude each other is in no type, but in `validate.rs`.
 const ALTERNATIVES: [&str; 4] = ["MeshSpec", "Orientation", "Copies", "PredicateText"];
 
-/// How the value at this place of a file is read.
+/// Reading of the value at this place of a file.
 pub(super) fn reading(place: &KeyPath) -> Reading {
     let path = place.lookup();
     let path: Vec<&str> = path.iter().map(String::as_str).collect();

@@ -1,4 +1,4 @@
-//! `scene:` what exists, at rest or in motion, at t = 0. A part of `types.rs`.
+//! The vocabulary of `scene:`: what exists, at rest or in motion, at t = 0. A part of `types.rs`.
 
 use super::defaults::is_default;
 use super::loads::{Air, Force, Kinematic, Pin};
@@ -12,10 +12,10 @@ use serde::{Deserialize, Serialize};
 pub struct Scene {
     #[serde(default = "default_gravity")]
     pub gravity_m_s2: [f64; 3],
-    /// Coulomb coefficient of every pair that does not say otherwise. 0: nobody asked for friction.
+    /// Coulomb coefficient of every pair that does not say otherwise. By default 0: nobody asked for friction.
     #[serde(default)]
     pub friction: f64,
-    /// Newton restitution of every pair that does not say otherwise. 0: the lecture's plastic contact.
+    /// Newton restitution of every pair that does not say otherwise. By default 0: the lecture's plastic contact.
     #[serde(default)]
     pub restitution: f64,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -33,7 +33,7 @@ pub struct Scene {
     pub air: Option<Air>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub random: Option<Random>,
-    /// A body may start inside a face.
+    /// Whether a body may start inside a face.
     #[serde(default, skip_serializing_if = "is_default")]
     pub allow_overlap: bool,
 }
@@ -43,10 +43,10 @@ fn default_gravity() -> [f64; 3] {
     [0.0, -9.8, 0.0]
 }
 
-/// How pairs and contacts call the container.
+/// Name of the container in pairs and contacts.
 pub const CONTAINER: &str = "container";
 
-/// What bodies hit. All faces look inward.
+/// Container that bodies hit. All faces look inward.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Container {
@@ -55,7 +55,7 @@ pub enum Container {
     Planes(Vec<Plane>),
 }
 
-/// Six faces; the floor is at y = 0 and the box centred on x and z, unless `center_m` moves it.
+/// A box of six faces; the floor is at y = 0 and the box centred on x and z, unless `center_m` moves it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ContainerBox {
@@ -65,7 +65,7 @@ pub struct ContainerBox {
 }
 
 impl ContainerBox {
-    /// Its middle, given or by default.
+    /// Middle of the box, given or by default, in metres.
     pub fn center(&self) -> [f64; 3] {
         self.center_m.unwrap_or([0.0, self.size_m[1] / 2.0, 0.0])
     }
@@ -80,7 +80,8 @@ pub struct Plane {
     pub offset_m: f64,
 }
 
-/// Two bodies, or a body and the `container`; what is absent is the mean of the two, the tangential restitution 0.
+/// Surface of a pair, two bodies, or a body and the `container`; what is absent is the mean of the two, the tangential
+/// restitution 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pair {
@@ -89,7 +90,7 @@ pub struct Pair {
     pub friction: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
-    /// What an impact gives back of the slip, in the other direction, where friction can.
+    /// Part of the slip that an impact gives back, in the other direction, where friction can.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_restitution: Option<f64>,
 }
@@ -100,13 +101,13 @@ pub struct Pair {
 pub struct Body {
     pub name: String,
     pub shape: Shape,
-    /// Asks for the lecture's tetrahedral volume mesh (L8); absent: the analytic shape.
+    /// The lecture's tetrahedral volume mesh (L8); where absent, the analytic shape.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshSpec>,
-    /// The whole mass; or `density_kg_m3`.
+    /// The whole mass; instead of `density_kg_m3`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
-    /// Times the volume, of the mesh if there is one.
+    /// Density, times the volume, of the mesh if there is one; instead of `mass_kg`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density_kg_m3: Option<f64>,
     #[serde(default)]
@@ -114,21 +115,21 @@ pub struct Body {
     /// Three principal moments or 3×3, about the centre of mass, body axes. Overrides `inertia_from`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia_kg_m2: Option<Inertia>,
-    /// In the body frame. Overrides that of the shape or mesh.
+    /// Centre of mass in the body frame. Overrides that of the shape or mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_of_mass_m: Option<[f64; 3]>,
-    /// Of the body frame's origin.
+    /// Position of the body frame's origin.
     #[serde(default)]
     pub position_m: [f64; 3],
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orientation: Option<Orientation>,
-    /// Of the centre of mass, world frame.
+    /// Velocity of the centre of mass, world frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity_m_s: Option<[f64; 3]>,
-    /// World frame.
+    /// Angular velocity, world frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angular_velocity_rad_s: Option<[f64; 3]>,
-    /// Body frame; instead of `angular_velocity_rad_s`.
+    /// Angular velocity, body frame; instead of `angular_velocity_rad_s`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angular_velocity_body_rad_s: Option<[f64; 3]>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -138,15 +139,15 @@ pub struct Body {
     /// A row or a grid of bodies like this one; absent in a resolved case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub copies: Option<Copies>,
-    /// It stays where it is.
+    /// Whether the body stays where it is.
     #[serde(default, skip_serializing_if = "is_default")]
     pub fixed: bool,
-    /// It moves as it is told.
+    /// Velocities of a body that moves as it is told.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinematic: Option<Kinematic>,
 }
 
-/// `count` along `step_m`, or a `grid` along the axes, `step_m` apart.
+/// Copies of a body: `count` along `step_m`, or a `grid` along the axes, `step_m` apart.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Copies {
@@ -158,7 +159,7 @@ pub struct Copies {
 }
 
 impl Body {
-    /// Nothing that acts on it changes its motion.
+    /// Whether nothing that acts on the body changes its motion.
     pub fn is_driven(&self) -> bool {
         self.fixed || self.kinematic.is_some()
     }
@@ -183,14 +184,14 @@ pub struct Sphere {
     pub radius_m: f64,
 }
 
-/// Edge lengths.
+/// A box by its edge lengths.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BoxShape {
     pub size_m: [f64; 3],
 }
 
-/// Its axis is y.
+/// A cylinder whose axis is y.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
@@ -198,7 +199,7 @@ pub struct Cylinder {
     pub height_m: f64,
 }
 
-/// Its axis is y. `height_m` is between the centres of its two spheres, as a rod's length is: it measures
+/// A capsule whose axis is y. `height_m` is between the centres of its two spheres, as a rod's length is: it measures
 /// `height_m` + 2 `radius_m` from end to end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -230,15 +231,15 @@ impl Convex {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeshSpec {
-    /// n nodes along the shortest edge and near-cubic cells, or the three counts.
+    /// Number n of nodes along the shortest edge, with near-cubic cells, or the three counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nodes_per_edge: Option<NodesPerEdge>,
-    /// Icosphere of 12, 42, 162, … surface nodes and a centre node.
+    /// Number of subdivisions of the icosphere: 12, 42, 162, … surface nodes and a centre node.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub subdivisions: Option<u32>,
 }
 
-/// `n` or `[nx, ny, nz]`.
+/// Nodes along the edges of a box: `n` or `[nx, ny, nz]`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum NodesPerEdge {
@@ -247,7 +248,8 @@ pub enum NodesPerEdge {
 }
 
 impl NodesPerEdge {
-    /// Along each edge of a box. With one count, the cells are as near to cubes as whole numbers allow.
+    /// Numbers of nodes along each edge of a box. With one count, the cells are as near to cubes as whole numbers
+    /// allow.
     pub fn counts(&self, size_m: [f64; 3]) -> [u32; 3] {
         match self {
             NodesPerEdge::Shortest(n) => box_counts(size_m, *n),
@@ -259,15 +261,15 @@ impl NodesPerEdge {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum InertiaFrom {
-    /// Over the tets of a mesh (Tonon 2004), else the shape's closed form: the lumped sum of L9 is wrong by
+    /// Integrals over the tets of a mesh (Tonon 2004), else the shape's closed form: the lumped sum of L9 is wrong by
     /// −½/(n−1)² for a cube and does not converge for a sphere.
     #[default]
     Exact,
-    /// The slide's: a tet's mass at its centroid (L8, L9).
+    /// The slide's sum: a tet's mass at its centroid (L8, L9).
     Lumped,
 }
 
-/// `[I1, I2, I3]` or three rows.
+/// Inertia as `[I1, I2, I3]` or three rows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Inertia {
@@ -275,7 +277,7 @@ pub enum Inertia {
     Full([[f64; 3]; 3]),
 }
 
-/// Body → world, one key of three.
+/// Attitude, body → world, by one key of three.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Orientation {
@@ -285,7 +287,7 @@ pub struct Orientation {
     pub angle_deg: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub quaternion_xyzw: Option<[f64; 4]>,
-    /// R = Rz Ry Rx.
+    /// Angles of R = Rz Ry Rx.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub euler_xyz_deg: Option<[f64; 3]>,
 }
@@ -294,13 +296,13 @@ pub struct Orientation {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Random {
-    /// |v|, direction uniform on the sphere.
+    /// Speed |v|; its direction is uniform on the sphere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub speed_m_s: Option<f64>,
-    /// |ω|, direction uniform on the sphere.
+    /// Angular speed |ω|; its direction is uniform on the sphere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spin_rad_s: Option<f64>,
-    /// Attitude uniform on SO(3).
+    /// Whether the attitude is drawn, uniform on SO(3).
     #[serde(default)]
     pub attitude: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -312,14 +314,14 @@ pub struct Random {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
-    /// The velocity is reflected into the lower half.
+    /// Downward: the velocity is reflected into the lower half.
     Downward,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Place {
-    /// Shifted along the floor's normal to the first step of a contact: the lowest point is inside by a random part of
-    /// what it moves in a step.
+    /// The first step of a contact, to which the body is shifted along the floor's normal: the lowest point is inside
+    /// by a random part of what it moves in a step.
     AtContact,
 }

@@ -1,5 +1,5 @@
-//! `sweep.search`: the critical value of one key in every cell of the other axes. How it is found is in
-//! `sweep/search.rs`.
+//! The vocabulary of `sweep.search`: the critical value of one key in every cell of the other axes. How it is found is
+//! in `sweep/search.rs`.
 
 use super::axes::{Axes, find_axis, float, of_the_experiment};
 use super::checks::Result;
@@ -7,13 +7,13 @@ use super::error::{ExperimentError, Kind, number};
 use super::key_path::{KeyPath, Path};
 use super::overrides::split;
 use super::predicate::{Predicate, PredicateText};
-use serde_yaml::Number;
+use super::tree::Number;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Search {
     /// The searched key, as written.
     pub critical: String,
-    /// `critical`, split at its dots.
+    /// Segments of `critical`, split at its dots.
     pub segments: Vec<String>,
     pub between: [Number; 2],
     pub until: Predicate,
@@ -21,11 +21,11 @@ pub struct Search {
     pub fraction: f64,
     /// Index of the axis whose values are tried together.
     pub over: Option<usize>,
-    /// Of the bracket that is left.
+    /// Width of the bracket that is left, relative.
     pub relative_width: f64,
 }
 
-/// As it is written.
+/// The keys of a search as they are written.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename = "Search", deny_unknown_fields)]
 pub struct SearchText {
@@ -37,17 +37,21 @@ pub struct SearchText {
     relative_width: Option<f64>,
 }
 
-/// A hundredth: what a log–log plot shows.
+/// Relative width where none is given, a hundredth: what a log–log plot shows.
 const RELATIVE_WIDTH: f64 = 0.01;
-/// Below this bisection only moves the last bits.
+/// Least relative width; below it bisection only moves the last bits.
 const NARROWEST: f64 = 1e-12;
 
-/// Where the search stands in the file.
+/// Place of the search in the file.
 pub fn search_path() -> KeyPath {
     KeyPath::of_keys(&["sweep", "search"])
 }
 
 impl SearchText {
+    /// The search that the keys say, among these axes.
+    ///
+    /// # Errors
+    /// A key that cannot be searched, or a bracket, condition, share, axis or width that is none.
     pub fn read(&self, axes: &Axes) -> Result<Search> {
         let base = search_path();
         let at = Path::Base(&base);

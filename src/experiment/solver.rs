@@ -9,36 +9,36 @@ use strum::{IntoStaticStr, VariantArray};
 pub enum Solver {
     /// Projected Gauss–Seidel, disc per contact.
     Pgs,
-    /// Its sweeps as gradients of a nonlinear conjugate gradient method.
+    /// Nonlinear conjugate gradients: the sweeps of `pgs` as gradients.
     Nncg,
     /// The law of contact to rounding, the smallest of all impulses that obey it.
     Newton,
 }
 
-/// What is true of a solver, whatever the contacts.
+/// Facts of a solver, whatever the contacts.
 #[derive(Clone, Copy, Debug)]
 pub struct SolverFacts {
-    /// Most of a step, where `sweeps` is not given.
+    /// Most sweeps of a step, where `sweeps` is not given.
     pub sweeps: u32,
-    /// Where `tolerance` is not given.
+    /// Tolerance, where `tolerance` is not given.
     pub tolerance: f64,
-    /// It goes from contact to contact: `local`, `relaxation` and `order` say how.
+    /// Whether the solver goes from contact to contact: `local`, `relaxation` and `order` say how.
     pub by_contact: bool,
-    /// A step may ask for memory.
+    /// Whether a step may ask for memory.
     pub allocates: bool,
-    /// What lists say of it.
+    /// Noun for lists.
     pub about: &'static str,
 }
 
 impl Solver {
     pub const ALL: &'static [Solver] = Solver::VARIANTS;
 
-    /// Its word in the file.
+    /// Word of the solver in the file.
     pub fn word(self) -> &'static str {
         self.into()
     }
 
-    /// One row of the table. What is left of a sweep's change at 1e-12 is below the rounding of a step. `newton` mostly
+    /// Row of the table. What is left of a sweep's change at 1e-12 is below the rounding of a step. `newton` mostly
     /// needs no proximal problem, and in a pile of 125 cubes more than 200 in one step of 150; a residual of 1e-10 is
     /// met even where 400 contacts share a force or masses are 1 : 10⁶, and it mostly ends at 1e-15.
     pub fn facts(self) -> SolverFacts {

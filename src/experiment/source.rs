@@ -1,15 +1,18 @@
-//! From a file to a tree of YAML values.
+//! Reader of a file, whose text becomes a tree of YAML values.
 
 use super::error::{ExperimentError, Kind, describe};
 use super::key_path::KeyPath;
 use super::positions::{self, Duplicate, Position};
-use serde_yaml::Value;
+use super::tree::Value;
 use std::io::ErrorKind;
 use std::path::Path;
 
 type Result<T> = std::result::Result<T, ExperimentError>;
 
-/// The whole file; the error tells a failing machine from a file that is not one.
+/// Text of the whole file.
+///
+/// # Errors
+/// The file is none or is not UTF-8, or the machine failed; the kind of the error tells which.
 pub fn read(path: &Path) -> Result<String> {
     let bytes = std::fs::read(path).map_err(|error| {
         let kind = match error.kind() {
@@ -31,7 +34,10 @@ pub fn read(path: &Path) -> Result<String> {
     })
 }
 
-/// One mapping, with merged keys (`<<`) in place.
+/// The one mapping of a text, with merged keys (`<<`) in place.
+///
+/// # Errors
+/// The text is not valid YAML, or no mapping.
 pub fn parse(text: &str) -> Result<Value> {
     let mut tree: Value = serde_yaml::from_str(text).map_err(|error| syntax_error(&error, text))?;
     // Once for every merge within a merged mapping.
@@ -50,6 +56,17 @@ pub fn parse(text: &str) -> Result<Value> {
             &describe(&other),
         )),
     }
+}
+
+/// The value that a flag gives.
+///
+/// # Errors
+/// The text is not valid YAML. The error has no place yet.
+pub fn parse_value(text: &str) -> Result<Value> {
+    serde_yaml::from_str(text).map_err(|error| {
+        let message = format!("the value is not valid YAML: {error}");
+        ExperimentError::new(Kind::Syntax, KeyPath::default(), message)
+    })
 }
 
 fn has_merge(tree: &Value) -> bool {

@@ -1,8 +1,8 @@
-//! `sweep:` as it is written; `axes.rs` and `search.rs` read it.
+//! The keys of `sweep:` as they are written; `axes.rs` and `search.rs` read them.
 
 use super::search::SearchText;
+use super::tree::Mapping;
 use serde::Deserialize;
-use serde_yaml::Mapping;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -12,6 +12,6 @@ pub(super) struct Sweep {
     /// Groups of axes that advance side by side.
     #[serde(default)]
     pub together: Vec<Vec<String>>,
-    /// One row a cell of the axes: the critical value of one more key.
+    /// Search that makes one row a cell of the axes: the critical value of one more key.
     pub search: Option<SearchText>,
 }

@@ -23,11 +23,11 @@ use strum::{IntoStaticStr, VariantArray};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Experiment {
-    /// What the experiment wants to know, in a sentence.
+    /// Question that the experiment answers, in a sentence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub question: Option<String>,
     pub scene: Scene,
-    /// All random draws depend on this and on the body's name.
+    /// Seed of all random draws, which depend on it and on the body's name.
     #[serde(default)]
     pub seed: u64,
     #[serde(default)]
@@ -45,13 +45,13 @@ pub struct Experiment {
     /// The closed form that errors are measured against.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exact: Option<Exact>,
-    /// The run that errors are measured against instead.
+    /// The run that errors are measured against instead of a closed form.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<ReferenceRun>,
 }
 
 impl Experiment {
-    /// Without a step: one to the end, of a method that needs none.
+    /// Clock of the run; without a step one step to the end, of a method that needs none.
     pub fn clock(&self) -> Clock {
         let end_s = self.time.end_s;
         Clock::new(self.time.step_s.unwrap_or(end_s), end_s)
@@ -61,20 +61,20 @@ impl Experiment {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
-    /// n = max(1, round(end/step)) equal steps of end/n are made.
+    /// Step that is asked for: n = max(1, round(end/step)) equal steps of end/n are made.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step_s: Option<f64>,
     pub end_s: f64,
 }
 
-/// When a run counts as diverged and stops; `not-finite` is always on.
+/// Criteria by which a run counts as diverged and stops; `not-finite` is always on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Diverge {
-    /// Kinetic + potential above this times the start value. 1000: smaller factors count contact steps, not explosions.
-    /// `null` switches it off.
+    /// Multiple of the start value above which the sum of kinetic and potential energy is a divergence. By default
+    /// 1000: smaller factors count contact steps, not explosions. `null` switches it off.
     pub energy_factor: Option<f64>,
-    /// The centre of mass is outside the container by more than the body's bounding radius.
+    /// Whether a body has diverged whose centre of mass is outside the container by more than its bounding radius.
     pub escape: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_m_s: Option<f64>,
@@ -91,17 +91,17 @@ impl Default for Diverge {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Record {
-    /// Absent: everything this build can write.
+    /// Kinds of file; where absent, everything that this build can write.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<RecordTo>,
-    /// Sampling interval; first and last state are always recorded. 0: every step.
+    /// Sampling interval; first and last state are always recorded. At 0 every step is.
     pub every_s: f64,
     pub cases: RecordCases,
     pub streams: Vec<Stream>,
 }
 
 impl Default for Record {
-    /// 100 Hz: above every display's rate, small beside the step count of an accurate run.
+    /// A sampling rate of 100 Hz: above every display's rate, small beside the step count of an accurate run.
     fn default() -> Self {
         Record { to: None, every_s: 0.01, cases: RecordCases::Few, streams: Stream::ALL.to_vec() }
     }
@@ -116,17 +116,17 @@ pub enum RecordTo {
     Both,
 }
 
-/// Which cases of a sweep are recorded.
+/// Choice of the cases of a sweep that are recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RecordCases {
     None,
-    /// At most 24, both outcomes shown.
+    /// Few cases, at most 24, both outcomes shown.
     Few,
     All,
     Diverged,
     First,
-    /// This many, evenly through the plan.
+    /// A number of cases, evenly through the plan.
     Sample(u32),
 }
 
@@ -171,31 +171,31 @@ pub enum Exact {
 impl Exact {
     pub const ALL: &'static [Exact] = Exact::VARIANTS;
 
-    /// Its word in the file.
+    /// Word of the closed form in the file.
     pub fn word(self) -> &'static str {
         self.into()
     }
 
-    /// A motion of bodies in contact; the others meet nothing.
+    /// Whether the motion is of bodies in contact; in the others they meet nothing.
     pub fn touches(self) -> bool {
         self >= Exact::Rest
     }
 }
 
-/// What is measured only when asked for.
+/// Measurement that is made only when asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Measure {
-    /// Each body's end state: `<body>.position_m.x`, ….
+    /// Each body's state at the end: `<body>.position_m.x`, ….
     State,
     /// Each body's mass, centre of mass and inertia: `<body>.inertia_kg_m2.xx`, ….
     Inertia,
     /// Rank of A = J M⁻¹ Jᵀ, and how fast Jacobi's iteration grows, in the step with the most contacts.
     ContactMatrix,
-    /// The penalty method's, of the first step with a contact.
+    /// The penalty method's critical step, of the first step with a contact.
     CriticalStep,
     /// Forward, backward and central quotients of the positions against the velocities.
     DifferenceQuotients,
-    /// How an error of the start has grown at the end; of methods that follow events it is always measured.
+    /// Growth of an error of the start at the end; of methods that follow events it is always measured.
     Sensitivity,
 }

@@ -1,4 +1,5 @@
-//! What the types cannot say: bounds, and words that must fit together. The body's part is `validate_body.rs`.
+//! Checks of what the types cannot say: bounds, and words that must fit together. The body's part is
+//! `validate_body.rs`.
 
 use super::checks::{Result, a_part, at_least_one, direction, not_negative, positive, reachable, sizes, unexpected};
 use super::error::{ExperimentError, number};
@@ -10,10 +11,13 @@ use super::types::{
 use super::validate_body::validate_body;
 use super::validate_loads::{validate_loads, who_lacks};
 
-/// More steps than a machine makes in weeks: a slip in a unit.
+/// Most steps of a run: more than a machine makes in weeks, and so a slip in a unit.
 const MOST_STEPS: f64 = 1e12;
 
-/// The first thing that makes no sense in the experiment.
+/// Checks that an experiment makes sense.
+///
+/// # Errors
+/// The first thing that makes none, with its key path.
 pub fn validate(experiment: &Experiment) -> Result<()> {
     let base = KeyPath::default();
     let root = Path::Base(&base);
@@ -31,12 +35,12 @@ pub fn validate(experiment: &Experiment) -> Result<()> {
     validate_measure(experiment, root.key("measure"))
 }
 
-/// How far from 1 the squared length of a normalised quaternion may be: four components, a root and two quotients, each
+/// Deviation from 1 of the squared length of a normalised quaternion: four components, a root and two quotients, each
 /// rounded.
 const UNIT_SLACK: f64 = 8.0 * f64::EPSILON;
 
-/// Any multiple of a unit quaternion may be written; from here on they are unit ones. One that is a unit up to rounding
-/// stays as it is, bit for bit, so that what is written of a resolved experiment is read as the same.
+/// Makes quaternions unit ones, of which any multiple may be written. One that is a unit up to rounding stays as it is,
+/// bit for bit, so that what is written of a resolved experiment is read as the same.
 pub fn normalise_quaternions(experiment: &mut Experiment) {
     let orientations = experiment.scene.bodies.iter_mut().filter_map(|body| body.orientation.as_mut());
     for q in orientations.filter_map(|orientation| orientation.quaternion_xyzw.as_mut()) {
@@ -143,7 +147,7 @@ fn validate_place(scene: &Scene, at: Path) -> Result<()> {
     Ok(())
 }
 
-/// What the method can do with the scene's contacts.
+/// Checks that the method can do what the scene's contacts ask for.
 fn validate_contact(experiment: &Experiment, at: Path) -> Result<()> {
     let (scene, method) = (&experiment.scene, &experiment.method);
     if method.facts().needs_mesh {
@@ -179,7 +183,7 @@ fn validate_exact(experiment: &Experiment, at: Path) -> Result<()> {
     }
 }
 
-/// It has to be a motion that `event-driven` can follow, and the same one.
+/// Checks that the motion is one that `event-driven` can follow, and the same one.
 fn validate_reference(experiment: &Experiment, root: Path) -> Result<()> {
     let Some(reference) = &experiment.reference else { return Ok(()) };
     let at = root.key("reference");

@@ -1,4 +1,4 @@
-//! What must be true of one body, whatever else is in the scene.
+//! Checks of one body, whatever else is in the scene.
 
 use super::checks::{Result, a_part, direction, not_negative, positive, sizes, unexpected};
 use super::copies::{validate_copies, without_number};
@@ -11,13 +11,18 @@ use super::validate_loads::validate_driven;
 use crate::shape::hull::{Hull, HullError, MOST_VERTICES};
 use nalgebra::Matrix3;
 
-/// Six levels make 40,962 surface nodes, seven 163,842: finer spheres only fill the memory.
+/// Most subdivisions of a sphere: six levels make 40,962 surface nodes, seven 163,842; finer spheres only fill the
+/// memory.
 const FINEST_SPHERE: u32 = 7;
-/// A million nodes are some six million tets: more is a slip, and would end in a lack of memory.
+/// Most nodes of a mesh. A million are some six million tets: more is a slip, and would end in a lack of memory.
 const MOST_NODES: f64 = 1e6;
-/// Moments computed in floating point meet I₁ + I₂ = I₃ of a flat body only up to rounding.
+/// Relative rounding of moments: computed in floating point they meet I₁ + I₂ = I₃ of a flat body only up to it.
 const TRIANGLE_SLACK: f64 = 1e-9;
 
+/// Checks one body.
+///
+/// # Errors
+/// The first thing that is wrong with the body.
 pub fn validate_body(body: &Body, at: Path) -> Result<()> {
     validate_name(body, at.key("name"))?;
     validate_shape(&body.shape, at.key("shape"))?;

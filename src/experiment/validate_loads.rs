@@ -1,4 +1,4 @@
-//! What must be true of `forces:`, `air:`, `pins:` and of bodies that move as they are told.
+//! Checks of `forces:`, `air:`, `pins:` and of bodies that move as they are told.
 
 use super::checks::{Result, listed, not_negative, unexpected};
 use super::error::{ExperimentError, number};
@@ -6,6 +6,10 @@ use super::key_path::Path;
 use super::types::{Air, Body, Course, Experiment, Force, Integrator, Method, Pin, Scene, Shape};
 use super::vocabulary::{Word, words};
 
+/// Checks what acts on the bodies, and whether the method has it.
+///
+/// # Errors
+/// The first load that is wrong, or that the method lacks.
 pub fn validate_loads(experiment: &Experiment, at: Path) -> Result<()> {
     let scene = &experiment.scene;
     let (forces, pins) = (at.key("forces"), at.key("pins"));
@@ -34,7 +38,7 @@ fn fits_the_method(method: &Method, scene: &Scene, at: Path) -> Result<()> {
     Err(ExperimentError::feature_not_available(at.key("pins").to_key_path(), &feature))
 }
 
-/// Who lacks what other methods have: the law of impact, if there is one that has it.
+/// Words about who lacks what other methods have: the law of impact, if there is one that has it.
 pub(super) fn who_lacks(method: &Method) -> String {
     match method.facts().impact {
         Some(law) if !law.has_all() => format!("the law of impact `{}`", law.word()),
@@ -42,7 +46,7 @@ pub(super) fn who_lacks(method: &Method) -> String {
     }
 }
 
-/// Where v = 0 the third derivative of a body with |v| v jumps, and no coefficient says so.
+/// Refuses |v| v: where v = 0 the third derivative of a body with it jumps, and no coefficient says so.
 fn no_quadratic_drag(scene: &Scene, at: Path) -> Result<()> {
     match scene.air {
         Some(air) if air.drag_coefficient > 0.0 => {
@@ -141,6 +145,10 @@ fn index_of(name: &str, scene: &Scene, at: Path) -> Result<usize> {
     })
 }
 
+/// Checks a body that moves as it is told.
+///
+/// # Errors
+/// A body that moves as it is told, with keys that contradict that.
 pub fn validate_driven(body: &Body, at: Path) -> Result<()> {
     if !body.is_driven() {
         return Ok(());

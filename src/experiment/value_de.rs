@@ -1,4 +1,4 @@
-//! Reads our types from YAML values, with errors that know the key path.
+//! Reader of our types from YAML values, with errors that know the key path.
 //!
 //! serde_yaml's own reader takes enums as `!tag`s and its errors know neither path nor nearest key. This one reads an
 //! enum as one word or as one key with settings, whole numbers where a number is expected, and nothing that is not
@@ -7,16 +7,19 @@
 use super::error::{ExperimentError, describe, key_text};
 use super::key_path::{KeyPath, Path};
 use super::later::{all_keys, is_later};
+use super::tree::{Mapping, Number, Value};
 use serde::de::value::BorrowedStrDeserializer;
 use serde::de::{
     DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
 };
 use serde::forward_to_deserialize_any;
-use serde_yaml::{Mapping, Number, Value};
 
 type Result<T> = std::result::Result<T, ExperimentError>;
 
 /// A `T` from the value that stands at `base`.
+///
+/// # Errors
+/// The value is not one; the error has the path of the part that is wrong.
 pub fn from_value<T: DeserializeOwned>(value: &Value, base: &KeyPath) -> Result<T> {
     T::deserialize(Node { value: Some(value), path: Path::Base(base) })
 }
@@ -29,7 +32,7 @@ pub fn item_name(item: &Value) -> Option<&str> {
 /// A value and where it stands.
 #[derive(Clone, Copy)]
 struct Node<'de, 'p> {
-    /// None: the settings of a word that was written alone.
+    /// Value there; None for the settings of a word that was written alone.
     value: Option<&'de Value>,
     path: Path<'p>,
 }
@@ -289,7 +292,7 @@ impl<'de> SeqAccess<'de> for Items<'de, '_> {
 
 /// The entries of a mapping, in order.
 struct Entries<'de, 'p> {
-    entries: Option<serde_yaml::mapping::Iter<'de>>,
+    entries: Option<<&'de Mapping as IntoIterator>::IntoIter>,
     /// The entry whose key was read and whose value comes next.
     current: Option<(&'de str, &'de Value)>,
     path: &'p Path<'p>,

@@ -1,4 +1,4 @@
-//! The words that settings of a method choose from. A part of `method.rs`.
+//! Words that settings of a method choose from. A part of `method.rs`.
 
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
@@ -7,47 +7,47 @@ use strum::IntoStaticStr;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Start {
-    /// F = 0.
+    /// No guess: F = 0.
     None,
-    /// F = −A⁻¹ b by LU; a non-finite start is replaced by 0.
+    /// Direct solution F = −A⁻¹ b by LU; a non-finite start is replaced by 0.
     Direct,
-    /// The same with the inverse matrix.
+    /// Direct solution with the inverse matrix.
     Inverse,
-    /// The same with the Moore–Penrose inverse.
+    /// Direct solution with the Moore–Penrose inverse.
     PseudoInverse,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Iteration {
-    /// The printed formula.
+    /// Jacobi's iteration, as in the printed formula.
     Jacobi,
-    /// In place.
+    /// Gauss–Seidel's iteration, in place.
     GaussSeidel,
 }
 
-/// When forces are put back into the friction cone.
+/// Moment at which forces are put back into the friction cone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Correction {
-    /// All contacts, once a sweep.
+    /// At the end of a sweep, for all contacts at once.
     AfterSweep,
     /// Right after the contact's three rows: this is projected Gauss–Seidel.
     PerContact,
 }
 
-/// What |f_c2, f_c3| < μ |f_c1| bounds (L19).
+/// Quantity that |f_c2, f_c3| < μ |f_c1| bounds (L19).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cone {
-    /// The length of (f₂, f₃): Coulomb's law.
+    /// Length of (f₂, f₃): Coulomb's law.
     #[default]
     Disc,
-    /// f₂ and f₃ each, as the line can be read: up to √2 times the friction, by the direction.
+    /// Components f₂ and f₃ each, as the line can be read: up to √2 times the friction, by the direction.
     Box,
 }
 
-/// Which velocity moves the position (L5).
+/// Velocity that moves the position (L5).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Update {
@@ -59,9 +59,9 @@ pub enum Update {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rotation {
-    /// I dω/dt = τ, R ← dR R: the slide's, without the gyroscopic term.
+    /// The slide's rotation I dω/dt = τ, R ← dR R, without the gyroscopic term.
     Literal,
-    /// World-frame angular momentum conserved, midpoint rotation.
+    /// Midpoint rotation that conserves the angular momentum of the world frame.
     Momentum,
 }
 
@@ -75,27 +75,27 @@ pub enum Scheme {
     Moreau,
 }
 
-/// What happens to the normal velocity of an approaching contact.
+/// Law of what happens to the normal velocity of an approaching contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Impact {
-    /// Multiplied by −e, all contacts at once (Moreau). With friction it may gain energy.
+    /// Newton's law: the velocity is multiplied by −e, all contacts at once (Moreau). With friction it may gain energy.
     Newton,
-    /// All contacts at once, compression and expansion (Glocker & Pfeiffer). Never gains energy.
+    /// Poisson's law: compression and expansion, all contacts at once (Glocker & Pfeiffer). It never gains energy.
     Poisson,
-    /// One contact after the other, the fastest approach first, by the energy of its own compression (Stronge). Never
-    /// gains energy.
+    /// One contact after the other, the fastest approach first, by the energy of its own compression (Stronge). It
+    /// never gains energy.
     Sequential,
 }
 
 impl Impact {
-    /// Its word in the file.
+    /// Word of the law in the file.
     pub fn word(self) -> &'static str {
         self.into()
     }
 
-    /// It has pins and a tangential restitution.
+    /// Whether the law has pins and a tangential restitution.
     pub fn has_all(self) -> bool {
         match self {
             Impact::Newton => true,
@@ -112,26 +112,26 @@ pub enum PositionCorrection {
     None,
 }
 
-/// What a contact does at its turn in a sweep.
+/// Solution that a contact takes at its turn in a sweep.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Local {
-    /// The normal row, then both tangents by one step length, then the disc.
+    /// Common step: the normal row, then both tangents by one step length, then the disc.
     #[default]
     Common,
-    /// Every tangent row by its own diagonal (the common textbook form): it settles away from the solution.
+    /// Row by row: every tangent row by its own diagonal (the common textbook form); it settles away from the solution.
     Rows,
-    /// Its 3×3 problem solved exactly (nonlinear Gauss–Seidel).
+    /// Exact solution of the contact's 3×3 problem (nonlinear Gauss–Seidel).
     Exact,
 }
 
-/// In which order a sweep visits the contacts.
+/// Order in which a sweep visits the contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Order {
-    /// That of the contact test.
+    /// Order of the contact test.
     #[default]
     Fixed,
-    /// Another one every sweep, the same in every step.
+    /// Order that is another one every sweep, the same in every step.
     Shuffled,
 }

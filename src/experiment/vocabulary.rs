@@ -14,7 +14,7 @@ use std::cell::{Cell, RefCell};
 #[derive(Clone, Debug)]
 pub struct Word<T> {
     pub name: &'static str,
-    /// What it is read as, with settings that mean nothing.
+    /// Value that the word is read as, with settings that mean nothing.
     pub value: T,
     pub settings: Vec<SettingKey>,
 }
@@ -34,20 +34,20 @@ pub enum Takes {
     Words(&'static [&'static str]),
     Number,
     WholeNumber,
-    /// So many numbers.
+    /// A vector of that many numbers.
     Vector(usize),
-    /// A list of them.
+    /// A list of vectors of that many numbers.
     Vectors(usize),
 }
 
-/// What a setting is where the file does not say.
+/// Value of a setting that the file leaves out.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Initial {
-    /// The file has to say.
+    /// No value: the file has to say one.
     Needed,
     Is(Value),
-    /// The method's own affair.
+    /// No value of the parser's: it is the method's own affair.
     Absent,
 }
 
@@ -63,7 +63,7 @@ impl std::fmt::Display for Takes {
     }
 }
 
-/// A value as a file would have it.
+/// Text of a value as a file would have it.
 pub fn shown(value: &Value) -> String {
     match value {
         Value::String(word) => word.clone(),
@@ -135,10 +135,10 @@ fn some(takes: &Takes) -> Value {
     }
 }
 
-/// What a reader has been asked for.
+/// Questions that a reader has been asked.
 #[derive(Default)]
 struct Asked {
-    /// Which word it gives.
+    /// Number of the word that it gives.
     place: usize,
     names: Cell<&'static [&'static str]>,
     settings: RefCell<Vec<(&'static str, Takes)>>,

@@ -10,12 +10,12 @@ use crate::work::Work;
 pub struct Chain {
     /// Indices of its bodies, rising.
     members: Vec<usize>,
-    /// Their states, between `take` and `give`.
+    /// States of its bodies, between `take` and `give`.
     pub at: Vec<BodyState>,
-    /// Their drives, as of the last `drive`.
+    /// Drives of its bodies, as of the last `drive`.
     pub drives: Vec<Drive>,
     pins: Option<PinSolver>,
-    /// Some applied force or the air acts on a body.
+    /// Whether some applied force or the air acts on a body.
     loaded: bool,
 }
 
@@ -49,7 +49,7 @@ impl Chain {
         }
     }
 
-    /// Nothing acts on its bodies but gravity: every one is on its own, and its drive never changes.
+    /// Whether nothing acts on its bodies but gravity: every one is on its own, and its drive never changes.
     pub fn is_free(&self) -> bool {
         !self.loaded && self.pins.is_none()
     }
@@ -71,7 +71,7 @@ impl Chain {
         self.pins.as_ref()
     }
 
-    /// Its pins, with A at the present states.
+    /// Its pins, with A at the present states; None without any.
     pub fn gathered_pins(&mut self, model: &Model) -> Option<&mut PinSolver> {
         let pins = self.pins.as_mut()?;
         pins.gather(model, &self.at);
@@ -93,7 +93,7 @@ impl Chain {
         bodies.zip(&mut self.at).zip(&self.drives).map(|((body, at), drive)| (body, at, drive))
     }
 
-    /// Works out the drives at the present states.
+    /// Works out the drives at the present states, at a time (s).
     pub fn drive(&mut self, model: &Model, t_s: f64, work: &mut Work) {
         if self.is_free() {
             return;

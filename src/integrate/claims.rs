@@ -1,29 +1,29 @@
-//! What the integrators promise for a free rigid body. One table: `gotai list methods` prints it, and the tests run
+//! Promises of the integrators for a free rigid body. One table: `gotai list methods` prints it, and the tests run
 //! every line of it.
 
 use crate::experiment::types::Integrator;
 use serde::Serialize;
 
-/// One line of the table.
+/// Line of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Claim {
-    /// Of attitude and angular velocity; of the position too, where it is not exact.
-    /// None: there is no error of the step's, or one that the tolerance sets.
+    /// Order of attitude and angular velocity; of the position too, where it is not exact. None: there is no error of
+    /// the step's, or one that the tolerance sets.
     pub order: Option<u32>,
-    /// Rotational energy of a body without torque.
+    /// Promise about the rotational energy of a body without torque.
     pub energy: Kept,
-    /// Its angular momentum, as a vector of the world.
+    /// Promise about its angular momentum, as a vector of the world.
     pub angular_momentum: Kept,
-    /// Its parabola.
+    /// Promise about its parabola.
     pub parabola: Kept,
     pub source: &'static str,
 }
 
-/// Whether a quantity of the motion is one of the method's.
+/// Keeping of a quantity of the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kept {
-    /// At any step for which the method has a solution: what is left walks by a rounding a step.
+    /// Kept to rounding at any step for which the method has a solution: what is left walks by a rounding a step.
     ToRounding,
     No,
 }

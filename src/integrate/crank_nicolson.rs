@@ -13,7 +13,7 @@ use crate::state::BodyState;
 use crate::work::Work;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-/// A step between the drives at its start and its end.
+/// End of a step between the drives at its start and its end; None where the step has no solution.
 pub fn driven(
     body: &Body,
     start: &BodyState,

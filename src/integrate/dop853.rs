@@ -9,10 +9,10 @@ use super::phase::{Phase, phase, state};
 use crate::model::Model;
 use crate::work::Work;
 
-/// Tries of a body in one step of the clock; then it is given up, as below.
+/// Tries of a body in one step of the clock, after which it is given up, as below.
 const MOST: u32 = 100_000;
 
-/// The inner step of a body, kept from one step of the clock to the next.
+/// Inner step of a body, kept from one step of the clock to the next.
 #[derive(Clone, Copy, Debug)]
 pub struct Control {
     pub tolerance: f64,
@@ -20,7 +20,7 @@ pub struct Control {
 }
 
 impl Control {
-    /// The first try is the clock's whole step.
+    /// Control of a tolerance; the first try is the clock's whole step.
     pub fn new(tolerance: f64) -> Self {
         Control { tolerance, inner_s: f64::INFINITY }
     }
@@ -67,7 +67,8 @@ impl Scratch {
     }
 }
 
-/// One step of the clock. False: no inner step reaches the tolerance, and the island is left on the way.
+/// Takes an island over one step of the clock. False where no inner step reaches the tolerance; the island is then left
+/// on the way.
 pub fn step(
     island: &mut Chain,
     model: &Model,

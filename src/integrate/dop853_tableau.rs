@@ -1,7 +1,8 @@
 //! The coefficients of `dop853` (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, 2nd edition,
 //! II.5 and II.10, and their program of this name), rounded to f64.
 
-/// Stage i + 2 starts at y + h Σ Aᵢⱼ kⱼ. The nodes are the sums of the rows: nothing here depends on time.
+/// Coefficients of the stages: stage i + 2 starts at y + h Σ Aᵢⱼ kⱼ. The nodes are the sums of the rows: nothing here
+/// depends on time.
 pub const A: [&[f64]; 11] = [
     &[0.05260015195876773],
     &[0.0197250569845379, 0.0591751709536137],
@@ -66,7 +67,7 @@ pub const A: [&[f64]; 11] = [
     ],
 ];
 
-/// Order 8: y + h Σ Bᵢ kᵢ.
+/// Weights of order 8: y + h Σ Bᵢ kᵢ.
 pub const B: [f64; 12] = [
     0.054293734116568765,
     0.0,
@@ -82,7 +83,7 @@ pub const B: [f64; 12] = [
     0.04471061572777259,
 ];
 
-/// Order 8 minus order 5.
+/// Weights of order 8 minus those of order 5.
 pub const E5: [f64; 12] = [
     0.01312004499419488,
     0.0,
@@ -98,12 +99,12 @@ pub const E5: [f64; 12] = [
     -0.022355307863886294,
 ];
 
-/// The weights of order 3, on the stages 1, 9 and 12.
+/// Weights of order 3, on the stages 1, 9 and 12.
 pub const B3: [f64; 12] =
     [0.2440944881889764, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.7338466882816118, 0.0, 0.0, 0.022058823529411766];
 
-/// The continuous extension of order 7: stages 14 to 16 start at y + h Σ aᵢⱼ kⱼ, where stage 13 is the slope at the
-/// end.
+/// Coefficients of the continuous extension of order 7: stages 14 to 16 start at y + h Σ aᵢⱼ kⱼ, where stage 13 is the
+/// slope at the end.
 pub const EXTRA: [&[f64]; 3] = [
     &[
         0.056167502283047954,
@@ -155,7 +156,7 @@ pub const EXTRA: [&[f64]; 3] = [
     ],
 ];
 
-/// Its four highest coefficients: h Σ dⱼ kⱼ over all 16 stages.
+/// Weights of its four highest coefficients: h Σ dⱼ kⱼ over all 16 stages.
 pub const D: [&[f64]; 4] = [
     &[
         -8.428938276109013,

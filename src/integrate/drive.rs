@@ -1,14 +1,14 @@
-//! What drives a body between contacts.
+//! Drive of a body between contacts.
 
 use crate::model::{Body, Model};
 use nalgebra::Vector3;
 
-/// What changes a body's velocities, gyroscopic term apart.
+/// Accelerations of a body, gyroscopic term apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
-    /// Of the centre of mass, world axes.
+    /// Acceleration of the centre of mass, in m/s², world axes.
     pub acceleration: Vector3<f64>,
-    /// About the centre of mass, body axes.
+    /// Torque about the centre of mass, in N m, body axes.
     pub torque_B: Vector3<f64>,
 }
 
@@ -17,7 +17,7 @@ impl Drive {
         Drive { acceleration: model.gravity_m_s2, torque_B: Vector3::zeros() }
     }
 
-    /// Without a torque, moments of inertia that are all equal leave ω as it is.
+    /// Whether ω changes: without a torque, moments of inertia that are all equal leave it as it is.
     pub fn turns(&self, body: &Body) -> bool {
         !body.isotropic || self.torque_B != Vector3::zeros()
     }

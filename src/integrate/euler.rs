@@ -9,7 +9,7 @@ use crate::model::{Body, Model};
 use crate::state::BodyState;
 use crate::work::Work;
 
-/// A step of `h` from `t_s`, by the drives at its start.
+/// Takes an island over a step of `h` from `t_s`, by the drives at its start.
 pub fn step(update: Update, island: &mut Chain, model: &Model, [t_s, h]: [f64; 2], work: &mut Work) {
     island.drive(model, t_s, work);
     for (body, at, drive) in island.each(model) {

@@ -6,7 +6,7 @@ use super::phase::{Phase, rate, state};
 use crate::model::Model;
 use crate::work::Work;
 
-/// f, with what it needs.
+/// The function f, with what it needs.
 pub struct Field<'a> {
     pub island: &'a mut Chain,
     pub model: &'a Model,
@@ -14,7 +14,7 @@ pub struct Field<'a> {
 }
 
 impl Field<'_> {
-    /// ẏ of every body.
+    /// Rates ẏ of every body at a time.
     pub fn at(&mut self, t_s: f64, y: &[Phase], rates: &mut [Phase]) {
         let Field { island, model, work } = self;
         if !island.is_free() {
@@ -28,14 +28,14 @@ impl Field<'_> {
     }
 }
 
-/// y + h Σ aⱼ kⱼ.
+/// State y + h Σ aⱼ kⱼ of a body.
 pub fn advanced(y: &[Phase], weights: &[f64], k: &[Vec<Phase>], h: f64, out: &mut [Phase]) {
     for (i, (y, out)) in y.iter().zip(out).enumerate() {
         *out = y + sum(weights, k, i) * h;
     }
 }
 
-/// Σ aⱼ kⱼ of one body.
+/// Sum Σ aⱼ kⱼ of one body.
 pub fn sum(weights: &[f64], k: &[Vec<Phase>], body: usize) -> Phase {
     let terms = weights.iter().zip(k).filter(|(a, _)| **a != 0.0);
     terms.fold(Phase::zeros(), |sum, (a, k)| sum + k[body] * *a)

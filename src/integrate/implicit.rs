@@ -1,4 +1,4 @@
-//! What the implicit methods share: their step depends on a drive that the step itself leads to. That drive is the
+//! Common part of the implicit methods: their step depends on a drive that the step itself leads to. That drive is the
 //! unknown; where it never changes (nothing but gravity) there is nothing to solve.
 
 use super::chain::Chain;
@@ -8,17 +8,17 @@ use crate::model::{Body, Model};
 use crate::state::BodyState;
 use crate::work::Work;
 
-/// One body's end of a step, and the state at which the unknown drive is evaluated.
+/// End of a body's step, and the state at which the unknown drive is evaluated.
 #[derive(Clone, Copy, Debug)]
 pub struct Reached {
     pub end: BodyState,
     pub seen: BodyState,
 }
 
-/// A body's step from its start, the drive there and the unknown one; None: it has no solution.
+/// Step of a body from its start, the drive there and the unknown one; None where it has no solution.
 pub type Kernel = fn(&Body, &BodyState, &[Drive; 2], f64, &mut Work) -> Option<Reached>;
 
-/// Of an island.
+/// Memory of an island's steps.
 #[derive(Debug, Default)]
 pub struct Scratch {
     start: Vec<BodyState>,
@@ -43,7 +43,8 @@ impl Scratch {
     }
 }
 
-/// A step of `h` from `t_s`; the unknown drive is that at `part` of the step.
+/// Takes an island over a step of `h` from `t_s`; the unknown drive is that at `part` of the step. False where the step
+/// has no solution.
 pub fn step(
     kernel: Kernel,
     part: f64,
@@ -77,10 +78,11 @@ pub fn step(
     solved
 }
 
-/// Of the largest acceleration, and torque: what is left is made smaller still by the step that it is a part of.
+/// Residual that is small, of the largest acceleration, and torque: what is left is made smaller still by the step that
+/// it is a part of.
 const SMALL: f64 = 1e-13;
 
-/// Below it a number has fewer digits: what decays for ever ends there.
+/// Least scale. Below it a number has fewer digits: what decays for ever ends there.
 const NOTHING: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// Largest acceleration and torque.

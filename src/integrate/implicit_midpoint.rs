@@ -12,14 +12,15 @@ use crate::state::BodyState;
 use crate::work::Work;
 use nalgebra::{Matrix3, Vector3};
 
-/// With a torque τ_m in the middle, Π₁ − Π₀ = h (Π_m × ω_m + τ_m) is half of h τ_m before the turn and half after it.
+/// End of a step with a torque τ_m in the middle: of Π₁ − Π₀ = h (Π_m × ω_m + τ_m), half of h τ_m comes before the turn
+/// and half after it. None where the turn has no solution.
 pub fn driven(body: &Body, start: &BodyState, [_, middle]: &[Drive; 2], h: f64, work: &mut Work) -> Option<Reached> {
     let [end, mut seen] = kick_turn_kick(equation, body, start, [middle, middle], h, work)?;
     seen.p_WB = (start.p_WB + end.p_WB) / 2.0;
     Some(Reached { end, seen })
 }
 
-/// Π_m = (1 + \[c\]×)⁻¹ Π₀ = I ω_m: g + g × c + (g·c) c = 2 (1 + c²) I c with g = h Π₀.
+/// Equation Π_m = (1 + \[c\]×)⁻¹ Π₀ = I ω_m for c: g + g × c + (g·c) c = 2 (1 + c²) I c with g = h Π₀.
 pub fn equation(g: &Vector3<f64>, I_B: &Matrix3<f64>, c: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let (left, derivative) = half_turned(g, c);
     let stretch = 2.0 * (1.0 + c.norm_squared());

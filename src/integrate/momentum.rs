@@ -1,5 +1,5 @@
-//! What the two methods that keep the angular momentum share: half of the drive, then a turn without torque, then the
-//! other half (G. Strang, SIAM J. Numer. Anal. 5 (1968) 506; for a rigid body McLachlan & Zanna 2005).
+//! Common part of the two methods that keep the angular momentum: half of the drive, then a turn without torque, then
+//! the other half (G. Strang, SIAM J. Numer. Anal. 5 (1968) 506; for a rigid body McLachlan & Zanna 2005).
 //!
 //! A turn's unknown is the rotation of one step, c = n tan(θ/2) (Cayley's or Rodrigues' vector); the momentum L is a
 //! constant of the world, so that only the attitude can err.
@@ -17,13 +17,13 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 /// The method's equation for c, given h Π and the inertia in body axes, with its derivative.
 pub type Equation = fn(&Vector3<f64>, &Matrix3<f64>, &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>);
 
-/// L of every body of an island.
+/// Angular momenta L of the bodies of an island.
 pub fn momenta(island: &Chain, model: &Model) -> Vec<Vector3<f64>> {
     island.bodies(model).zip(&island.at).map(|(body, at)| momentum_W(body, &at.q_WB, &at.w_WB)).collect()
 }
 
-/// Bodies that nothing but gravity acts on. `momenta`: the L of each, the method's own and never worked out again from
-/// ω, which would add a rounding a step.
+/// Takes bodies over a step that nothing but gravity acts on. `momenta` holds the L of each, the method's own and never
+/// worked out again from ω, which would add a rounding a step. False where a turn has no solution.
 pub fn step_free(
     equation: Equation,
     island: &mut Chain,
@@ -48,7 +48,8 @@ pub fn step_free(
     true
 }
 
-/// Half a step of one drive, the turn, half a step of the other; the end, and the middle of the turn.
+/// End of half a step of one drive, the turn, and half a step of the other, and the middle of the turn; None where it
+/// has no solution.
 pub fn kick_turn_kick(
     equation: Equation,
     body: &Body,
@@ -87,7 +88,7 @@ fn half_turn(
     Some((cayley(&(c / (1.0 + (1.0 + c.norm_squared()).sqrt()))), c * (2.0 / h)))
 }
 
-/// The Cayley vector of a turn without torque; none if the equation has no solution.
+/// The Cayley vector of a turn without torque; None if the equation has no solution.
 pub fn turn(
     equation: Equation,
     body: &Body,
@@ -103,7 +104,7 @@ pub fn turn(
     })
 }
 
-/// What both equations are made of: (1 + c²) (1 + \[c\]×)⁻¹ g = g + g × c + (g·c) c, and its derivative.
+/// Common term of both equations, (1 + c²) (1 + \[c\]×)⁻¹ g = g + g × c + (g·c) c, and its derivative.
 pub fn half_turned(g: &Vector3<f64>, c: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let value = g + g.cross(c) + c * g.dot(c);
     (value, g.cross_matrix() + Matrix3::from_diagonal_element(g.dot(c)) + c * g.transpose())
@@ -113,12 +114,12 @@ pub fn cayley(c: &Vector3<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::from_parts(1.0, *c) / (1.0 + c.norm_squared()).sqrt())
 }
 
-/// I ω in the world.
+/// Angular momentum I ω in the world.
 pub fn momentum_W(body: &Body, q_WB: &UnitQuaternion<f64>, w_WB: &Vector3<f64>) -> Vector3<f64> {
     q_WB * (body.I_B * q_WB.inverse_transform_vector(w_WB))
 }
 
-/// The ω whose `momentum_W` is L. I I⁻¹ is not quite 1, and by the same factor in every step.
+/// Angular velocity ω whose `momentum_W` is L. I I⁻¹ is not quite 1, and by the same factor in every step.
 pub fn velocity_W(body: &Body, q_WB: &UnitQuaternion<f64>, L_W: &Vector3<f64>) -> Vector3<f64> {
     let inverse = |L_W: &Vector3<f64>| q_WB * (body.I_B_inverse * q_WB.inverse_transform_vector(L_W));
     let w_WB = inverse(L_W);

@@ -13,7 +13,8 @@ use crate::state::BodyState;
 use crate::work::Work;
 use nalgebra::{Matrix3, Vector3};
 
-/// Half of the drive at the start, the turn, half of that at the end: Störmer and Verlet's method.
+/// End of a step of half of the drive at the start, the turn, and half of that at the end (Störmer and Verlet's
+/// method); None where the turn has no solution.
 pub fn driven(
     body: &Body,
     start: &BodyState,
@@ -25,7 +26,7 @@ pub fn driven(
     Some(Reached { end, seen: end })
 }
 
-/// With F = cay(c): (1 + c²) g = 2 (I c + c × I c), or g + g × c + (g·c) c = 2 I c, where g = h Π.
+/// Equation for c, with F = cay(c): (1 + c²) g = 2 (I c + c × I c), or g + g × c + (g·c) c = 2 I c, where g = h Π.
 pub fn equation(g: &Vector3<f64>, I_B: &Matrix3<f64>, c: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let (left, derivative) = half_turned(g, c);
     (left - I_B * c * 2.0, derivative - I_B * 2.0)

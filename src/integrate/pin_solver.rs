@@ -18,12 +18,12 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 #[derive(Clone, Copy, Debug)]
 pub struct End {
     pub pin: usize,
-    /// Among the island's bodies.
+    /// Index among the island's bodies.
     pub member: usize,
     pub r_B: Vector3<f64>,
-    /// +1 on the pin's own body, −1 on the other one.
+    /// Sign of the force: +1 on the pin's own body, −1 on the other one.
     pub sign: f64,
-    /// From the centre of mass to the pin, world axes, at the present states.
+    /// Lever arm from the centre of mass to the pin, world axes, at the present states.
     r_W: Vector3<f64>,
 }
 
@@ -36,7 +36,7 @@ struct Hook {
 }
 
 impl Hook {
-    /// From the body's centre of mass.
+    /// Lever arm from the body's centre of mass.
     fn arm(&self, t_s: f64) -> Vector3<f64> {
         exponential(&(self.start.w_WB * t_s)) * (self.start.q_WB * self.r_B)
     }
@@ -56,18 +56,18 @@ pub struct PinSolver {
     ends: Vec<End>,
     hooks: Vec<Hook>,
     I_W_inverse: Vec<Matrix3<f64>>,
-    /// 3 rows a pin.
+    /// Matrix A, 3 rows a pin.
     A: DMatrix<f64>,
     factor: DMatrix<f64>,
-    /// What is missing at the pins; after `solve` the forces.
+    /// Right-hand side: what is missing at the pins; after `solve` the forces.
     rows: DVector<f64>,
 }
 
-/// Of a pivot before elimination: one that has become smaller is rounding, and its row said nothing new.
+/// Part of a pivot before elimination below which it is rounding, and its row said nothing new.
 const REDUNDANT: f64 = 1e-11;
 
 impl PinSolver {
-    /// None: no pin holds these bodies.
+    /// Solver of an island's pins; None where no pin holds these bodies.
     pub fn new(members: &[usize], model: &Model, start: &State) -> Option<Self> {
         let member = |body: usize| members.iter().position(|i| *i == body);
         let (mut ends, mut hooks, mut pins) = (Vec::new(), Vec::new(), 0);
@@ -115,7 +115,7 @@ impl PinSolver {
         }
     }
 
-    /// Closes the gaps, then takes what velocity is left between the points.
+    /// Closes the gaps of the pins, then takes what velocity is left between the points.
     pub fn hold(&mut self, model: &Model, t_s: f64, at: &mut [BodyState], work: &mut Work) {
         /// Newton's method from what one step has left.
         const MOST: u32 = 10;
@@ -148,7 +148,7 @@ impl PinSolver {
         }
     }
 
-    /// Pins of the island.
+    /// Number of the island's pins.
     pub fn count(&self) -> usize {
         self.rows.len() / 3
     }
@@ -157,17 +157,17 @@ impl PinSolver {
         self.ends.iter()
     }
 
-    /// Pins on bodies that move as they are told: which, and the body's ω.
+    /// Pins on bodies that move as they are told: index of the pin, and the body's ω.
     pub fn hooks(&self) -> impl Iterator<Item = (usize, Vector3<f64>)> {
         self.hooks.iter().map(|hook| (hook.pin, hook.start.w_WB))
     }
 
-    /// From such a body's centre of mass to the pin.
+    /// Lever arm from such a body's centre of mass to the pin, at a time.
     pub fn arm(&self, hook: usize, t_s: f64) -> Vector3<f64> {
         self.hooks[hook].arm(t_s)
     }
 
-    /// What is missing at a pin, before `solve`.
+    /// Sets what is missing at a pin, before `solve`.
     pub fn ask(&mut self, pin: usize, missing: &Vector3<f64>) {
         self.rows.fixed_rows_mut::<3>(3 * pin).copy_from(missing);
     }
@@ -177,7 +177,7 @@ impl PinSolver {
         self.rows.fixed_rows::<3>(3 * pin).into_owned()
     }
 
-    /// Levers and A at these states.
+    /// Gathers levers and A at these states.
     pub fn gather(&mut self, model: &Model, at: &[BodyState]) {
         for ((inverse, i), at) in self.I_W_inverse.iter_mut().zip(&self.members).zip(at) {
             *inverse = model.bodies[*i].I_W_inverse(at);
@@ -210,7 +210,7 @@ impl PinSolver {
         }
     }
 
-    /// A λ = rows, by Cholesky, or by the pseudo-inverse where rows say the same twice.
+    /// Solves A λ = rows, by Cholesky, or by the pseudo-inverse where rows say the same twice.
     pub fn solve(&mut self, work: &mut Work) {
         work.pin_solves += 1;
         self.factor.copy_from(&self.A);

@@ -7,7 +7,7 @@ use super::phase::{Phase, phase, state};
 use crate::model::Model;
 use crate::work::Work;
 
-/// The start of a step, a place on the way, and the four slopes, of every body of an island.
+/// Phases of every body of an island: the start of a step, a place on the way, and the four slopes.
 #[derive(Debug)]
 pub struct Scratch {
     y: Vec<Phase>,
@@ -22,7 +22,7 @@ impl Scratch {
     }
 }
 
-/// A step of `h` from `t_s`.
+/// Takes an island over a step of `h` from `t_s`.
 pub fn step(island: &mut Chain, model: &Model, [t_s, h]: [f64; 2], scratch: &mut Scratch, work: &mut Work) {
     let Scratch { y, place, k } = scratch;
     y.iter_mut().zip(&island.at).for_each(|(y, at)| *y = phase(at));

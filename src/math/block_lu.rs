@@ -7,20 +7,20 @@
 
 use nalgebra::{DVector, LU, Matrix6, U6, Vector6};
 
-/// Which blocks the factors have.
+/// Places of the blocks that the factors have.
 #[derive(Clone, Debug, Default)]
 pub struct Pattern {
-    /// Of every body, when it is eliminated.
+    /// Place of every body in the order of elimination.
     place: Vec<usize>,
-    /// Of every place, the later ones it is coupled with, ascending, and where its blocks begin among all.
+    /// Later places that every place is coupled with, ascending, and where its blocks begin among all.
     later: Vec<Vec<usize>>,
     first: Vec<usize>,
-    /// Blocks above the diagonal.
+    /// Number of blocks above the diagonal.
     blocks: usize,
 }
 
 impl Pattern {
-    /// `pairs`: of bodies that are coupled.
+    /// Pattern of a number of bodies; `pairs` are those that are coupled.
     pub fn new(bodies: usize, pairs: impl Iterator<Item = (usize, usize)>) -> Self {
         let mut near = vec![std::collections::BTreeSet::new(); bodies];
         for (a, b) in pairs.filter(|(a, b)| a != b) {
@@ -54,7 +54,7 @@ impl Pattern {
         Pattern { place, later, first, blocks }
     }
 
-    /// Where the block of places i < j is.
+    /// Place of the block of places i < j.
     fn slot(&self, i: usize, j: usize) -> usize {
         self.first[i] + self.later[i].partition_point(|later| *later < j)
     }
@@ -69,7 +69,7 @@ pub struct BlockMatrix<'a> {
 }
 
 impl<'a> BlockMatrix<'a> {
-    /// The identity times `on_diagonal`.
+    /// Identity times `on_diagonal`.
     pub fn diagonal(pattern: &'a Pattern, on_diagonal: f64) -> Self {
         let zeros = vec![Matrix6::zeros(); pattern.blocks];
         let diagonal = vec![Matrix6::identity() * on_diagonal; pattern.place.len()];
@@ -95,7 +95,7 @@ impl<'a> BlockMatrix<'a> {
         self.diagonal.iter_mut().for_each(|block| *block += Matrix6::identity() * value);
     }
 
-    /// None: singular.
+    /// Factors of the matrix; None where it is singular.
     pub fn factors(mut self) -> Option<Factors<'a>> {
         let pattern = self.pattern;
         let mut pivots = Vec::with_capacity(self.diagonal.len());
@@ -123,7 +123,7 @@ impl<'a> BlockMatrix<'a> {
     }
 }
 
-/// L and U, U's diagonal being 1.
+/// Factors L and U, U's diagonal being 1.
 pub struct Factors<'a> {
     pattern: &'a Pattern,
     pivots: Vec<LU<f64, U6, U6>>,
@@ -132,7 +132,7 @@ pub struct Factors<'a> {
 }
 
 impl Factors<'_> {
-    /// None: not a number.
+    /// Solution for a right-hand side; None where it is not finite.
     pub fn solve(&self, right: &DVector<f64>) -> Option<DVector<f64>> {
         let pattern = self.pattern;
         let mut x = vec![Vector6::zeros(); pattern.place.len()];

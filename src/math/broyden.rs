@@ -2,14 +2,14 @@
 //! beyond (C. G. Broyden, Math. Comp. 19 (1965) 577; the form with the steps alone: C. T. Kelley, Solving Nonlinear
 //! Equations with Newton's Method, SIAM 2003, 4.3).
 
-/// Kept from one solve to the next, so that none allocates.
+/// Memory of the method, kept from one solve to the next, so that none allocates.
 #[derive(Debug, Default)]
 pub struct Broyden {
     /// Steps made, one after the other, each as long as z.
     steps: Vec<f64>,
 }
 
-/// Smooth equations of a step take 2 to 12.
+/// Most steps. Smooth equations of a step take 2 to 12.
 const MOST: usize = 60;
 
 impl Broyden {
@@ -17,8 +17,8 @@ impl Broyden {
         Broyden { steps: Vec::with_capacity(MOST * unknowns) }
     }
 
-    /// From the guess in `z`. `residual(z, out)` puts G(z) − z into `out` and says whether that is small enough; None
-    /// from it, like no end of the iteration, is failure.
+    /// Solves from the guess in `z`. `residual(z, out)` puts G(z) − z into `out` and says whether that is small enough;
+    /// None from it, like no end of the iteration, is failure.
     pub fn solve(
         &mut self,
         z: &mut [f64],
@@ -40,7 +40,7 @@ impl Broyden {
         false
     }
 
-    /// From −B₀⁻¹F, with B₀ = −1, to −B⁻¹F by all updates so far.
+    /// Turns −B₀⁻¹F, with B₀ = −1, into −B⁻¹F by all updates so far.
     fn correct(&self, step: &mut [f64]) {
         let n = step.len();
         let mut made = self.steps.chunks_exact(n).peekable();

@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// hi is the sum, rounded: the order of two numbers is that of the pairs.
+/// A number hi + lo. hi is the sum, rounded: the order of two numbers is that of the pairs.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Dd {
     hi: f64,
@@ -35,7 +35,7 @@ impl Dd {
         self * self
     }
 
-    /// One Newton step from the rounded root.
+    /// Square root, by one Newton step from the rounded root.
     pub fn sqrt(self) -> Dd {
         if self.hi <= 0.0 {
             return Dd::ZERO;
@@ -57,7 +57,7 @@ impl From<f64> for Dd {
     }
 }
 
-/// Exact if |a| ≥ |b|.
+/// Sum as a pair; exact if |a| ≥ |b|.
 fn fast_two_sum(a: f64, b: f64) -> Dd {
     let hi = a + b;
     Dd { hi, lo: b - (hi - a) }
@@ -121,7 +121,7 @@ pub fn dot(a: &[Dd; 3], b: &[Dd; 3]) -> Dd {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Both by their power series, of an angle within ±π.
+/// Sine and cosine by their power series, of an angle within ±π.
 pub fn sin_cos(angle: Dd) -> (Dd, Dd) {
     /// xⁿ/n! is below 10⁻³² for x < 0.4.
     const LAST: u32 = 20;

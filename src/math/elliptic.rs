@@ -4,10 +4,11 @@
 
 use super::dd::Dd;
 
-/// Carlson's steps, and those of `cel`: each but the first few divides what is left by 4. Ends at NaN.
+/// Most of Carlson's steps, and of those of `cel`: each but the first few divides what is left by 4. What takes more
+/// ends at NaN.
 const MOST: u32 = 100;
 
-/// Steps of the mean: from k′ = 10⁻¹⁵⁰, 15 are made. Ends at NaN.
+/// Most steps of the mean: from k′ = 10⁻¹⁵⁰, 15 are made. What takes more ends at NaN.
 const MEANS: usize = 24;
 
 /// sn, cn, dn of one modulus: the steps of the arithmetic-geometric mean of 1 and k′.
@@ -15,7 +16,7 @@ const MEANS: usize = 24;
 pub struct Jacobi {
     means: [(f64, f64); MEANS],
     used: usize,
-    /// π/(2K); 0 if k = 1.
+    /// Rate π/(2K); 0 if k = 1.
     rate: f64,
 }
 
@@ -39,9 +40,9 @@ impl Jacobi {
         jacobi
     }
 
-    /// (sn, cn, dn) at |x| ≤ K.
+    /// Functions (sn, cn, dn) at |x| ≤ K.
     pub fn at(&self, x: f64) -> [f64; 3] {
-        /// Its cotangent, squared, is finite.
+        /// Least sine of an angle whose cotangent, squared, is finite.
         const TINY: f64 = 1e-150;
         if self.rate == 0.0 {
             let sech = 1.0 / libm::cosh(x);
@@ -64,7 +65,7 @@ impl Jacobi {
     }
 }
 
-/// ∫ (a cos² + b sin²) / ((cos² + p sin²) √(cos² + k′² sin²)) dφ over 0..π/2, p > 0, k′ > 0.
+/// Integral ∫ (a cos² + b sin²) / ((cos² + p sin²) √(cos² + k′² sin²)) dφ over 0..π/2, p > 0, k′ > 0.
 pub fn cel(kc: Dd, p: Dd, a: Dd, b: Dd) -> Dd {
     const CLOSE: f64 = 1e-16;
     let (mut a, mut p, mut kc) = (a, p.sqrt(), kc);
@@ -87,7 +88,7 @@ pub fn cel(kc: Dd, p: Dd, a: Dd, b: Dd) -> Dd {
     Dd::from(f64::NAN)
 }
 
-/// ½ ∫ dt / √((t+x)(t+y)(t+z)) over 0..∞; at most one argument may be zero.
+/// Integral ½ ∫ dt / √((t+x)(t+y)(t+z)) over 0..∞; at most one argument may be zero.
 pub fn carlson_rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     /// The series leaves 3 r⁶.
     const SMALL: f64 = 2e-3;
@@ -105,8 +106,8 @@ pub fn carlson_rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     f64::NAN
 }
 
-/// 3/2 ∫ dt / ((t+p) √((t+x)(t+y)(t+z))) over 0..∞ for p no less than x, y, z. δ = (p−x)(p−y)(p−z) is the caller's, who
-/// knows it without cancellation.
+/// Integral 3/2 ∫ dt / ((t+p) √((t+x)(t+y)(t+z))) over 0..∞ for p no less than x, y, z. δ = (p−x)(p−y)(p−z) is the
+/// caller's, who knows it without cancellation.
 pub fn carlson_rj(mut x: f64, mut y: f64, mut z: f64, mut p: f64, delta: f64) -> f64 {
     /// The series leaves 3 r⁶.
     const SMALL: f64 = 2e-3;
@@ -137,7 +138,7 @@ pub fn carlson_rj(mut x: f64, mut y: f64, mut z: f64, mut p: f64, delta: f64) ->
     f64::NAN
 }
 
-/// J(x) = ∫ c sn²/(cn² + c sn²) dx.
+/// Integral J(x) = ∫ c sn²/(cn² + c sn²) dx.
 #[derive(Clone, Debug)]
 pub struct ThirdKind {
     pub c: f64,

@@ -2,16 +2,16 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Which solution of a system that leaves some of it open.
+/// Choice of a solution where a system leaves some of it open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Selection {
-    /// What the others determine is 0.
+    /// Any solution: what the others determine is 0.
     Any,
-    /// The smallest.
+    /// The smallest solution.
     Least,
 }
 
-/// Of the largest pivot: what is smaller is rounding of a redundant contact.
+/// Part of the largest pivot below which one is rounding of a redundant contact.
 const RANK: f64 = 1e-11;
 
 /// Gaussian elimination with full pivoting: P K Q = L U, of which the first `rank` rows mean something.
@@ -53,7 +53,8 @@ impl Eliminated {
         Eliminated { LU, rows, columns, rank }
     }
 
-    /// Unknowns that the others determine are 0, or all are as small as they can be: x = Uᵀ (U Uᵀ)⁻¹ y.
+    /// Solution for a right-hand side: unknowns that the others determine are 0, or all are as small as they can be: x
+    /// = Uᵀ (U Uᵀ)⁻¹ y. None where it is not finite.
     pub fn solve(&self, rhs: &DVector<f64>, choice: Selection) -> Option<DVector<f64>> {
         let (LU, rank, n) = (&self.LU, self.rank, self.rows.len());
         let mut y = DVector::from_fn(rank, |i, _| rhs[self.rows[i]]);

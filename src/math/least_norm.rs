@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// A⁺ x of a symmetric A: of all that come nearest to A y = x the smallest. Eigenvalues below `rank` times the largest
-/// count as rounding (relative: an absolute bound would make mass matter).
+/// Solution A⁺ x for a symmetric A: of all that come nearest to A y = x the smallest. Eigenvalues below `rank` times
+/// the largest count as rounding (relative: an absolute bound would make mass matter).
 ///
 /// By eigenvectors: nalgebra's SVD returns wrong factors when eigenvalues repeat.
 pub fn least_norm(A: DMatrix<f64>, x: &DVector<f64>, rank: f64) -> DVector<f64> {

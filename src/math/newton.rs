@@ -2,13 +2,13 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-/// The root near `start` of a function that comes with its derivative; None if none is found: a step that has no
-/// solution must not look like one.
+/// Root near `start` of a function that comes with its derivative; None if none is found: a step that has no solution
+/// must not look like one.
 pub fn root(
     start: Vector3<f64>,
     mut at: impl FnMut(&Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>),
 ) -> Option<Vector3<f64>> {
-    /// From a start that is right to first order in the step, three or four do.
+    /// Most steps. From a start that is right to first order in the step, three or four do.
     const MOST: u32 = 30;
     /// Convergence is quadratic: what is left after a change this small is far below rounding.
     const SMALL: f64 = 1e-10;

@@ -8,13 +8,13 @@
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
     pub slope: f64,
-    /// Between neighbours, from coarse to fine.
+    /// Slopes between neighbours, from coarse to fine.
     pub pairwise: Vec<f64>,
-    /// Points in the rounding floor.
+    /// Number of points in the rounding floor.
     pub left_out: usize,
 }
 
-/// Of (step, error) pairs, all positive; none with fewer than two points above the rounding floor.
+/// Order of (step, error) pairs, all positive; None with fewer than two points above the rounding floor.
 pub fn fit(points: &[(f64, f64)]) -> Option<Order> {
     let mut points: Vec<(f64, f64)> = points.iter().map(|(h, e)| (libm::log(*h), libm::log(*e))).collect();
     if points.iter().any(|(h, e)| !h.is_finite() || e.is_nan() || *e == f64::INFINITY) {
@@ -30,7 +30,7 @@ pub fn fit(points: &[(f64, f64)]) -> Option<Order> {
     Some(Order { slope: slope(&points)?, pairwise, left_out: all - points.len() })
 }
 
-/// How many points, from the coarsest, come before the error stops falling; an error of 0 is rounding too.
+/// Number of points, from the coarsest, that come before the error stops falling; an error of 0 is rounding too.
 fn above_floor(points: &[(f64, f64)]) -> usize {
     /// Nearer to the largest error than this, an error that does not fall is the method's and no rounding.
     const FAR: f64 = 1e-2;

@@ -1,4 +1,4 @@
-//! Whether something rises along an axis, or does so by chance.
+//! Tests for whether something rises along an axis, or does so by chance.
 //!
 //! Shares: Cochran–Armitage (P. Armitage, Biometrics 11 (1955) 375), scores 0, 1, 2, … by level, so that a logarithmic
 //! axis and its exponent give the same answer. Numbers: Mann–Kendall, its statistic summed over the cells of the other
@@ -22,7 +22,7 @@ pub fn cochran_armitage(levels: &[(usize, usize)]) -> f64 {
     if variance > 0.0 { upper_tail(t / variance.sqrt()) } else { 1.0 }
 }
 
-/// The same for numbers: (level, value) pairs of every cell.
+/// Probability of a rise like this of numbers, which are (level, value) pairs of every cell, where there is no trend.
 pub fn mann_kendall(cells: &[Vec<(usize, f64)>]) -> f64 {
     let sums: Vec<Kendall> = cells.iter().map(|cell| Kendall::of(cell)).collect();
     let s: f64 = sums.iter().map(|cell| cell.s).sum();
@@ -43,10 +43,10 @@ pub fn mann_kendall(cells: &[Vec<(usize, f64)>]) -> f64 {
 
 /// Kendall's S of one cell, and its variance without a trend.
 struct Kendall {
-    /// Pairs that rise less pairs that fall.
+    /// Number of pairs that rise less pairs that fall.
     s: f64,
     variance: f64,
-    /// Its size, if nothing is tied.
+    /// Size of the cell, if nothing is tied.
     untied: Option<usize>,
 }
 
@@ -79,7 +79,7 @@ impl Kendall {
     }
 }
 
-/// Of S, with groups of equal levels and of equal values.
+/// Variance of S, with groups of equal levels and of equal values.
 fn variance(n: f64, x_ties: &[f64], y_ties: &[f64]) -> f64 {
     if n < 2.0 {
         return 0.0;
@@ -121,7 +121,7 @@ fn exact(cells: &[Kendall], s: f64) -> Option<f64> {
     Some(chance[..=most.min(chance.len() - 1)].iter().sum::<f64>().min(1.0))
 }
 
-/// How often each rank has come (P. M. Fenwick, Softw. Pract. Exp. 24 (1994) 327).
+/// Counts of how often each rank has come (P. M. Fenwick, Softw. Pract. Exp. 24 (1994) 327).
 struct Counts(Vec<usize>);
 
 impl Counts {
@@ -133,7 +133,7 @@ impl Counts {
         }
     }
 
-    /// Of ranks less than this.
+    /// Number of ranks less than this.
     fn below(&self, rank: usize) -> usize {
         let (mut i, mut count) = (rank, 0);
         while i > 0 {

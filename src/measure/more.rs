@@ -7,8 +7,8 @@ use crate::collide::SolvedContact;
 use crate::experiment::types::{self as file, Experiment, Measure};
 use crate::heading::{EACH_BODY, Heading};
 use crate::model::{Body, Model};
-use crate::rows::columns;
-use crate::state::{BodyState, State};
+use crate::rows::{BodyRow, columns};
+use crate::state::State;
 use serde_json::{Map, Value, json};
 
 /// What has to be watched during the run; nothing unless it is asked for.
@@ -51,7 +51,7 @@ impl Watched {
 pub fn cells(experiment: &Experiment, model: &Model, end: &State, watched: &Watched) -> Map<String, Value> {
     let of = |measure: &Measure| -> Vec<Value> {
         match measure {
-            Measure::State => end.bodies.iter().flat_map(end_state).collect(),
+            Measure::State => end.bodies.iter().flat_map(|at| BodyRow::from(at).numbers()).map(Value::from).collect(),
             Measure::Inertia => experiment.scene.bodies.iter().zip(&model.bodies).flat_map(inertia).collect(),
             Measure::ContactMatrix => watched.contact_matrix.iter().flat_map(|watch| watch.columns(model)).collect(),
             Measure::CriticalStep => {
@@ -93,12 +93,6 @@ pub fn headings(measure: Measure) -> &'static [Heading] {
         // A column of every row.
         Measure::Sensitivity => &[],
     }
-}
-
-/// Position of the centre of mass, attitude body → world, velocities in the world frame.
-fn end_state(at: &BodyState) -> Vec<Value> {
-    let parts = [at.p_WB.as_slice(), at.q_WB.coords.as_slice(), at.v_WB.as_slice(), at.w_WB.as_slice()];
-    parts.concat().into_iter().map(|x| json!(x)).collect()
 }
 
 /// As the run used them. A point without `inertia_kg_m2` has none.

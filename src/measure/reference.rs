@@ -5,9 +5,8 @@
 //! those of the last of these times that a run has met before.
 
 use super::error::Errors;
-use crate::rows::{Measured, finite};
-use crate::state::{BodyState, State};
-use nalgebra::{Quaternion, UnitQuaternion, Vector4};
+use crate::rows::{BodyRow, Measured, finite};
+use crate::state::State;
 use serde::{Deserialize, Serialize};
 
 /// Of the end: of two, so that the steps of most clocks meet some.
@@ -37,47 +36,16 @@ pub struct Sample {
     pub time_s: f64,
     /// The largest distance of a body between the two runs.
     pub uncertainty_m: f64,
-    pub bodies: Vec<At>,
-}
-
-/// At the centre of mass, world frame; orientation body → world.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct At {
-    pub position_m: [f64; 3],
-    pub orientation_xyzw: [f64; 4],
-    pub velocity_m_s: [f64; 3],
-    pub angular_velocity_rad_s: [f64; 3],
+    pub bodies: Vec<BodyRow>,
 }
 
 impl Sample {
     pub fn new(state: &State, uncertainty_m: f64) -> Self {
-        Sample { time_s: state.time_s, uncertainty_m, bodies: state.bodies.iter().map(At::new).collect() }
+        Sample { time_s: state.time_s, uncertainty_m, bodies: state.bodies.iter().map(BodyRow::from).collect() }
     }
 
     fn state(&self) -> State {
-        State { step: 0, time_s: self.time_s, bodies: self.bodies.iter().map(At::state).collect() }
-    }
-}
-
-impl At {
-    fn new(at: &BodyState) -> Self {
-        At {
-            position_m: at.p_WB.into(),
-            orientation_xyzw: at.q_WB.coords.into(),
-            velocity_m_s: at.v_WB.into(),
-            angular_velocity_rad_s: at.w_WB.into(),
-        }
-    }
-
-    fn state(&self) -> BodyState {
-        // Not normalised again, which would change a bit.
-        let q = Quaternion::from_vector(Vector4::from(self.orientation_xyzw));
-        BodyState {
-            p_WB: self.position_m.into(),
-            q_WB: UnitQuaternion::new_unchecked(q),
-            v_WB: self.velocity_m_s.into(),
-            w_WB: self.angular_velocity_rad_s.into(),
-        }
+        State { step: 0, time_s: self.time_s, bodies: self.bodies.iter().map(BodyRow::state).collect() }
     }
 }
 

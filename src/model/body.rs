@@ -1,4 +1,4 @@
-//! A rigid body: what of it is constant during a run.
+//! A rigid body: the part of it that is constant during a run.
 
 use super::loads::Drag;
 use super::surface::Surface;
@@ -11,24 +11,24 @@ use nalgebra::{Matrix3, Vector3};
 pub struct Body {
     pub name: String,
     pub mass_kg: f64,
-    /// About the centre of mass, body axes (L9).
+    /// Inertia about the centre of mass, body axes (L9).
     pub I_B: Matrix3<f64>,
     pub I_B_inverse: Matrix3<f64>,
-    /// I is a multiple of the identity: no gyroscopic term, and I does not turn with the body.
+    /// Whether I is a multiple of the identity: no gyroscopic term, and I does not turn with the body.
     pub isotropic: bool,
     /// Centre of mass in the body frame.
     pub p_BoBcm: Vector3<f64>,
     pub geometry: Geometry,
-    /// About the centre of mass.
+    /// Radius of the sphere about the centre of mass that holds the body.
     pub bounding_radius_m: f64,
-    /// Its own; what counts is the pair's.
+    /// Surface of its own; what counts is the pair's.
     pub surface: Surface,
     pub drag: Drag,
-    /// It moves with its start velocities, whatever acts on it.
+    /// Whether it moves with its start velocities, whatever acts on it.
     pub driven: bool,
 }
 
-/// What touches, relative to the centre of mass, in body axes.
+/// Geometry of what touches, relative to the centre of mass, in body axes.
 #[derive(Clone, Debug)]
 pub enum Geometry {
     /// A point without contact.
@@ -40,7 +40,7 @@ pub enum Geometry {
 }
 
 impl Geometry {
-    /// Points that are held against a face.
+    /// Number of points that are held against a face.
     pub fn points(&self) -> usize {
         match self {
             Geometry::None => 0,
@@ -51,7 +51,7 @@ impl Geometry {
 }
 
 impl Body {
-    /// I = R ᴼI Rᵀ (L10; the slide prints Rᵀ ᴼI R).
+    /// Inertia in the world, I = R ᴼI Rᵀ (L10; the slide prints Rᵀ ᴼI R).
     pub fn I_W(&self, state: &BodyState) -> Matrix3<f64> {
         self.turned(&self.I_B, state)
     }
@@ -68,17 +68,18 @@ impl Body {
         R_WB * tensor_B * R_WB.transpose()
     }
 
-    /// Where the body frame's origin is.
+    /// Position of the body frame's origin.
     pub fn p_WBo(&self, state: &BodyState) -> Vector3<f64> {
         state.p_WB - state.q_WB * self.p_BoBcm
     }
 
-    /// A body that moves as it is told does not; other bodies feel it.
+    /// Whether the container acts on the body. On one that moves as it is told it does not; other bodies feel it all
+    /// the same.
     pub fn feels_container(&self) -> bool {
         !matches!(self.geometry, Geometry::None) && !self.driven
     }
 
-    /// A ball about its centre of mass: how it has turned does not matter.
+    /// Whether it is a ball about its centre of mass, so that how it has turned does not matter.
     pub fn is_centred_ball(&self) -> bool {
         let at_centre = |geometry: &Geometry| match geometry {
             Geometry::Solid { solid: Solid::Sphere { .. }, centre } => *centre == Vector3::zeros(),
@@ -87,7 +88,7 @@ impl Body {
         self.isotropic && at_centre(&self.geometry)
     }
 
-    /// What other bodies touch, and its centre from the centre of mass, in body axes.
+    /// Solid that other bodies touch, and its centre from the centre of mass, in body axes.
     pub fn solid(&self) -> Option<(&Solid, &Vector3<f64>)> {
         match &self.geometry {
             Geometry::None => None,

@@ -1,17 +1,17 @@
-//! What bodies hit: the faces of a container, normals inward (L18). Coplanar triangles of a wall are one face.
+//! Containers: faces that bodies hit, normals inward (L18). Coplanar triangles of a wall are one face.
 
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
-/// Half-space n·x ≥ offset is free.
+/// Half-space n·x ≥ offset, which is free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Face {
-    /// Unit, inward.
+    /// Unit normal, inward.
     pub normal: Vector3<f64>,
     pub offset_m: f64,
 }
 
 impl Face {
-    /// The slide's n·(u_c − u_p): negative outside.
+    /// Gap of a point, the slide's n·(u_c − u_p): negative outside.
     pub fn gap_m(&self, point: &Vector3<f64>) -> f64 {
         self.normal.dot(point) - self.offset_m
     }

@@ -1,4 +1,4 @@
-//! What acts on bodies beside gravity, contact and pins: applied forces and the resistance of the air.
+//! Loads of bodies beside gravity, contact and pins: applied forces and the resistance of the air.
 
 use crate::experiment::types::Frame;
 use crate::state::BodyState;
@@ -15,22 +15,22 @@ impl Wrench {
     pub const ZERO: Wrench = Wrench { force: Vector3::new(0.0, 0.0, 0.0), torque: Vector3::new(0.0, 0.0, 0.0) };
 }
 
-/// One of `scene.forces`.
+/// One force of `scene.forces`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AppliedForce {
     pub body: usize,
     pub force_n: Vector3<f64>,
     pub torque_n_m: Vector3<f64>,
-    /// From the centre of mass to where the force acts, body axes.
+    /// Lever arm from the centre of mass to where the force acts, body axes.
     pub r_B: Vector3<f64>,
-    /// Whose axes `force_n` and `torque_n_m` are in.
+    /// Frame that `force_n` and `torque_n_m` are in.
     pub frame: Frame,
-    /// ω and φ of cos(ωt + φ).
+    /// Rate ω and phase φ of cos(ωt + φ); None for a constant force.
     pub cosine: Option<(f64, f64)>,
 }
 
 impl AppliedForce {
-    /// F and its torque at a time.
+    /// Force and its torque at a time.
     pub fn wrench(&self, t_s: f64, at: &BodyState) -> Wrench {
         let part = self.cosine.map_or(1.0, |(w, phase)| libm::cos(w * t_s + phase));
         let (mut force, mut torque) = (self.force_n * part, self.torque_n_m * part);
@@ -43,7 +43,7 @@ impl AppliedForce {
         Wrench { force, torque }
     }
 
-    /// A force of the world that never changes: its work is F·Δ(point), whatever the way there.
+    /// Whether it is a force of the world that never changes: its work is F·Δ(point), whatever the way there.
     pub fn is_weight_like(&self) -> bool {
         self.frame == Frame::World && self.cosine.is_none() && self.torque_n_m == Vector3::zeros()
     }
@@ -52,9 +52,9 @@ impl AppliedForce {
 /// Resistance of the air to one body: −(c + k|v|) v at its centre of mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drag {
-    /// c.
+    /// Coefficient c.
     pub linear_n_s_m: f64,
-    /// k = ½ ρ C A.
+    /// Coefficient k = ½ ρ C A.
     pub quadratic_n_s2_m2: f64,
 }
 

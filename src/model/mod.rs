@@ -1,5 +1,5 @@
-//! What is constant during a run: bodies, their mass properties and contact geometry, the container, gravity, applied
-//! forces, pins.
+//! The constants of a run: bodies, their mass properties and contact geometry, the container, gravity, applied forces,
+//! pins.
 //!
 //! Frames (L7): W is the world (the lecture's Σ), B the body's axes with the centre of mass as origin (ᴳΣ in body
 //! axes); Bo is the origin of the body frame as the experiment file places it (ᴼΣ).

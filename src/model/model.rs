@@ -14,29 +14,29 @@ pub struct Model {
     pub bodies: Vec<Body>,
     pub container: Option<Container>,
     pub container_surface: Surface,
-    /// Pairs that are not the mean of their own.
+    /// Pairs whose surface is not the mean of the two bodies'.
     pub pairs: Vec<Pair>,
     pub forces: Vec<AppliedForce>,
     pub pins: Vec<Pin>,
     /// A point at height zero of the potential energy.
     pub potential_zero_m: Vector3<f64>,
-    /// Some two bodies may touch each other.
+    /// Whether some two bodies may touch each other.
     pub touching_pairs: bool,
 }
 
 impl Model {
-    /// Two bodies on one pin do not touch: they meet where they are pinned.
+    /// Whether two bodies are on one pin: such bodies do not touch, as they meet where they are pinned.
     pub fn are_pinned(&self, [a, b]: [usize; 2]) -> bool {
         let joins = |pin: &Pin, a, b| pin.body == a && matches!(pin.anchor, pins::Anchor::Body(other, _) if other == b);
         self.pins.iter().any(|pin| joins(pin, a, b) || joins(pin, b, a))
     }
 
-    /// Of the bodies' bounding spheres; 0: points.
+    /// Largest radius of the bodies' bounding spheres; 0 for points.
     pub fn largest_radius_m(&self) -> f64 {
         self.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max)
     }
 
-    /// Of the body at `p_WB`: −m g·(p − p₀).
+    /// Potential energy −m g·(p − p₀) of the body at `p_WB`.
     pub fn potential_j(&self, body: &Body, p_WB: &Vector3<f64>) -> f64 {
         -body.mass_kg * self.gravity_m_s2.dot(&(p_WB - self.potential_zero_m))
     }
@@ -86,7 +86,7 @@ impl Model {
         sum
     }
 
-    /// M⁻¹ F_E h of one body (L14): what gravity and loads add to v and ω in a step, at the state before it.
+    /// Velocities M⁻¹ F_E h (L14) that gravity and loads add to v and ω of one body in a step, at the state before it.
     pub fn gained(&self, index: usize, t_s: f64, at: &BodyState, step_s: f64) -> (Vector3<f64>, Vector3<f64>) {
         let body = &self.bodies[index];
         if body.driven {
@@ -100,12 +100,12 @@ impl Model {
         (gravity + load.force * (step_s / body.mass_kg), body.I_W_inverse(at) * load.torque * step_s)
     }
 
-    /// Largest gap of all pins; none without a pin.
+    /// Largest gap of all pins; None without a pin.
     pub fn pin_gap_m(&self, bodies: &[BodyState]) -> Option<f64> {
         self.pins.iter().map(|pin| pin.gap_m(bodies)).reduce(f64::max)
     }
 
-    /// Of two bodies, or a body and the container.
+    /// Surface of a pair: two bodies, or a body and the container.
     pub fn pair(&self, body: usize, other: Option<usize>) -> Surface {
         let own = self.bodies[body].surface;
         let others = other.map_or(self.container_surface, |other| self.bodies[other].surface);
@@ -122,7 +122,7 @@ impl Model {
         }
     }
 
-    /// Some contact that can be has friction.
+    /// Whether some contact that can be has friction.
     pub fn is_rough(&self) -> bool {
         let touching = |body: &Body| !matches!(body.geometry, Geometry::None) && body.surface.friction > 0.0;
         self.bodies.iter().any(touching) || self.pairs.iter().any(|pair| pair.friction.is_some_and(|f| f > 0.0))

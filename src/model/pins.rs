@@ -5,23 +5,23 @@ use nalgebra::Vector3;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pin {
-    /// The body is moved by what acts on it.
+    /// Index of the body, which is moved by what acts on it.
     pub body: usize,
-    /// From its centre of mass to the pin, body axes.
+    /// Vector from its centre of mass to the pin, body axes.
     pub r_B: Vector3<f64>,
     pub anchor: Anchor,
 }
 
-/// What holds the pin.
+/// Holder of a pin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Anchor {
     World(Vector3<f64>),
-    /// Index, and from its centre of mass to the pin in its axes.
+    /// Index of a body, and the vector from its centre of mass to the pin in its axes.
     Body(usize, Vector3<f64>),
 }
 
 impl Pin {
-    /// On either side.
+    /// Whether the pin holds this body, on either side.
     pub fn holds(&self, index: usize) -> bool {
         self.body == index || matches!(self.anchor, Anchor::Body(other, _) if other == index)
     }
@@ -31,7 +31,7 @@ impl Pin {
         self.apart_W(bodies).norm()
     }
 
-    /// From the anchor to the body's point.
+    /// Vector from the anchor to the body's point.
     pub fn apart_W(&self, bodies: &[BodyState]) -> Vector3<f64> {
         let point = |index: usize, r_B: &Vector3<f64>| bodies[index].p_WB + bodies[index].q_WB * r_B;
         let anchor = match &self.anchor {

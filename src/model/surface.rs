@@ -1,5 +1,5 @@
-//! What a pair of surfaces does: Coulomb friction and restitution, by default the geometric mean of the two bodies'
-//! own. Tangential restitution is a pair's alone.
+//! Surface of a pair: Coulomb friction and restitution, by default the geometric mean of the two bodies' own.
+//! Tangential restitution is a pair's alone.
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
@@ -8,7 +8,7 @@ pub struct Surface {
     pub tangential_restitution: f64,
 }
 
-/// A value of `scene.pairs`; the container is None.
+/// Surface that a line of `scene.pairs` says; the container is None.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
     pub between: [Option<usize>; 2],

@@ -22,25 +22,29 @@ const CHUNK_BYTES: u64 = 256 * 1024;
 /// Zstd's fastest ordinary level; writing at the default level takes a third longer (measured: 4.3 µs a step for 3.2).
 const ZSTD_LEVEL: u32 = 1;
 
-/// Simulated time between two pictures: no display shows more, and a picture is larger than the numbers.
+/// Pictures in a second of simulated time: no display shows more, and a picture is larger than the numbers.
 const DISPLAY_HZ: f64 = 60.0;
 
 /// A recording as one MCAP file.
 pub struct McapRecorder {
     path: PathBuf,
     streams: Streams,
-    /// What the head says, for the end to say again.
+    /// Statements of the head, for the end to say again.
     said: BTreeMap<String, String>,
     name: RecordingName,
     out: Out,
     channels: Channels,
     messages: Messages,
     scene: Scene,
-    /// Number of the last display interval that had its picture; none before the first.
+    /// Number of the last display interval that had its picture; None before the first.
     shown: Option<u64>,
 }
 
 impl McapRecorder {
+    /// A recording in a new file, with its head.
+    ///
+    /// # Errors
+    /// The file cannot be made or written.
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordError> {
         Self::try_create(path, header).map_err(|error| RecordError::caused(path, &error))
     }
@@ -136,7 +140,7 @@ struct Out {
     buffer: Vec<u8>,
 }
 
-/// Channel of each topic; none: its stream is off.
+/// Channel of each topic; None where its stream is off.
 struct Channels {
     bodies: Option<u16>,
     contacts: Option<u16>,
@@ -216,7 +220,7 @@ impl Out {
     }
 }
 
-/// What is known from the start: case, axes by their paths, program.
+/// Statements from the start: case, axes by their paths, program.
 fn said(header: &Header) -> BTreeMap<String, String> {
     let axes = header.axes.iter().map(|(path, value)| (path.as_str(), schema::text(value)));
     let known = [
@@ -230,7 +234,7 @@ fn said(header: &Header) -> BTreeMap<String, String> {
     axes.chain(known).map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
-/// What the end adds.
+/// Statements that the end adds.
 fn ended(name: &RecordingName, ending: &Ending) -> impl Iterator<Item = (String, String)> {
     let criterion = ending.criterion.clone().map(|criterion| ("criterion", criterion));
     let known = [

@@ -1,4 +1,4 @@
-//! Recorders: what a run shows, to files.
+//! Recorders, which write to files what a run shows.
 //!
 //! The simulating thread fills `sample::Batch`es and hands them to `writer::Writer`, whose thread feeds every
 //! `Recorder`. `schema` names topics, fields and units once for all of them.

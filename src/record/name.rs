@@ -1,10 +1,10 @@
-//! What a recording is called: for people first, and no two cases alike.
+//! Names of recordings: for people first, and no two cases alike.
 
 use crate::outcome::Outcome;
 
-/// Of a file's whole name, in bytes: what every file system takes, with room for what a user puts before it.
+/// Most bytes of a file's whole name: what every file system takes, with room for what a user puts before it.
 const LONGEST: usize = 120;
-/// The longest of what stands behind the values: `_finished`, and the ending `.mcap`.
+/// Most bytes behind the values: `_finished`, and the ending `.mcap`.
 const BEHIND: usize = "_finished".len() + ".mcap".len();
 
 /// The name of a case's recording, `<values>_<outcome>.<digits of the id>`, until the outcome is known.
@@ -15,11 +15,11 @@ pub struct RecordingName {
 }
 
 impl RecordingName {
-    /// Digits of the id that a name holds where they tell the cases of a plan apart.
+    /// Number of digits of the id that a name holds where they tell the cases of a plan apart.
     pub const DIGITS: usize = 8;
 
-    /// `values` are joined by `_`; what is not a letter, a digit or one of `. + - =` becomes `-`, what is too long is
-    /// cut at a `~`.
+    /// Name of these values, which are joined by `_`; what is not a letter, a digit or one of `. + - =` becomes `-`,
+    /// what is too long is cut at a `~`.
     pub fn new(values: &[String], digits: &str) -> Self {
         let is_safe = |c: char| c.is_ascii_alphanumeric() || ".+-=".contains(c);
         let safe = |value: &String| value.chars().map(|c| if is_safe(c) { c } else { '-' }).collect::<String>();
@@ -32,18 +32,18 @@ impl RecordingName {
         RecordingName { values: joined, digits: digits.to_string() }
     }
 
-    /// The values in a name that `ended` has made; none: it has not.
+    /// Values in a name that `ended` has made; None for another name.
     pub fn values_of(name: &str) -> Option<&str> {
         let (values, outcome) = name.rsplit_once('.')?.0.rsplit_once('_')?;
         Outcome::ALL.iter().any(|known| known.name() == outcome).then_some(values)
     }
 
-    /// While the run goes on.
+    /// Name while the run goes on.
     pub fn begun(&self) -> String {
         format!("{}.{}", self.values, self.digits)
     }
 
-    /// Without the ending of a file.
+    /// Name of a run that has ended, without the ending of a file.
     pub fn ended(&self, outcome: Outcome) -> String {
         format!("{}_{}.{}", self.values, outcome.name(), self.digits)
     }

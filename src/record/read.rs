@@ -1,4 +1,4 @@
-//! What a recording says of itself, read back.
+//! Reader of what a recording says of itself.
 
 use super::schema;
 use crate::files::{self, FileError};
@@ -6,7 +6,7 @@ use mcap::read::{LinearReader, Options};
 use mcap::records::Record;
 use std::path::Path;
 
-/// The experiment that an .mcap of ours shows, as YAML; none: there is none in it. Of a torn file, too.
+/// The experiment that an .mcap of ours shows, as YAML, of a torn file too; None where there is none in it.
 ///
 /// # Errors
 /// The file cannot be read.

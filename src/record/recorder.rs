@@ -1,21 +1,30 @@
-//! A file format, and what is said when the machine fails.
+//! Interface of the file formats, and the error of a failing machine.
 
 use super::sample::{Batch, Ending, Event};
 use std::error::Error;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-/// A file format. Made by its own constructor from a path and a `Header`.
+/// Writer of a file format. Its own constructor makes it from a path and a `Header`.
 pub trait Recorder: Send {
     /// Writes a batch; what is written survives a kill of the program.
+    ///
+    /// # Errors
+    /// The machine failed.
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError>;
     /// Writes an event; it comes after every sample written before.
+    ///
+    /// # Errors
+    /// The machine failed.
     fn event(&mut self, event: &Event) -> Result<(), RecordError>;
     /// Says how the run ended and closes the file; without it a file is incomplete.
+    ///
+    /// # Errors
+    /// The machine failed.
     fn finish(self: Box<Self>, ending: &Ending) -> Result<(), RecordError>;
 }
 
-/// The machine failed: disk full, no permission.
+/// Failure of the machine: disk full, no permission.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {path}: {reason}")]
 pub struct RecordError {
@@ -28,7 +37,7 @@ impl RecordError {
         RecordError { path: path.to_path_buf(), reason: reason.to_string() }
     }
 
-    /// With every cause: libraries say "cannot write" and keep "no space left" for the next in the chain.
+    /// Error with every cause: libraries say "cannot write" and keep "no space left" for the next in the chain.
     pub fn caused(path: &Path, error: &dyn Error) -> Self {
         let mut reason = error.to_string();
         let mut cause = error.source();

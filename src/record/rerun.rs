@@ -27,7 +27,7 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-/// Rerun's errors come from five crates; all end as the reason of a `RecordError`.
+/// Result of a write. Rerun's errors come from five crates; all end as the reason of a `RecordError`.
 type Written = Result<(), Box<dyn Error>>;
 
 /// A recording as one .rrd file.
@@ -42,6 +42,10 @@ pub struct RerunRecorder {
 }
 
 impl RerunRecorder {
+    /// A recording in a new file, with its head.
+    ///
+    /// # Errors
+    /// The file cannot be made or written.
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordError> {
         Self::try_create(path, header).map_err(|error| RecordError::caused(path, error.as_ref()))
     }

@@ -1,4 +1,4 @@
-//! What a run shows its recorders: a `Header` once, then `Batch`es of samples in columns.
+//! Data that a run shows its recorders: a `Header` once, then `Batch`es of samples in columns.
 //!
 //! Columns, because both file formats are written fastest a thousand samples at a time. A batch is filled by the
 //! simulating thread, sent to the recording thread and comes back empty to be filled again. Columns of a stream that is
@@ -6,10 +6,11 @@
 
 use super::name::RecordingName;
 use crate::outcome::Outcome;
+use crate::rows::BodyRow;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Which streams are recorded.
+/// Choice of streams that are recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Streams {
     pub bodies: bool,
@@ -25,12 +26,12 @@ impl Streams {
     }
 }
 
-/// Constant during a run; written once, at the head of a recording.
+/// Constants of a run; written once, at the head of a recording.
 #[derive(Clone, Debug)]
 pub struct Header {
     /// Id of the case.
     pub case: String,
-    /// Of the file, and inside it.
+    /// Name of the recording, of its file and inside it.
     pub name: RecordingName,
     /// One line for people: the experiment's question or name, and the values on the axes.
     pub title: String,
@@ -43,7 +44,7 @@ pub struct Header {
     /// The whole resolved experiment, as YAML.
     pub config_yaml: String,
     pub step_s: f64,
-    /// Time between two samples, about.
+    /// Time between two samples, a whole number of steps.
     pub sample_every_s: f64,
     pub streams: Streams,
     pub bodies: Vec<BodyHeader>,
@@ -58,13 +59,13 @@ pub struct BodyHeader {
     pub name: String,
     /// Surface, relative to the centre of mass, in body axes.
     pub vertices_m: Vec<[f64; 3]>,
-    /// Counter-clockwise seen from outside.
+    /// Corners of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
     pub bounding_radius_m: f64,
 }
 
 impl Header {
-    /// Lowest and highest corner of the container; none without one.
+    /// Lowest and highest corner of the container; None without one.
     pub fn container_box_m(&self) -> Option<([f64; 3], [f64; 3])> {
         self.container_strips_m.iter().flatten().fold(None, |corners, p| {
             let (low, high) = corners.unwrap_or((*p, *p));
@@ -72,7 +73,8 @@ impl Header {
         })
     }
 
-    /// Length for what is drawn in proportion to the scene: the container's diagonal, else the largest body's diameter.
+    /// Length that the scene's drawings are in proportion to: the container's diagonal, else the largest body's
+    /// diameter.
     pub fn scene_size_m(&self) -> f64 {
         match self.container_box_m() {
             Some((low, high)) => norm(std::array::from_fn(|i| high[i] - low[i])),
@@ -85,7 +87,7 @@ impl Header {
     }
 }
 
-/// How forces are drawn: in proportion, up to the size of the scene. The force of an impact, its impulse over one step,
+/// Drawing of forces: in proportion, up to the size of the scene. The force of an impact, its impulse over one step,
 /// can be thousands of weights; the numbers beside the picture are whole.
 #[derive(Clone, Copy, Debug)]
 pub struct ForceArrows {
@@ -110,13 +112,13 @@ pub(super) fn norm([x, y, z]: [f64; 3]) -> f64 {
 pub struct Batch {
     pub step: Vec<u64>,
     pub time_s: Vec<f64>,
-    /// samples × bodies, sample-major.
-    pub bodies: Vec<BodySample>,
-    /// Contacts in each sample, when contacts or forces are on.
+    /// State of every body in every sample, sample-major.
+    pub bodies: Vec<BodyRow>,
+    /// Number of contacts in each sample, when contacts or forces are on.
     pub contacts_len: Vec<u32>,
     /// All contacts of sample 0, then of sample 1, …
     pub contacts: Vec<ContactSample>,
-    /// One a sample, when energy is on.
+    /// Energies, one a sample, when energy is on.
     pub energy: Vec<EnergySample>,
 }
 
@@ -139,7 +141,10 @@ impl Batch {
         self.energy.clear();
     }
 
-    /// Whether every column has the length that the streams ask for; the recorders rely on it.
+    /// Checks that every column has the length that the streams ask for; the recorders rely on it.
+    ///
+    /// # Errors
+    /// A sentence about the first column that has another length.
     pub fn check(&self, streams: Streams, bodies: usize) -> Result<(), &'static str> {
         let samples = self.len();
         let on = |stream: bool, len: usize| if stream { len } else { 0 };
@@ -179,24 +184,14 @@ impl Batch {
     }
 }
 
-/// One sample of a batch. Streams that are off are empty.
+/// Sample of a batch. Streams that are off are empty.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<'a> {
     pub step: u64,
     pub time_s: f64,
-    pub bodies: &'a [BodySample],
+    pub bodies: &'a [BodyRow],
     pub contacts: &'a [ContactSample],
     pub energy: Option<&'a EnergySample>,
-}
-
-/// State of one body, world frame, at its centre of mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BodySample {
-    pub position_m: [f64; 3],
-    /// Body → world.
-    pub orientation_xyzw: [f64; 4],
-    pub velocity_m_s: [f64; 3],
-    pub angular_velocity_rad_s: [f64; 3],
 }
 
 /// One contact of the step that led to the sample.
@@ -204,14 +199,14 @@ pub struct BodySample {
 pub struct ContactSample {
     /// Index of the body that the force acts on.
     pub body: u32,
-    /// Index of the other body; none: the container.
+    /// Index of the other body; None for the container.
     pub other: Option<u32>,
     pub point_m: [f64; 3],
-    /// From the other to the body.
+    /// Unit normal from the other to the body.
     pub normal: [f64; 3],
-    /// On the body: impulse over the step.
+    /// Force on the body: impulse over the step.
     pub force_n: [f64; 3],
-    /// Negative: penetration.
+    /// Gap along the normal; negative where there is penetration.
     pub gap_m: f64,
 }
 
@@ -224,11 +219,11 @@ pub struct EnergySample {
     pub penetration_m: f64,
 }
 
-/// How a run ended; written once, at the end of a recording.
+/// End of a run; written once, at the end of a recording.
 #[derive(Clone, Debug)]
 pub struct Ending {
     pub outcome: Outcome,
-    /// What stopped the run; none: its end.
+    /// Criterion that stopped the run; None where it came to its end.
     pub criterion: Option<String>,
     pub end_time_s: f64,
     pub steps: u64,

@@ -1,9 +1,9 @@
-//! From states to samples, at the rate asked for, into the recording thread's batches.
+//! Sampler of a run: from states to samples, at the rate asked for, into the recording thread's batches.
 //!
 //! A recorded run is the same run: the sampler only looks. What no stream asks for is not computed.
 
 use super::RecordError;
-use super::sample::{BodySample, ContactSample, Ending, EnergySample, Event, Severity, Streams};
+use super::sample::{ContactSample, Ending, EnergySample, Event, Severity, Streams};
 use super::writer::Writer;
 use crate::clock::Clock;
 use crate::experiment::types::{Record, Stream};
@@ -11,15 +11,15 @@ use crate::measure::deepest_m;
 use crate::measure::energy::Energy;
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::rows::Measured;
+use crate::rows::{BodyRow, Measured};
 use crate::shown::ContactForce;
-use crate::state::{BodyState, State};
+use crate::state::State;
 
 /// Samples of one run.
 pub struct Sampler {
     writer: Writer,
     streams: Streams,
-    /// A sample every so many steps.
+    /// Number of steps from one sample to the next.
     every: u64,
     ending: Option<Ending>,
 }
@@ -33,13 +33,13 @@ impl Sampler {
         step.is_multiple_of(self.every)
     }
 
-    /// `contacts`: of the step that led to `state`.
+    /// Adds a sample; `contacts` are those of the step that led to `state`.
     pub fn sample(&mut self, model: &Model, state: &State, contacts: impl ExactSizeIterator<Item = ContactForce>) {
         let batch = self.writer.batch();
         batch.step.push(state.step);
         batch.time_s.push(state.time_s);
         if self.streams.bodies {
-            batch.bodies.extend(state.bodies.iter().map(body_sample));
+            batch.bodies.extend(state.bodies.iter().map(BodyRow::from));
         }
         if self.streams.any_contact() {
             batch.contacts_len.push(contacts.len() as u32);
@@ -75,6 +75,9 @@ impl Sampler {
     }
 
     /// Writes the rest and closes the files; those of a run that has not ended stay incomplete.
+    ///
+    /// # Errors
+    /// The machine failed, in this call or in a write before it.
     pub fn finish(self) -> Result<(), RecordError> {
         self.ending.map_or(Ok(()), |ending| self.writer.finish(ending))
     }
@@ -90,18 +93,9 @@ pub fn streams(record: &Record) -> Streams {
     }
 }
 
-/// At least one; the whole number nearest to what is asked for.
+/// Number of steps from one sample to the next: the whole number nearest to what is asked for, at least one.
 pub fn steps_between(record: &Record, clock: &Clock) -> u64 {
     ((record.every_s / clock.step_s).round() as u64).max(1)
-}
-
-fn body_sample(at: &BodyState) -> BodySample {
-    BodySample {
-        position_m: at.p_WB.into(),
-        orientation_xyzw: at.q_WB.coords.into(),
-        velocity_m_s: at.v_WB.into(),
-        angular_velocity_rad_s: at.w_WB.into(),
-    }
 }
 
 fn contact_sample(ContactForce { contact, force_W }: ContactForce) -> ContactSample {

@@ -1,4 +1,4 @@
-//! The run as Foxglove's messages: frames, surfaces, contact points and force arrows.
+//! Foxglove's messages of a run: frames, surfaces, contact points and force arrows.
 
 use super::sample::{BodyHeader, ContactSample, Event, ForceArrows, Header, Sample, Severity, Streams, norm};
 use super::schema::{self, Rgb};
@@ -16,7 +16,7 @@ const SHAFT_PART: f64 = 0.004;
 /// Container lines keep their width on the screen, in pixels.
 const LINE_PIXELS: f64 = 2.0;
 
-/// What is drawn, and the messages that are filled again for every picture.
+/// Picture of the run, and the messages that are filled again for every one.
 pub struct Scene {
     streams: Streams,
     size_m: f64,
@@ -54,7 +54,7 @@ impl Scene {
         &self.transforms
     }
 
-    /// Contact points and force arrows; none when there is nothing to draw and nothing to clear.
+    /// Contact points and force arrows; None when there is nothing to draw and nothing to clear.
     pub fn contacts(&mut self, sample: &Sample<'_>, time_ns: u64) -> Option<&SceneUpdate> {
         if sample.contacts.is_empty() && self.blank {
             return None;
@@ -136,7 +136,7 @@ fn sphere(contact: &ContactSample, size_m: f64) -> SpherePrimitive {
     }
 }
 
-/// From the contact point along the force on the body.
+/// Arrow from the contact point along the force on the body.
 fn arrow(contact: &ContactSample, size_m: f64, arrows: ForceArrows) -> ArrowPrimitive {
     let vector_m = arrows.vector_m(contact.force_n);
     let length_m = norm(vector_m);

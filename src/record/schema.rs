@@ -1,4 +1,4 @@
-//! What a recording calls things, once for every file format: topics, message types, fields with units, colours.
+//! Names of a recording, once for every file format: topics, message types, fields with units, colours.
 //!
 //! Numbers are f64 in SI units, world frame. Own messages are protobuf (package `gotai`), written by hand together with
 //! the descriptors that a reader needs. Vectors are arrays, which are shorter on the wire than a nested x, y, z. A
@@ -10,20 +10,20 @@ use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet};
 use serde_json::Value;
 
-/// Every sample: `gotai.Bodies`, `gotai.Contacts`, `gotai.Energy`.
+/// Topics of every sample: `gotai.Bodies`, `gotai.Contacts`, `gotai.Energy`.
 pub const BODIES: &str = "/bodies";
 pub const CONTACTS: &str = "/contacts";
-/// `gotai.Contacts` without normals and gaps, when forces are recorded and contacts are not.
+/// Topic of `gotai.Contacts` without normals and gaps, when forces are recorded and contacts are not.
 pub const FORCES: &str = "/forces";
 pub const ENERGY: &str = "/energy";
-/// At display rate: `foxglove.FrameTransforms`.
+/// Topic at display rate: `foxglove.FrameTransforms`.
 pub const TRANSFORMS: &str = "/tf";
-/// Once: surfaces and container as `foxglove.SceneUpdate`.
+/// Topic of one message: surfaces and container as `foxglove.SceneUpdate`.
 pub const SCENE: &str = "/scene";
-/// At display rate: contact points and force arrows as `foxglove.SceneUpdate`. A topic of its own, because a viewer
-/// that seeks reads the last message of each topic, and the surfaces must still be there.
+/// Topic at display rate: contact points and force arrows as `foxglove.SceneUpdate`. It is one of its own, because a
+/// viewer that seeks reads the last message of each topic, and the surfaces must still be there.
 pub const SCENE_CONTACTS: &str = "/scene/contacts";
-/// `foxglove.Log`: events.
+/// Topic of events: `foxglove.Log`.
 pub const LOG: &str = "/log";
 
 /// Name of the configuration attached to a recording.
@@ -32,7 +32,7 @@ pub const CONFIG_FILE: &str = "experiment.yaml";
 pub const METADATA_START: &str = "gotai.start";
 pub const METADATA: &str = "gotai";
 
-/// A value on an axis: text as it is, everything else as JSON.
+/// Text of a value on an axis: text as it is, everything else as JSON.
 pub fn text(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
@@ -41,10 +41,10 @@ pub fn text(value: &Value) -> String {
 pub const WORLD: &str = "world";
 pub const CONTAINER: &str = "container";
 
-/// Red, green, blue.
+/// A colour: red, green, blue, of 255.
 pub type Rgb = [u8; 3];
 
-/// Bodies in turn: Tableau's ten, without the grey and the red that container and forces have.
+/// Colours of the bodies in turn: Tableau's ten, without the grey and the red that container and forces have.
 pub const BODY_COLOURS: [Rgb; 8] = [
     [78, 121, 167],
     [242, 142, 43],
@@ -62,13 +62,13 @@ pub const FORCE_COLOUR: Rgb = [225, 87, 89];
 /// A number of every sample that a viewer plots.
 pub struct Series {
     pub name: &'static str,
-    /// With its unit.
+    /// Label with the unit.
     pub label: &'static str,
     pub colour: Rgb,
     pub value: fn(&EnergySample) -> f64,
 }
 
-/// The energy stream, field by field.
+/// Series of the energy stream, field by field.
 pub const ENERGY_SERIES: [Series; 4] = [
     Series { name: "kinetic", label: "kinetic [J]", colour: [242, 142, 43], value: |e| e.kinetic_j },
     Series { name: "potential", label: "potential [J]", colour: [78, 121, 167], value: |e| e.potential_j },
@@ -76,7 +76,7 @@ pub const ENERGY_SERIES: [Series; 4] = [
     Series { name: "penetration", label: "penetration [m]", colour: [225, 87, 89], value: |e| e.penetration_m },
 ];
 
-/// Simulated time as nanoseconds, the clock of both file formats. What a clock cannot show (negative, not a number)
+/// Simulated time in nanoseconds, the clock of both file formats. What a clock cannot show (negative, not a number)
 /// becomes 0; the f64 beside it is exact.
 pub fn time_ns(time_s: f64) -> u64 {
     (time_s * 1e9).round() as u64
@@ -93,7 +93,7 @@ pub struct Bodies {
     pub bodies: Vec<BodyState>,
 }
 
-/// At the centre of mass; the orientation turns body axes into world axes.
+/// State of a body at its centre of mass; the orientation turns body axes into world axes.
 #[derive(Clone, PartialEq, Message)]
 pub struct BodyState {
     #[prost(string, required, tag = "1")]
@@ -119,23 +119,23 @@ pub struct Contacts {
     pub contacts: Vec<Contact>,
 }
 
-/// The normal points from the other to the body; the force (impulse over the step) acts on the body.
+/// A contact. The normal points from the other to the body; the force (impulse over the step) acts on the body.
 #[derive(Clone, PartialEq, Message)]
 pub struct Contact {
     #[prost(string, required, tag = "1")]
     pub body: String,
-    /// `container`, or the other body's name.
+    /// Name of the other body, or `container`.
     #[prost(string, required, tag = "2")]
     pub other: String,
     #[prost(double, repeated, tag = "3")]
     pub point_m: Vec<f64>,
-    /// Empty on `/forces`.
+    /// Unit normal; empty on `/forces`.
     #[prost(double, repeated, tag = "4")]
     pub normal: Vec<f64>,
-    /// Empty when forces are not recorded.
+    /// Force; empty when forces are not recorded.
     #[prost(double, repeated, tag = "5")]
     pub force_n: Vec<f64>,
-    /// Negative: penetration. Not a number on `/forces`.
+    /// Gap; negative where there is penetration, not a number on `/forces`.
     #[prost(double, required, tag = "6")]
     pub gap_m: f64,
 }

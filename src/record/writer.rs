@@ -1,4 +1,4 @@
-//! A recording thread of its own, so that the simulation pays for filling a batch and nothing else.
+//! Writer on a recording thread of its own, so that the simulation pays for filling a batch and nothing else.
 //!
 //! Batches circulate: filled by the simulating thread, sent, written, sent back empty. When the disk is slower than the
 //! simulation, the simulation waits; memory stays bounded. A write that fails does not stop the simulation: the first
@@ -22,7 +22,7 @@ const BATCH_ENTRIES: usize = 20_000;
 /// other's pauses.
 const BATCHES: usize = 4;
 
-/// Messages under way; more than `BATCHES` leaves room for events.
+/// Most messages under way; more than `BATCHES` leaves room for events.
 const QUEUE: usize = 16;
 
 enum Message {
@@ -31,7 +31,7 @@ enum Message {
     Finish(Ending),
 }
 
-/// Hands batches and events, in order, to recorders on a thread of its own.
+/// Writer that hands batches and events, in order, to recorders on a thread of its own.
 ///
 /// Dropped without `finish`, it waits for what was sent and leaves the files incomplete.
 pub struct Writer {
@@ -43,6 +43,10 @@ pub struct Writer {
 }
 
 impl Writer {
+    /// A writer to these recorders, on a thread of its own.
+    ///
+    /// # Errors
+    /// The machine has no thread to give.
     pub fn start(sinks: Vec<Box<dyn Recorder>>) -> Result<Writer, RecordError> {
         let (full, inbox) = sync_channel(QUEUE);
         let (outbox, empty) = sync_channel(BATCHES);
@@ -58,7 +62,7 @@ impl Writer {
         &mut self.filling
     }
 
-    /// Sends the batch when it is full.
+    /// Ends a sample; sends the batch when it is full.
     pub fn sample_done(&mut self) {
         let batch = &self.filling;
         if batch.len() >= BATCH_SAMPLES || batch.contacts.len() >= BATCH_ENTRIES || batch.bodies.len() >= BATCH_ENTRIES
@@ -67,7 +71,7 @@ impl Writer {
         }
     }
 
-    /// Something that happened, after the samples so far.
+    /// Adds something that happened, after the samples so far.
     pub fn event(&mut self, event: Event) {
         self.send_batch();
         // The thread only ends early when a recorder panics; `finish` reports that.
@@ -75,6 +79,9 @@ impl Writer {
     }
 
     /// Writes the rest and closes the files. The first error wins, also over the success of other files.
+    ///
+    /// # Errors
+    /// The first failure of the machine in any write, or a panic of the recording thread.
     pub fn finish(mut self, ending: Ending) -> Result<(), RecordError> {
         self.send_batch();
         let _ = self.full.send(Message::Finish(ending));
@@ -167,7 +174,7 @@ fn each(
     });
 }
 
-/// Between the id and the ending of a file that is being written.
+/// Text between the id and the ending of a file that is being written.
 pub const PARTIAL: &str = ".partial.";
 
 /// A kind of file.
@@ -180,7 +187,7 @@ pub enum Target {
 impl Target {
     pub const ALL: [Target; 2] = [Target::Rerun, Target::Mcap];
 
-    /// Every kind that this build can write.
+    /// Kinds that this build can write.
     pub const AVAILABLE: &[Target] =
         if cfg!(feature = "rerun") { &[Target::Rerun, Target::Mcap] } else { &[Target::Mcap] };
 
@@ -192,7 +199,7 @@ impl Target {
         }
     }
 
-    /// Where a recording of this name is. (A name holds dots of its own.)
+    /// Path of a recording of this name. (A name holds dots of its own.)
     pub fn path(self, dir: &Path, name: &str) -> PathBuf {
         dir.join(format!("{name}.{}", self.extension()))
     }
@@ -200,6 +207,9 @@ impl Target {
 
 /// Starts the recordings of a case in a directory that must exist. Until `finish` a file is called
 /// `<case>.partial.<ending>`, so that a file with the name that the header gives is complete.
+///
+/// # Errors
+/// A file cannot be made, a kind is not in this build, or there is no thread.
 pub fn open(targets: &[Target], dir: &Path, header: &Header) -> Result<Writer, RecordError> {
     let mut sinks: Vec<Box<dyn Recorder>> = Vec::new();
     for &target in targets {

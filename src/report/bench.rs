@@ -3,7 +3,7 @@
 use super::diagram::{Diagram, Series};
 use crate::rows::trials::{Trial, methods, order, pareto};
 
-/// Of all rows of a scene.
+/// Diagram of all rows of a scene.
 pub fn diagram(title: &str, rows: &[Trial]) -> Diagram {
     let column = rows.first().map_or("error", |row| row.error_kind.as_str());
     let mut front: Vec<(f64, f64)> =

@@ -24,7 +24,7 @@ pub struct Diagram {
     pub band: Option<Series>,
 }
 
-/// Why nothing could be drawn.
+/// Reason why nothing could be drawn.
 type Failure = Box<dyn Error>;
 
 const SIZE: (u32, u32) = (1440, 860);
@@ -66,6 +66,8 @@ const MARKERS: [Polygons; 7] = [
 ];
 
 impl Diagram {
+    /// The diagram as SVG.
+    ///
     /// # Errors
     /// None that data can cause; the library's own.
     pub fn svg(&self) -> Result<String, Failure> {
@@ -74,6 +76,8 @@ impl Diagram {
         Ok(text)
     }
 
+    /// The diagram as PNG.
+    ///
     /// # Errors
     /// As `svg`.
     pub fn png(&self) -> Result<Vec<u8>, Failure> {
@@ -173,7 +177,7 @@ impl Diagram {
     }
 }
 
-/// Of series `i`.
+/// Draws the marker of series `i`.
 fn draw_marker<B: DrawingBackend>(area: &DrawingArea<B, Shift>, i: usize, at: (i32, i32)) -> Result<(), Failure>
 where
     B::ErrorType: 'static,

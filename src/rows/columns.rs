@@ -9,7 +9,7 @@ pub fn of_every_row() -> Vec<Heading> {
     Row::headings()
 }
 
-/// The columns that a search adds. Those of every row are of its run at `search_low`.
+/// Columns that a search adds. Those of every row are of its run at `search_low`.
 pub const SEARCH: [Heading; 4] = [
     number("search_low", "Lower end of the bracket, in the unit of the key. Null where the verdict is `below`."),
     number("search_high", "Upper end of the bracket, in the unit of the key. Null where the verdict is `above`."),
@@ -24,12 +24,13 @@ pub const SEARCH: [Heading; 4] = [
 /// Columns that a clock makes: two runs of one case may differ in them, and in no other.
 pub const OF_A_CLOCK: [&str; 2] = ["wall_s", "wall_search_s"];
 
-/// Whether two runs of one case may differ in this column: what a clock makes, and what says which file shows the run.
+/// Whether two runs of one case may differ in this column: one that a clock makes, or that says which file shows the
+/// run.
 pub fn is_beside_the_run(name: &str) -> bool {
     OF_A_CLOCK.contains(&name) || name == "recording"
 }
 
-/// `measure: [state]`.
+/// Columns of `measure: [state]`; the fields of `BodyRow`.
 pub const STATE: [Heading; 4] = [
     number("<body>.position_m", "Position of the body's centre of mass at the end, world frame.").with_parts(&XYZ),
     number("<body>.orientation_xyzw", "Attitude at the end, body to world, as a unit quaternion.")
@@ -38,7 +39,7 @@ pub const STATE: [Heading; 4] = [
     number("<body>.angular_velocity_rad_s", "Angular velocity at the end, world frame.").with_parts(&XYZ),
 ];
 
-/// `measure: [inertia]`: as the run used them.
+/// Columns of `measure: [inertia]`, as the run used them.
 pub const INERTIA: [Heading; 3] = [
     number("<body>.mass_kg", "Mass of the body."),
     number("<body>.center_of_mass_m", "Centre of mass in the body frame.").with_parts(&XYZ),
@@ -49,7 +50,7 @@ pub const INERTIA: [Heading; 3] = [
     .with_parts(&["xx", "yy", "zz", "xy", "yz", "zx"]),
 ];
 
-/// `measure: [contact-matrix]`: of A = J M⁻¹ Jᵀ in the first step with the most contacts.
+/// Columns of `measure: [contact-matrix]`: of A = J M⁻¹ Jᵀ in the first step with the most contacts.
 pub const CONTACT_MATRIX: [Heading; 3] = [
     count(
         "contact_matrix_contacts",
@@ -63,7 +64,7 @@ pub const CONTACT_MATRIX: [Heading; 3] = [
     ),
 ];
 
-/// `measure: [critical-step]`: of the first contact.
+/// Columns of `measure: [critical-step]`: of the first contact.
 pub const CRITICAL_STEP: [Heading; 2] = [
     number(
         "normal_lambda_max_1_kg",
@@ -75,11 +76,14 @@ pub const CRITICAL_STEP: [Heading; 2] = [
     ),
 ];
 
-/// `measure: [difference-quotients]`.
+/// Columns of `measure: [difference-quotients]`.
 pub const DIFFERENCE_QUOTIENTS: [Heading; 3] = [
     number("difference_forward_m_s", "Largest difference of the forward quotient of positions from the velocity."),
-    number("difference_backward_m_s", "The same of the backward quotient."),
-    number("difference_central_m_s", "The same of the central quotient. Null after a single step."),
+    number("difference_backward_m_s", "Largest difference of the backward quotient of positions from the velocity."),
+    number(
+        "difference_central_m_s",
+        "Largest difference of the central quotient of positions from the velocity. Null after a single step.",
+    ),
 ];
 
 const XYZ: [&str; 3] = ["x", "y", "z"];
@@ -101,8 +105,8 @@ pub fn names(headings: &[Heading]) -> Vec<String> {
     headings.iter().flat_map(Heading::names).collect()
 }
 
-/// What a column of every row, or of a search's, holds. Axes, and columns that `measure:` adds, are not among them:
-/// their kind is that of their values.
+/// Kind of the cells of a column of every row, or of a search's. Axes, and columns that `measure:` adds, are not among
+/// them: their kind is that of their values.
 pub fn kind(name: &str) -> Option<CellKind> {
     let known = of_every_row().into_iter().chain(SEARCH);
     known.into_iter().find(|heading| heading.name == name).map(|heading| heading.kind)

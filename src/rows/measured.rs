@@ -1,4 +1,4 @@
-//! What a run measures: the columns of every row, one line each.
+//! Measurements of a run: the columns of every row, one line each.
 
 use crate::heading::{CellKind, InCell, columns};
 use crate::outcome::Outcome;
@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 columns! {
-    /// What a run measures, whatever sweep it belongs to. Fields are columns, in this order; a number that means
+    /// Measurements of a run, whatever sweep it belongs to. Fields are columns, in this order; a number that means
     /// nothing here is null. What the relative ones are relative to: docs/numbers.md.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct Measured {
-        /// How the run ended: `finished`, `diverged`, `stalled` or `failed`. Divergence is a result, a failure is a
+        /// Outcome of the run: `finished`, `diverged`, `stalled` or `failed`. Divergence is a result, a failure is a
         /// fault of the program.
         pub outcome: Outcome,
-        /// What stopped the run: `not-finite`, `energy`, `escape`, `speed` or `penetration` (diverged),
+        /// Reason why the run stopped: `not-finite`, `energy`, `escape`, `speed` or `penetration` (diverged),
         /// `not-converged`, `painleve` or `limit` (stalled), or a panic's message (failed). Null when it has finished.
         pub criterion: Option<String>,
         /// Time that was reached.
@@ -105,18 +105,18 @@ impl InCell for Outcome {
 }
 
 impl Measured {
-    /// A case that panicked, with its message.
+    /// Measurements of a case that panicked, with its message.
     pub fn failed(message: String) -> Self {
         Measured { outcome: Outcome::Failed, criterion: Some(message), ..Measured::default() }
     }
 
-    /// The same but for the time it took: what two runs of one case must agree in.
+    /// The measurements without the time that they took: what two runs of one case must agree in.
     pub fn without_wall_time(&self) -> Self {
         Measured { wall_s: None, wall_search_s: None, ..self.clone() }
     }
 }
 
-/// A number that JSON can hold.
+/// A number that JSON can hold; None where it is not finite.
 pub fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
 }

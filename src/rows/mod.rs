@@ -1,5 +1,6 @@
 //! Rows: what a run measured, the tables of them, the plan that they belong to. Knows numbers and names alone.
 
+mod body_row;
 pub mod columns;
 mod measured;
 pub mod plan_file;
@@ -7,5 +8,6 @@ mod row;
 pub mod table;
 pub mod trials;
 
+pub use body_row::BodyRow;
 pub use measured::{Measured, finite};
 pub use row::{Row, cells, count};

@@ -3,25 +3,25 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Of the files in a folder of results. A column whose meaning changes raises it too.
+/// Version of the files in a folder of results. A column whose meaning changes raises it too.
 pub const FORMAT: u32 = 3;
 
-/// What `plan.json` says: the axes, from which the cases follow, with experiment.yaml beside it.
+/// Content of `plan.json`: the axes, from which the cases follow, with experiment.yaml beside it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlanFile {
     pub format: u32,
     pub program: String,
     pub build: String,
-    /// Of the configuration; recordings of a sweep without axes are called so.
+    /// Name of the configuration; recordings of a sweep without axes are called so.
     pub name: String,
     pub question: Option<String>,
-    /// Of the axes and the ids of the cases, in their order.
+    /// Hash of the axes and the ids of the cases, in their order.
     pub hash: String,
     /// Number of rows.
     pub rows: usize,
-    /// In their order, the first one slowest.
+    /// Axes in their order, the first one slowest.
     pub axes: Vec<PlanAxis>,
-    /// Axes that advance side by side.
+    /// Groups of axes that advance side by side.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub together: Vec<Vec<String>>,
     /// Key of which every row has the critical value.
@@ -36,7 +36,7 @@ pub struct PlanAxis {
 }
 
 impl PlanFile {
-    /// What an edit has done to the axes, one phrase an axis.
+    /// Phrases about what an edit has done to the axes, one an axis.
     pub fn changes_from(&self, before: &PlanFile) -> Vec<String> {
         let find = |plan: &'_ PlanFile, path: &str| plan.axes.iter().position(|axis| axis.path == path);
         let gone = before.axes.iter().filter(|axis| find(self, &axis.path).is_none());

@@ -1,4 +1,4 @@
-//! One row a case: the outcome and what the judges measured.
+//! Row of a case: the outcome and what the judges measured.
 
 use super::Measured;
 use crate::heading::columns;
@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 columns! {
-    /// Fields are columns, in this order.
+    /// Row of a case. Fields are columns, in this order.
     #[derive(Clone, Debug, Default, PartialEq, Serialize)]
     pub struct Row {
         /// Id of the case, which depends on its resolved configuration alone.
@@ -15,7 +15,7 @@ columns! {
         /// Every axis by its path.
         #[serde(flatten)]
         pub axes: Map<String, Value>,
-        /// What the run measured.
+        /// Measurements of the run.
         #[serde(flatten)]
         pub measured: Measured,
         /// Name of the case's recording, without the ending of its files (`.rrd`, `.mcap`). Null where there is none.
@@ -25,7 +25,7 @@ columns! {
     }
 }
 
-/// Of a row, or a part of one, by the names of its columns.
+/// Cells of a row, or of a part of one, by the names of its columns.
 pub fn cells(row: &impl Serialize) -> Map<String, Value> {
     match serde_json::to_value(row) {
         Ok(Value::Object(cells)) => cells,
@@ -34,7 +34,7 @@ pub fn cells(row: &impl Serialize) -> Map<String, Value> {
     }
 }
 
-/// Rows that ended so.
+/// Number of rows with this outcome.
 pub fn count(rows: &[Row], outcome: Outcome) -> usize {
     rows.iter().filter(|row| row.measured.outcome == outcome).count()
 }

@@ -14,15 +14,15 @@ use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
 
-/// Columns by name, and every row's cells in their order.
+/// Table: columns by name, and every row's cells in their order.
 pub struct Table {
     columns: Vec<(String, CellKind)>,
     rows: Vec<Map<String, Value>>,
 }
 
 impl Table {
-    /// Columns are there even if there is no row: those of every row in their order, axes and what only some
-    /// experiments have at their places in it.
+    /// Table of the rows. Columns are there even if there is no row: those of every row in their order, axes and what
+    /// only some experiments have at their places in it.
     pub fn new(axes: &[PlanAxis], rows: &[Row]) -> Self {
         let mut blank = Row::default();
         blank.axes.extend(axes.iter().map(|axis| (axis.path.clone(), Value::Null)));
@@ -65,11 +65,18 @@ impl Table {
         hex(&hash.finalize())
     }
 
+    /// The table as CSV, null as nothing.
+    ///
+    /// # Errors
+    /// None that cells can cause; the writer's own.
     pub fn to_csv(&self) -> Result<Vec<u8>, csv::Error> {
         to_csv(&self.names().collect::<Vec<_>>(), self.rows())
     }
 
-    /// With the plan's question, the units, program and format in its metadata.
+    /// The table as Parquet, with the plan's question, the units, program and format in its metadata.
+    ///
+    /// # Errors
+    /// None that cells can cause; the writer's own.
     pub fn to_parquet(&self, plan: &PlanFile) -> Result<Vec<u8>, ParquetError> {
         let columns = self.columns.iter().map(|(name, kind)| (name.as_str(), self.column(name, *kind), true));
         let batch = RecordBatch::try_from_iter_with_nullable(columns)?;
@@ -108,7 +115,10 @@ impl Table {
     }
 }
 
-/// Some columns of some rows, null as nothing.
+/// Some columns of some rows as CSV, null as nothing.
+///
+/// # Errors
+/// None that cells can cause; the writer's own.
 pub fn to_csv<'a>(columns: &[&str], rows: impl Iterator<Item = &'a Map<String, Value>>) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(columns)?;
@@ -118,7 +128,7 @@ pub fn to_csv<'a>(columns: &[&str], rows: impl Iterator<Item = &'a Map<String, V
     writer.into_inner().map_err(|error| error.into_error().into())
 }
 
-/// A column of integers or numbers if all its values are; null is either.
+/// Kind of a column: of whole numbers or numbers if all its values are; null is either.
 fn kind_of<'a>(values: impl Iterator<Item = &'a Value> + Clone) -> CellKind {
     let all = |is: fn(&Value) -> bool| values.clone().all(|value| value.is_null() || is(value));
     if all(Value::is_i64) {

@@ -3,23 +3,23 @@
 use crate::math::order::{Order, fit};
 use serde::{Deserialize, Serialize};
 
-/// Fields are columns of `bench.csv` and keys of `bench.json`.
+/// One row of a bench. Fields are columns of `bench.csv` and keys of `bench.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     /// Path of the experiment file, without its ending.
     pub scene: String,
     pub engine: String,
     pub method: String,
-    /// The step used; null for a method that needs none.
+    /// Length of the steps; null for a method that needs none.
     pub step_s: Option<f64>,
-    /// Null for a method without error control.
+    /// Tolerance of the method; null without error control.
     pub tolerance: Option<f64>,
-    /// Made by the method: those inside a clock's step where it controls its error.
+    /// Number of steps that the method made: those inside a clock's step where it controls its error.
     pub steps: u64,
     /// Absolute value of the column `error_kind`; null unless the run has finished.
     pub error: Option<f64>,
     pub error_kind: String,
-    /// The best of the repeats; null unless the run has finished.
+    /// Time of the best repeat; null unless the run has finished.
     pub wall_s: Option<f64>,
     pub wall_median_s: Option<f64>,
     pub outcome: String,
@@ -33,7 +33,7 @@ impl Trial {
     }
 }
 
-/// The methods in the order of their first rows.
+/// Labels of the methods in the order of their first rows.
 pub fn methods(rows: &[Trial]) -> Vec<&str> {
     let mut methods: Vec<&str> = Vec::new();
     for row in rows {
@@ -44,7 +44,7 @@ pub fn methods(rows: &[Trial]) -> Vec<&str> {
     methods
 }
 
-/// The order of a method: of the error in the step, or in the mean of its own steps (proportional to 1 / their number).
+/// Order of a method: of the error in the step, or in the mean of its own steps (proportional to 1 / their number).
 pub fn order(rows: &[Trial], method: &str) -> Option<Order> {
     let mut points: Vec<(f64, f64)> = Vec::new();
     for row in rows.iter().filter(|row| row.method == method) {
@@ -69,6 +69,8 @@ pub fn pareto(rows: &[Trial]) -> Vec<bool> {
     rows.iter().map(|row| competing(row).is_some_and(|point| !is_beaten(point))).collect()
 }
 
+/// The rows as CSV.
+///
 /// # Errors
 /// None that a row of plain data can cause; the writer's own.
 pub fn to_csv(rows: &[Trial]) -> Result<Vec<u8>, csv::Error> {

@@ -46,7 +46,7 @@ pub(super) fn build_body(described: &file::Body, scene: &file::Scene) -> Result<
     })
 }
 
-/// The place of a body among the model's.
+/// Place of a body among the model's.
 ///
 /// # Panics
 /// No body is called so: a fault of the program, as validation refuses such a name, that must not look like a scene.
@@ -55,7 +55,7 @@ pub(super) fn index_of(name: &str, bodies: &[Body]) -> usize {
     at.unwrap_or_else(|| panic!("validated: no body is called `{name}`"))
 }
 
-/// None: a point.
+/// Solid of a body; None for a point.
 fn build_solid(described: &file::Body) -> Result<Option<Solid>, BuildError> {
     Ok(Some(match &described.shape {
         file::Shape::Sphere(s) => Solid::Sphere { radius_m: s.radius_m },

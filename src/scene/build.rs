@@ -1,4 +1,4 @@
-//! From one resolved experiment to its constant `Model` and first `State`.
+//! Builder of the constant `Model` and the first `State` of one resolved experiment.
 
 use super::body::{build_body, index_of};
 use super::error::BuildError;
@@ -14,7 +14,11 @@ use crate::model::{Body, Model};
 use crate::state::State;
 use nalgebra::Vector3;
 
-/// Expects an experiment that has passed validation.
+/// Model and first state of an experiment that has passed validation.
+///
+/// # Errors
+/// What only geometry shows: vertices that make no hull, velocities that contradict a pin, bodies that overlap, or no
+/// draw that lands.
 pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError> {
     let scene = &experiment.scene;
     let container = scene.container.as_ref().map(build_container);

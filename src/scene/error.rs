@@ -1,6 +1,6 @@
-//! Why a scene cannot be built.
+//! Errors of a scene that cannot be built.
 
-/// The experiment cannot be built; to be reported with file and line of `path`.
+/// Reason why an experiment cannot be built; to be reported with file and line of `path`.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{path}: expected {expected}, found {found}")]
 pub struct BuildError {

@@ -39,7 +39,7 @@ pub(super) fn first_state(
     }
 }
 
-/// What the file says, but for the position, which follows from the attitude.
+/// State as the file says it, but for the position, which follows from the attitude.
 pub(super) fn given_state(described: &file::Body) -> BodyState {
     let mut state = BodyState {
         p_WB: Vector3::zeros(),
@@ -72,7 +72,7 @@ pub(super) fn attitude(orientation: &file::Orientation) -> UnitQuaternion<f64> {
     }
 }
 
-/// The container's lowest point; without a closed one below, the lowest start position.
+/// Point of zero potential: the container's lowest point; without a closed one below, the lowest start position.
 pub(super) fn potential_zero(
     gravity: &Vector3<f64>,
     container: Option<&Container>,

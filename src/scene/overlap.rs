@@ -1,4 +1,4 @@
-//! Bodies that overlap at the start.
+//! Refusal of bodies that overlap at the start.
 
 use super::error::BuildError;
 use crate::collide::{Contact, Detector, Reach};
@@ -7,9 +7,9 @@ use crate::model::Model;
 use crate::state::State;
 use crate::work::Work;
 
-/// `allowed_m`: how deep each body has been put into the floor on purpose.
+/// Refuses bodies that overlap at the start; `allowed_m` is how deep each body has been put into the floor on purpose.
 pub(super) fn refuse_overlap(model: &Model, state: &State, allowed_m: &[f64]) -> Result<(), BuildError> {
-    /// Of the body's size: a body placed on the floor is not inside it.
+    /// Depth, of the body's size, that is rounding: a body placed on the floor is not inside it.
     const ROUNDING: f64 = 1e-9;
     let mut contacts = Vec::new();
     Detector::default().detect(model, state, &Reach::INSIDE, &mut contacts, &mut Work::default());

@@ -8,7 +8,10 @@ use crate::model::pins::{Anchor, Pin};
 use crate::state::BodyState;
 use nalgebra::Vector3;
 
-/// Pins of a scene, and velocities that agree with them: one that the file does not give follows from the pin.
+/// Pins of a scene. Velocities agree with them: one that the file does not give follows from the pin.
+///
+/// # Errors
+/// Given velocities that contradict a pin.
 pub fn build_pins(scene: &file::Scene, bodies: &[Body], states: &mut [BodyState]) -> Result<Vec<Pin>, BuildError> {
     let index = |name: &String| index_of(name, bodies);
     let pins: Vec<Pin> = scene
@@ -83,7 +86,7 @@ fn follow(scene: &file::Scene, bodies: &[Body], pins: &[Pin], states: &mut [Body
 
 /// A pin holds from the first moment on.
 fn agree(scene: &file::Scene, bodies: &[Body], pins: &[Pin], states: &[BodyState]) -> Result<(), BuildError> {
-    /// Of the speeds that meet at the pin: what is written with some ten digits agrees.
+    /// Rounding, of the speeds that meet at the pin: what is written with some ten digits agrees.
     const ROUNDING: f64 = 1e-9;
     for (i, pin) in pins.iter().enumerate() {
         let velocity = |index: usize, r_B: &Vector3<f64>| {

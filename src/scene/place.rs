@@ -1,4 +1,4 @@
-//! `place: at-contact`: a start in the first step of a contact.
+//! Start in the first step of a contact: `place: at-contact`.
 //!
 //! A body that has flown from afar is found inside the floor by anything from nothing to what its lowest point moves in
 //! one step, all depths equally likely, as its fall knows nothing of the steps. Drawing that depth spares the flight.
@@ -10,17 +10,17 @@ use crate::model::container::{Container, Face};
 use crate::state::BodyState;
 use nalgebra::Vector3;
 
-/// Draws before giving up. Half of all velocities approach: a thousand that do not are no accident.
+/// Most draws before giving up. Half of all velocities approach: a thousand that do not are no accident.
 pub const MOST_DRAWS: u32 = 1000;
 
-/// Where bodies land, and how long a step is.
+/// Floor that bodies land on, and the length of a step.
 pub struct Landing<'a> {
     floor: &'a Face,
     step_s: f64,
 }
 
 impl<'a> Landing<'a> {
-    /// If the experiment asks for it. The floor is the face most against gravity; without gravity, y is up.
+    /// Landing, if the experiment asks for it. The floor is the face most against gravity; without gravity, y is up.
     pub fn new(experiment: &Experiment, container: Option<&'a Container>) -> Option<Self> {
         experiment.scene.random.as_ref()?.place.filter(|place| *place == Place::AtContact)?;
         let up = (-Vector3::from(experiment.scene.gravity_m_s2)).try_normalize(0.0).unwrap_or_else(Vector3::y);

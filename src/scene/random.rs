@@ -43,12 +43,12 @@ fn generator(seed: u64, name: &str) -> ChaCha8Rng {
     ChaCha8Rng::from_seed(digest.into())
 }
 
-/// Uniform on [−1, 1) in steps of 2⁻⁵², which is f64's epsilon.
+/// A number uniform on [−1, 1) in steps of 2⁻⁵², which is f64's epsilon.
 fn symmetric(rng: &mut ChaCha8Rng) -> f64 {
     (rng.next_u64() >> 11) as f64 * f64::EPSILON - 1.0
 }
 
-/// Uniform on (0, 1), both ends left out: odd multiples of 2⁻⁵³.
+/// A number uniform on (0, 1), both ends left out: odd multiples of 2⁻⁵³.
 fn unit(rng: &mut ChaCha8Rng) -> f64 {
     ((rng.next_u64() >> 12) as f64 + 0.5) * f64::EPSILON
 }
@@ -64,14 +64,14 @@ fn disc(rng: &mut ChaCha8Rng) -> (f64, f64, f64) {
     }
 }
 
-/// Uniform on the sphere (G. Marsaglia, Ann. Math. Stat. 43 (1972) 645).
+/// A direction uniform on the sphere (G. Marsaglia, Ann. Math. Stat. 43 (1972) 645).
 fn direction(rng: &mut ChaCha8Rng) -> Vector3<f64> {
     let (x, y, s) = disc(rng);
     let r = 2.0 * (1.0 - s).sqrt();
     Vector3::new(x * r, y * r, 1.0 - 2.0 * s)
 }
 
-/// Uniform on SO(3): a quaternion uniform on the 3-sphere (same paper).
+/// An attitude uniform on SO(3): a quaternion uniform on the 3-sphere (same paper).
 fn attitude(rng: &mut ChaCha8Rng) -> UnitQuaternion<f64> {
     let (x, y, s) = disc(rng);
     let (z, w, t) = disc(rng);

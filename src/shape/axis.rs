@@ -1,4 +1,4 @@
-//! Along which axis two convex cores are nearest, or least deep inside each other.
+//! Axis along which two convex cores are nearest, or least deep inside each other.
 //!
 //! Both are the unit n with the largest separation s(n) = −h_a(−n) − h_b(n), h the support functions: the distance
 //! where it is positive, else minus the depth. Where s has its peak on the normal of a face, that normal is the axis.
@@ -15,20 +15,20 @@ use super::gjk::between;
 use super::placed::Placed;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
-/// Of the size: separations nearer than this are equal, and the simpler axis is taken.
+/// Difference of separations that are equal, of the size; the simpler axis is then taken.
 const EQUAL: f64 = 1e-12;
-/// Of the size: cores nearer than this have no direction between them that rounding leaves alone.
+/// Distance of cores, of the size, below which they have no direction between them that rounding leaves alone.
 const TOUCHING: f64 = 1e-10;
 
 pub struct Axis {
-    /// Unit, from b to a.
+    /// Unit direction from b to a.
     pub normal: Vector3<f64>,
-    /// Of the cores.
+    /// Gap of the cores, in metres.
     pub gap_m: f64,
     pub face: Option<Face>,
 }
 
-/// Whose face has the axis as its normal.
+/// Body whose face has the axis as its normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Face {
     OfA(u32),

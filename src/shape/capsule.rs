@@ -8,7 +8,7 @@ use super::{cylinder, sphere};
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The lowest point of each sphere, along `-normal`.
+/// Calls `visit` for the lowest point of each sphere, along `-normal`.
 #[inline]
 pub(super) fn each_lowest(
     radius_m: f64,
@@ -20,7 +20,7 @@ pub(super) fn each_lowest(
     visit(1, Vector3::y() * half_height_m - normal * radius_m);
 }
 
-/// The core's point farthest along `d`.
+/// Point of the core farthest along `d`.
 #[inline]
 pub(super) fn support(half_height_m: f64, d: &Vector3<f64>) -> Vector3<f64> {
     Vector3::y() * half_height_m.copysign(d.y)
@@ -32,7 +32,7 @@ pub(super) fn end(half_height_m: f64, number: u32) -> Vector3<f64> {
     Vector3::y() * if number == 0 { -half_height_m } else { half_height_m }
 }
 
-/// Closed form: a cylinder, its axis y, between two half balls; `height_m` between their centres.
+/// Moments in closed form: a cylinder, its axis y, between two half balls; `height_m` between their centres.
 pub fn moments(radius_m: f64, height_m: f64) -> Moments {
     let (middle, ball) = (cylinder::moments(radius_m, height_m), sphere::moments(radius_m));
     let half_m = height_m / 2.0;

@@ -1,18 +1,18 @@
-//! The point of a surface nearest to a point, from outside and from inside: contact of spheres.
+//! Point of a surface nearest to a point, from outside and from inside: contact of spheres.
 
 use nalgebra::Vector3;
 
-/// Nearest point of a surface.
+/// Nearest point of a surface, by the normal there and the distance to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest {
-    /// Outward, unit.
+    /// Unit normal, outward.
     pub normal: Vector3<f64>,
-    /// Negative inside.
+    /// Distance in metres, negative inside.
     pub distance_m: f64,
 }
 
-/// From a point of the core to `r`, with the surface at a distance from the core. On the core itself x is outward,
-/// which no axis of a capsule is.
+/// Nearest point of a surface that is `radius_m` from a core, seen from `r`, which is relative to the nearest point of
+/// the core. On the core itself x is outward, which no axis of a capsule is.
 pub(super) fn about(r: &Vector3<f64>, radius_m: f64) -> Closest {
     let length = r.norm();
     let normal = if length > 0.0 { r / length } else { Vector3::x() };

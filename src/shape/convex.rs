@@ -24,7 +24,7 @@ pub(super) fn support(hull: &Hull, d: &Vector3<f64>) -> Vector3<f64> {
     farthest.1
 }
 
-/// Of its tets.
+/// Moments of its tets.
 pub fn moments(hull: &Hull) -> Moments {
     exact(&hull_mesh(hull))
 }

@@ -22,7 +22,7 @@ pub(super) fn support(half_m: &Vector3<f64>, d: &Vector3<f64>) -> Vector3<f64> {
     half_m.zip_map(d, f64::copysign)
 }
 
-/// Closed form: a box of the given edge lengths about its centre.
+/// Moments in closed form: a box of the given edge lengths about its centre.
 pub fn moments(size_m: [f64; 3]) -> Moments {
     let size = Vector3::from(size_m);
     let volume_m3 = size.product();

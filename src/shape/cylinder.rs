@@ -14,7 +14,7 @@ pub fn bounding_radius_m(radius_m: f64, half_height_m: f64) -> f64 {
     (radius_m * radius_m + half_height_m * half_height_m).sqrt()
 }
 
-/// Of each rim the lowest point and those a quarter turn on, along `-normal`.
+/// Calls `visit` for the lowest point of each rim and those a quarter turn on, along `-normal`.
 #[inline]
 pub(super) fn each_lowest(
     radius_m: f64,
@@ -59,7 +59,7 @@ fn radial(d: &Vector3<f64>) -> Vector3<f64> {
     Vector3::new(d.x, 0.0, d.z).try_normalize(0.0).unwrap_or_else(Vector3::x)
 }
 
-/// Closed form: a cylinder about its centre, its axis y.
+/// Moments in closed form: a cylinder about its centre, its axis y.
 pub fn moments(radius_m: f64, height_m: f64) -> Moments {
     let square = radius_m * radius_m;
     let volume_m3 = PI * square * height_m;

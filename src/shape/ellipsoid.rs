@@ -23,14 +23,14 @@ pub(super) fn curvature(semi_axes_m: &Vector3<f64>, d: &Vector3<f64>) -> Matrix3
     Matrix3::from_diagonal(&(squares / h)) - point * point.transpose() / (h * h * h)
 }
 
-/// Closed form: an ellipsoid about its centre.
+/// Moments in closed form: an ellipsoid about its centre.
 pub fn moments(semi_axes_m: [f64; 3]) -> Moments {
     let axes = Vector3::from(semi_axes_m);
     let volume_m3 = 4.0 / 3.0 * PI * axes.product();
     about_centre(volume_m3, axes.component_mul(&axes) * (volume_m3 / 5.0))
 }
 
-/// 4π R_G(a²b², a²c², b²c²), R_G by R_F and R_D (DLMF 19.33.1 and 19.21.10).
+/// Surface 4π R_G(a²b², a²c², b²c²), R_G by R_F and R_D (DLMF 19.33.1 and 19.21.10).
 pub fn surface_m2(mut semi_axes_m: [f64; 3]) -> f64 {
     semi_axes_m.sort_by(f64::total_cmp);
     let [a, b, c] = semi_axes_m.map(|axis| axis * axis);
@@ -39,9 +39,10 @@ pub fn surface_m2(mut semi_axes_m: [f64; 3]) -> f64 {
     2.0 * PI * (z * carlson_rf(x, y, z) - (z - x) * (z - y) * rd / 3.0 + (x / z * y).sqrt())
 }
 
-/// The root of Σ (aᵢpᵢ/(τ + aᵢ² − a²))² = 1, a the least semi-axis: then xᵢ = aᵢ²pᵢ/(τ + aᵢ² − a²) is nearest
-/// (D. Eberly, Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid, 2013, 3). The sum is convex and
-/// falls with τ, so that Newton's iteration from below the root cannot overshoot.
+/// Point of the surface nearest to p, by the root of Σ (aᵢpᵢ/(τ + aᵢ² − a²))² = 1, a the least semi-axis: then
+/// xᵢ = aᵢ²pᵢ/(τ + aᵢ² − a²) is nearest (D. Eberly, Distance from a Point to an Ellipse, an Ellipsoid, or a
+/// Hyperellipsoid, 2013, 3). The sum is convex and falls with τ, so that Newton's iteration from below the root cannot
+/// overshoot.
 pub fn closest(semi_axes_m: &Vector3<f64>, p: &Vector3<f64>) -> Closest {
     let least = semi_axes_m.min();
     let y = p.abs();
@@ -79,7 +80,7 @@ pub fn closest(semi_axes_m: &Vector3<f64>, p: &Vector3<f64>) -> Closest {
     Closest { normal, distance_m: normal.dot(&(p - x.component_mul(&sign))) }
 }
 
-/// Of a ball's mesh, stretched.
+/// Triangles of a ball's mesh, stretched.
 pub fn triangles(semi_axes_m: &Vector3<f64>) -> Triangles {
     let unit = sphere_mesh(1.0, 2);
     (unit.nodes.iter().map(|u| u.component_mul(semi_axes_m)).collect(), unit.surface())

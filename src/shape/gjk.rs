@@ -1,12 +1,12 @@
-//! The vector between two separated convex bodies (E. G. Gilbert, D. W. Johnson & S. S. Keerthi, IEEE J. Robotics
+//! Vector between two separated convex bodies (E. G. Gilbert, D. W. Johnson & S. S. Keerthi, IEEE J. Robotics
 //! Automation 4 (1988) 193), from support points alone.
 
 use super::placed::Placed;
 use nalgebra::Vector3;
 
-/// Curved bodies take some ten steps, each with one more digit.
+/// Most steps. Curved bodies take some ten, each with one more digit.
 const MOST_STEPS: usize = 64;
-/// Of the distance squared: the bound on what is left to gain.
+/// Bound on what is left to gain, of the distance squared.
 const CONVERGED: f64 = 1e-15;
 
 /// The shortest vector from the core of `b` to the core of `a` moved by `shift`. They must not overlap.

@@ -6,9 +6,9 @@
 
 use nalgebra::Vector3;
 
-/// Of the size: vertices this near to a plane lie on it, as far as a file's numbers can say.
+/// Distance of vertices from a plane that they lie on, of the size, as far as a file's numbers can say.
 const COPLANAR: f64 = 1e-9;
-/// The number of planes grows with the cube.
+/// Most vertices: the number of planes grows with their cube.
 pub const MOST_VERTICES: usize = 400;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Hull {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
-    /// Unit, outward.
+    /// Unit normal, outward.
     pub normal: Vector3<f64>,
     /// Vertex numbers, counter-clockwise seen from outside.
     pub corners: Vec<u32>,
@@ -35,13 +35,16 @@ pub enum HullError {
     Many(usize),
     #[error("vertices in one plane")]
     Flat,
-    /// Inside, on an edge or a face, or given twice.
+    /// Vertex inside, on an edge or a face, or given twice.
     #[error("vertex {0} is no corner of the convex hull")]
     NotConvex(usize),
 }
 
 impl Hull {
-    /// Every vertex must be a corner of the hull.
+    /// Hull of vertices, every one of which must be a corner of it.
+    ///
+    /// # Errors
+    /// Too few or too many vertices, all in one plane, or one that is no corner.
     pub fn new(vertices: Vec<Vector3<f64>>) -> Result<Self, HullError> {
         match vertices.len() {
             n if n < 4 => return Err(HullError::Few(n)),
@@ -64,7 +67,7 @@ impl Hull {
         Ok(Hull { vertices, faces, edge_directions })
     }
 
-    /// From triangles that are known to be its surface, counter-clockwise seen from outside.
+    /// Hull of triangles that are known to be its surface, counter-clockwise seen from outside.
     pub fn of_triangles(mut vertices: Vec<Vector3<f64>>, triangles: &[[u32; 3]]) -> Self {
         let used = triangles.iter().flatten().max().map_or(0, |last| *last as usize + 1);
         vertices.truncate(used);

@@ -1,5 +1,5 @@
-//! All points in which two cores meet along an axis: the corners of the part that their facing sides have in common,
-//! seen along the axis.
+//! Points in which two cores meet along an axis: the corners of the part that their facing sides have in common, seen
+//! along the axis.
 //!
 //! Corners of one side inside the other, and crossings of the two outlines. Which of them count is decided with a
 //! tolerance, corners of b before those of a where both coincide and before crossings: bodies that lie flush or corner
@@ -10,7 +10,7 @@ use super::axis::{Axis, Face};
 use super::placed::{PARALLEL, Placed};
 use nalgebra::Vector3;
 
-/// Of the size: points nearer than this, seen along the axis, are one.
+/// Distance of points, of the size and seen along the axis, that are one.
 const ONE_POINT: f64 = 1e-9;
 /// A cap faces along directions within 45° of its normal, beyond them the side of the cylinder does.
 const FACING: f64 = std::f64::consts::FRAC_1_SQRT_2;
@@ -25,7 +25,7 @@ pub struct Opposite {
     pub feature: (u32, u32),
 }
 
-/// What of a body can face another one: kind in the upper four bits, number in the others.
+/// Features of a body that can face another one: kind in the upper four bits, number in the others.
 mod feature {
     pub const FACE: u32 = 0;
     const VERTEX: u32 = 1 << 28;
@@ -64,7 +64,7 @@ struct Disc {
     centre: Vector3<f64>,
     normal: Vector3<f64>,
     radius_m: f64,
-    /// To four points of the rim, the lowest first.
+    /// Directions to four points of the rim, the lowest first.
     rim: [Vector3<f64>; 4],
 }
 
@@ -169,7 +169,7 @@ fn projected(p: &Vector3<f64>, n: &Vector3<f64>, normal: &Vector3<f64>, on: &Vec
     (along.abs() > 1e-6).then(|| p + n * (normal.dot(&(on - p)) / along))
 }
 
-/// Where a face of one of the two lies opposite a side of the other.
+/// Calls `visit` for the points where a face of one of the two lies opposite a side of the other.
 pub fn of_face(a: &Placed, b: &Placed, axis: &Axis, size_m: f64, visit: &mut impl FnMut(Opposite)) {
     let (face_a, face_b) = match axis.face {
         Some(Face::OfA(face)) => (Some(face), None),
@@ -220,7 +220,8 @@ fn corners(a: &Side, b: &Side, n: &Vector3<f64>, slack_m: f64, visit: &mut impl 
     }
 }
 
-/// Of two straight pieces of the outlines, seen along the axis and away from their ends, which are corners.
+/// Calls `visit` for the crossing of two straight pieces of the outlines, seen along the axis and away from their ends,
+/// which are corners.
 fn crossing(
     a: &Side,
     edge_a: (usize, usize),
@@ -245,8 +246,8 @@ fn crossing(
     }
 }
 
-/// Where straight pieces of an outline cross a rim, and the middle of the arc that each of them leaves to the other
-/// side.
+/// Calls `visit` for the points where straight pieces of an outline cross a rim, and for the middle of the arc that
+/// each of them leaves to the other side.
 fn rim_crossings(
     disc: &Disc,
     other: &Side,
@@ -291,7 +292,8 @@ fn rim_crossings(
     }
 }
 
-/// What two caps have in common beyond the points of their rims: where the rims cross, and the middle of either arc.
+/// Calls `visit` for the common points of two caps beyond those of their rims: where the rims cross, and the middle of
+/// either arc.
 fn lens(a: &Disc, b: &Disc, n: &Vector3<f64>, slack_m: f64, visit: &mut impl FnMut(Opposite)) {
     if a.normal.cross(&b.normal).norm() > COAXIAL {
         return;
@@ -320,7 +322,7 @@ fn lens(a: &Disc, b: &Disc, n: &Vector3<f64>, slack_m: f64, visit: &mut impl FnM
     }
 }
 
-/// Where no face is involved: one point, or two where straight lines lie side by side.
+/// Calls `visit` for the points where no face is involved: one, or two where straight lines lie side by side.
 pub fn of_lines(a: &Placed, b: &Placed, n: &Vector3<f64>, size_m: f64, visit: &mut impl FnMut(Opposite)) {
     let slack_m = ONE_POINT * size_m;
     let [(i, p0), (j, p1)] = a.support_line(&-n, slack_m);

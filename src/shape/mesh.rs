@@ -8,7 +8,7 @@ use super::hull::Hull;
 use nalgebra::Vector3;
 use std::collections::HashMap;
 
-/// Nodes in the frame of the shape's centre; tets of four node indices, positively oriented.
+/// Mesh of a shape: nodes in the frame of its centre; tets of four node indices, positively oriented.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TetMesh {
     pub nodes: Vec<Vector3<f64>>,
@@ -31,7 +31,7 @@ impl TetMesh {
         faces.into_iter().filter(|face| count[&sorted(*face)] == 1).collect()
     }
 
-    /// Of a convex body.
+    /// Hull of the mesh of a convex body.
     pub fn hull(&self) -> Hull {
         Hull::of_triangles(self.nodes.clone(), &self.surface())
     }
@@ -57,14 +57,14 @@ fn sorted(mut face: [u32; 3]) -> [u32; 3] {
     face
 }
 
-/// Nodes along each edge so that the cells are near-cubic and the shortest edge has `n` of them.
+/// Numbers of nodes along each edge so that the cells are near-cubic and the shortest edge has `n` of them.
 pub fn box_counts(size_m: [f64; 3], n: u32) -> [u32; 3] {
     let cell = size_m.into_iter().fold(f64::INFINITY, f64::min) / f64::from(n - 1);
     size_m.map(|edge| ((edge / cell).round() as u32).saturating_add(1))
 }
 
-/// A box of the given edge lengths with `counts` nodes along its edges; six tets a cell around its main diagonal
-/// (Kuhn's subdivision).
+/// Mesh of a box of the given edge lengths with `counts` nodes along its edges; six tets a cell around its main
+/// diagonal (Kuhn's subdivision).
 pub fn box_mesh(size_m: [f64; 3], counts: [u32; 3]) -> TetMesh {
     let [nx, ny, nz] = counts;
     let at = |axis: usize, i: u32| size_m[axis] * (f64::from(i) / f64::from(counts[axis] - 1) - 0.5);
@@ -99,8 +99,9 @@ pub fn box_mesh(size_m: [f64; 3], counts: [u32; 3]) -> TetMesh {
 /// The six ways from a cell's lowest to its highest corner along its edges: one tet each.
 const AXIS_ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
-/// An icosphere of 10·4ᵏ + 2 surface nodes and a centre node; a fan of tets from the centre to every surface triangle.
-/// Nodes in the order of their making: the icosahedron's, then each subdivision's midpoints, the centre last.
+/// Mesh of a sphere: an icosphere of 10·4ᵏ + 2 surface nodes and a centre node; a fan of tets from the centre to every
+/// surface triangle. Nodes in the order of their making: the icosahedron's, then each subdivision's midpoints, the
+/// centre last.
 pub fn sphere_mesh(radius_m: f64, subdivisions: u32) -> TetMesh {
     let (mut nodes, mut faces) = icosahedron();
     for _ in 0..subdivisions {
@@ -174,7 +175,7 @@ fn subdivide(nodes: &mut Vec<Vector3<f64>>, faces: &[[u32; 3]]) -> Vec<[u32; 3]>
     finer
 }
 
-/// A fan of tets from the mean of the vertices, the last node, to every face of a convex polyhedron.
+/// Mesh of a convex polyhedron: a fan of tets from the mean of the vertices, the last node, to every face.
 pub fn hull_mesh(hull: &Hull) -> TetMesh {
     let centre = hull.vertices.len() as u32;
     let mut nodes = hull.vertices.clone();

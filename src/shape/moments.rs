@@ -3,13 +3,13 @@
 use super::mesh::{TetMesh, signed_volume};
 use nalgebra::{Matrix3, Vector3};
 
-/// Of the whole body: about its centre of mass, in the axes of the body frame.
+/// Mass properties of the whole body: about its centre of mass, in the axes of the body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties {
     pub mass_kg: f64,
     /// Centre of mass in the body frame.
     pub p_BoBcm: Vector3<f64>,
-    /// ᴼI of the lecture.
+    /// Inertia, ᴼI of the lecture.
     pub I_B: Matrix3<f64>,
 }
 
@@ -31,7 +31,7 @@ impl Moments {
     }
 }
 
-/// The slide's sums (L8, L9): each tet's mass at its centroid.
+/// Moments by the slide's sums (L8, L9): each tet's mass at its centroid.
 pub fn lumped(mesh: &TetMesh) -> Moments {
     sum(mesh, |corners, volume| {
         let u = corners.iter().sum::<Vector3<f64>>() / 4.0;
@@ -39,8 +39,8 @@ pub fn lumped(mesh: &TetMesh) -> Moments {
     })
 }
 
-/// The integrals over each tet: ∫u uᵀ dV = V/20 (Σ uᵢuᵢᵀ + s sᵀ), s = Σ uᵢ over its corners
-/// (F. Tonon, J. Math. Stat. 1 (2005) 8, in matrix form).
+/// Moments by the integrals over each tet: ∫u uᵀ dV = V/20 (Σ uᵢuᵢᵀ + s sᵀ), s = Σ uᵢ over its corners (F. Tonon, J.
+/// Math. Stat. 1 (2005) 8, in matrix form).
 pub fn exact(mesh: &TetMesh) -> Moments {
     sum(mesh, |corners, volume| {
         let s = corners.iter().sum::<Vector3<f64>>();
@@ -62,7 +62,7 @@ fn sum(mesh: &TetMesh, of: impl Fn(&[Vector3<f64>; 4], f64) -> (Vector3<f64>, Ma
     total
 }
 
-/// Of a body whose own axes are its principal ones.
+/// Moments of a body whose own axes are its principal ones.
 pub(super) fn about_centre(volume_m3: f64, second: Vector3<f64>) -> Moments {
     Moments { volume_m3, first: Vector3::zeros(), second: Matrix3::from_diagonal(&second) }
 }

@@ -1,4 +1,4 @@
-//! All points of contact of two solids.
+//! Points of contact of two solids.
 //!
 //! Spheres by the nearest point of the other surface, capsules among themselves by their segments; everything else by
 //! the axis between the cores (`axis.rs`), then the corners of what lies opposite along it (`manifold.rs`).
@@ -9,8 +9,8 @@ use super::placed::Placed;
 use super::solid::{Meeting, Pose, Solid};
 use nalgebra::Vector3;
 
-/// All points of two solids whose gap is below the margin. Solids that are apart by less than the margin touch in one
-/// point at least.
+/// Adds all points of two solids whose gap is below the margin. Solids that are apart by less than the margin touch in
+/// one point at least.
 pub fn touches(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose, margin_m: f64, out: &mut Vec<Meeting>) {
     let reach_m = a.bounding_radius_m() + b.bounding_radius_m();
     if (pose_a.p_W - pose_b.p_W).norm_squared() >= (reach_m + margin_m.max(0.0)) * (reach_m + margin_m.max(0.0)) {
@@ -37,7 +37,7 @@ struct Collect<'a> {
     placed: &'a [Placed<'a>; 2],
     origin_W: Vector3<f64>,
     margin_m: f64,
-    /// Any point, near enough or not.
+    /// Whether there was any point, near enough or not.
     visited: bool,
     out: &'a mut Vec<Meeting>,
 }
@@ -68,8 +68,9 @@ impl Collect<'_> {
     }
 }
 
-/// Where edges cross over a face that lies almost flat, the axis is theirs and the points are the face's: of two, one
-/// would be lost by a last bit, and a body that topples over an edge would twist.
+/// Cosine above which a face nearly faces along the axis. Where edges cross over a face that lies almost flat, the axis
+/// is theirs and the points are the face's: of two, one would be lost by a last bit, and a body that topples over an
+/// edge would twist.
 const NEARLY: f64 = 0.95;
 
 /// The face of either that is nearest to facing along the axis, if it nearly does.
@@ -84,7 +85,7 @@ fn nearly_facing(a: &Placed, b: &Placed, normal: &Vector3<f64>) -> Option<Face> 
     best.filter(|(along, _)| *along > NEARLY).map(|(_, face)| face)
 }
 
-/// `toward`: 1 if the sphere is a, −1 if it is b.
+/// Point of contact of a sphere, if there is one; `toward` is 1 if the sphere is a, −1 if it is b.
 fn of_sphere(
     radius_m: f64,
     pose: &Pose,

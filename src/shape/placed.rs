@@ -15,7 +15,7 @@ pub struct Placed<'a> {
     R: Matrix3<f64>,
 }
 
-/// Parallel within this angle (rad).
+/// Angle within which directions are parallel (rad).
 pub const PARALLEL: f64 = 1e-7;
 
 impl<'a> Placed<'a> {
@@ -23,7 +23,7 @@ impl<'a> Placed<'a> {
         Placed { solid, p: pose.p_W - origin_W, R: pose.q_W.to_rotation_matrix().into_inner() }
     }
 
-    /// Of the ball around the core.
+    /// Radius of the ball around the core.
     pub fn radius_m(&self) -> f64 {
         match self.solid {
             Solid::Sphere { radius_m } | Solid::Capsule { radius_m, .. } => *radius_m,
@@ -31,7 +31,7 @@ impl<'a> Placed<'a> {
         }
     }
 
-    /// The core's point farthest along `d`.
+    /// Point of the core farthest along `d`.
     pub fn support(&self, d: &Vector3<f64>) -> Vector3<f64> {
         let own = self.R.tr_mul(d);
         let point = match self.solid {
@@ -81,7 +81,7 @@ impl<'a> Placed<'a> {
         self.p + self.R * own
     }
 
-    /// Polygons, or the two caps of a cylinder, −y first.
+    /// Number of faces: polygons, or the two caps of a cylinder, −y first.
     pub fn faces(&self) -> u32 {
         match self.solid {
             Solid::Box { .. } => 6,
@@ -91,7 +91,7 @@ impl<'a> Placed<'a> {
         }
     }
 
-    /// Outward, unit.
+    /// Unit normal of a face, outward.
     pub fn face_normal(&self, face: u32) -> Vector3<f64> {
         let sign = if face & 1 == 0 { -1.0 } else { 1.0 };
         match self.solid {
@@ -102,7 +102,7 @@ impl<'a> Placed<'a> {
         }
     }
 
-    /// Vertices around a face; none of a cap.
+    /// Vertices around a face; empty for a cap.
     pub fn face_corners(&self, face: u32) -> &'a [u32] {
         match self.solid {
             Solid::Box { .. } => &cuboid::FACES[face as usize],
@@ -111,7 +111,7 @@ impl<'a> Placed<'a> {
         }
     }
 
-    /// Directions of straight lines on the surface: edges, and a cylinder's and a capsule's generators.
+    /// Number of directions of straight lines on the surface: edges, and a cylinder's and a capsule's generators.
     pub fn lines(&self) -> usize {
         match self.solid {
             Solid::Box { .. } => 3,
@@ -159,7 +159,7 @@ impl<'a> Placed<'a> {
         }
     }
 
-    /// Centre of a cap and its radius.
+    /// Centre and radius of a cap.
     pub fn cap(&self, face: u32) -> (Vector3<f64>, f64) {
         match self.solid {
             Solid::Cylinder { radius_m, half_height_m } => {

@@ -1,4 +1,4 @@
-//! Convex solids in their own axes about their own centre, and what of them touches a half-space. The facts of each
+//! Convex solids in their own axes about their own centre, and their points that touch a half-space. The facts of each
 //! stand in its own file; here is which one is asked.
 
 use super::closest::Closest;
@@ -8,7 +8,7 @@ use super::triangles::Triangles;
 use super::{capsule, convex, cuboid, cylinder, ellipsoid, sphere};
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// A cylinder's and a capsule's axis is y.
+/// A convex solid. A cylinder's and a capsule's axis is y.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Solid {
     Sphere {
@@ -21,7 +21,7 @@ pub enum Solid {
         radius_m: f64,
         half_height_m: f64,
     },
-    /// `half_height_m`: half the distance of the centres of its two spheres.
+    /// A capsule; `half_height_m` is half the distance of the centres of its two spheres.
     Capsule {
         radius_m: f64,
         half_height_m: f64,
@@ -32,7 +32,7 @@ pub enum Solid {
     Convex(Hull),
 }
 
-/// Where a solid is: its centre in the world, and its axes → world.
+/// Pose of a solid: its centre in the world, and its axes → world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     pub p_W: Vector3<f64>,
@@ -42,18 +42,18 @@ pub struct Pose {
 /// One point of contact of two solids, a and b, or of a solid a with a half-space b.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// The middle of the gap.
+    /// Middle of the gap.
     pub p_W: Vector3<f64>,
-    /// Unit, from b to a.
+    /// Unit normal from b to a.
     pub normal: Vector3<f64>,
-    /// Along the normal, negative inside.
+    /// Gap along the normal, negative inside.
     pub gap_m: f64,
-    /// What of a and what of b meet here: the same from step to step, to find last step's impulse by.
+    /// Features of a and of b that meet here: the same from step to step, to find last step's impulse by.
     pub feature: (u32, u32),
 }
 
 impl Solid {
-    /// About its centre.
+    /// Radius of the sphere about its centre that holds it.
     pub fn bounding_radius_m(&self) -> f64 {
         match self {
             Solid::Sphere { radius_m } => *radius_m,
@@ -93,7 +93,7 @@ impl Solid {
         }
     }
 
-    /// About its centre: closed forms, and the tets of a hull.
+    /// Moments about its centre: closed forms, and the tets of a hull.
     pub fn moments(&self) -> Moments {
         match self {
             Solid::Sphere { radius_m } => sphere::moments(*radius_m),
@@ -105,7 +105,7 @@ impl Solid {
         }
     }
 
-    /// Four times the mean of its shadow over all directions (A. Cauchy, 1841).
+    /// Area of the surface, four times the mean of its shadow over all directions (A. Cauchy, 1841).
     pub fn surface_m2(&self) -> f64 {
         match self {
             Solid::Sphere { radius_m } => sphere::surface_m2(*radius_m),
@@ -117,7 +117,8 @@ impl Solid {
         }
     }
 
-    /// Of its surface, to a point in its own axes; where several points are nearest, one of them, always the same.
+    /// Point of its surface nearest to a point in its own axes; where several points are nearest, one of them, always
+    /// the same.
     pub fn closest(&self, p: &Vector3<f64>) -> Closest {
         match self {
             Solid::Sphere { radius_m } => sphere::closest(*radius_m, p),
@@ -129,7 +130,7 @@ impl Solid {
         }
     }
 
-    /// For pictures.
+    /// Triangles of its surface, for pictures.
     pub fn triangles(&self) -> Triangles {
         match self {
             Solid::Sphere { radius_m } => sphere::triangles(*radius_m),
@@ -142,7 +143,7 @@ impl Solid {
     }
 }
 
-/// All points of the solid whose gap to the half-space normal·x ≥ offset is below the margin.
+/// Adds all points of the solid whose gap to the half-space normal·x ≥ offset is below the margin.
 pub fn plane_touches(
     a: &Solid,
     pose: &Pose,

@@ -7,7 +7,7 @@ use super::triangles::Triangles;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
-/// Closed form: a ball about its centre.
+/// Moments in closed form: a ball about its centre.
 pub fn moments(radius_m: f64) -> Moments {
     let volume_m3 = 4.0 / 3.0 * PI * radius_m * radius_m * radius_m;
     about_centre(volume_m3, Vector3::repeat(volume_m3 * radius_m * radius_m / 5.0))

@@ -4,12 +4,12 @@ use super::mesh::TetMesh;
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
-/// Points, and three of their numbers each.
+/// Points, and triangles of three of their numbers each.
 pub type Triangles = (Vec<Vector3<f64>>, Vec<[u32; 3]>);
 
-/// Around the axis; fine enough for a picture.
+/// Number of sectors around the axis; fine enough for a picture.
 const SECTORS: u32 = 32;
-/// Of a quarter circle.
+/// Number of parts of a quarter circle.
 pub(super) const ARC: u32 = 8;
 
 pub(super) fn of_mesh(mesh: TetMesh) -> Triangles {
@@ -17,7 +17,7 @@ pub(super) fn of_mesh(mesh: TetMesh) -> Triangles {
     (mesh.nodes, triangles)
 }
 
-/// A profile of (y, distance from the y axis), from a point of the axis below to one above, turned about it.
+/// Surface of a profile of (y, distance from the y axis), from a point of the axis below to one above, turned about it.
 pub(super) fn revolved(profile: &[(f64, f64)]) -> Triangles {
     let rings = profile.len() as u32;
     let mut points = Vec::new();

@@ -22,32 +22,32 @@ use crate::run::advance::{Stepped, only_step};
 use crate::state::{BodyState, State};
 use std::time::Instant;
 
-/// From one tolerance to the next.
+/// Quotient of one tolerance and the next.
 const FINER: f64 = 100.0;
-/// Tolerances above the one asked for, before `event-driven` is given up.
+/// Most tolerances above the one asked for, before `event-driven` is given up.
 const ROUGHER: u32 = 4;
 const SAFETY_OF_STEPS: f64 = 2.0;
 const SAFETY_OF_TOLERANCES: f64 = 5.0;
-/// Of the largest coordinate.
+/// Rounding of an estimate, of the largest coordinate.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
-/// Steps to begin with, where the file has none.
+/// Number of steps to begin with, where the file has none.
 const FIRST_STEPS: f64 = 100.0;
 pub const HALVINGS: u32 = 12;
-/// Steps of one run times bodies.
+/// Most steps of one run times bodies.
 const MOST_WORK: f64 = 1e6;
 
-/// What runs: the experiment as it is, or as `auto` has chosen. Below there is no `auto`.
+/// Experiment that runs: as it is, or as `auto` has chosen. Below there is no `auto`.
 #[derive(Clone, Debug)]
 pub struct Chosen {
     pub experiment: Experiment,
     pub method: SteppingMethod,
-    /// None: the experiment said itself which method it wants.
+    /// Search of `auto`; None where the experiment said itself which method it wants.
     searched: Option<Searched>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Searched {
-    /// Of positions at the end; none: no two runs came there.
+    /// Estimate of the error of positions at the end; None where no two runs came there.
     error_estimate_m: Option<f64>,
     search_s: f64,
 }
@@ -71,12 +71,12 @@ pub fn method(experiment: &Experiment, model: &Model, start: &State) -> Chosen {
     }
 }
 
-/// What runs first: the method itself, or what `auto` begins its search with.
+/// Method that runs first: the experiment's own, or the one that `auto` begins its search with.
 pub fn first_tried(experiment: &Experiment) -> SteppingMethod {
     experiment.method.stepping().unwrap_or_else(|auto| by_events(auto.tolerance))
 }
 
-/// Within the time that the experiment's limits leave for search and run together.
+/// Search within the time that the experiment's limits leave for search and run together.
 fn search(experiment: &Experiment, auto: &Auto, model: &Model, start: &State) -> Chosen {
     let asked = Asked { experiment, model, start, tolerance: auto.tolerance, started: Instant::now() };
     let Candidate { method, step_s, estimate_m } = asked.best();
@@ -90,28 +90,28 @@ fn search(experiment: &Experiment, auto: &Auto, model: &Model, start: &State) ->
     Chosen { experiment: chosen, method, searched: Some(searched) }
 }
 
-/// What is asked for.
+/// Question that `auto` answers.
 pub struct Asked<'a> {
     pub experiment: &'a Experiment,
     pub model: &'a Model,
     pub start: &'a State,
-    /// Of positions at the end, metres.
+    /// Tolerance of positions at the end, in metres.
     pub tolerance: f64,
-    /// When the search began.
+    /// Time at which the search began.
     pub started: Instant,
 }
 
-/// What may be chosen.
+/// Method that may be chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
     pub method: SteppingMethod,
     pub step_s: Option<f64>,
-    /// Infinite: unknown.
+    /// Estimate of the error of positions at the end; infinite where it is unknown.
     pub estimate_m: f64,
 }
 
 impl Asked<'_> {
-    /// What is left of the experiment's.
+    /// Limits of the experiment, less the time that is used up.
     fn limits(&self) -> Limits {
         let left_s = |wall_s: f64| (wall_s - self.started.elapsed().as_secs_f64()).max(0.0);
         let limits = &self.experiment.limits;
@@ -127,8 +127,8 @@ impl Asked<'_> {
         if by_steps.estimate_m < by_events.estimate_m { by_steps } else { by_events }
     }
 
-    /// The first tolerance at which two runs agree, else the one that agreed best; and whether both runs were by events
-    /// to their end.
+    /// Candidate by events: the first tolerance at which two runs agree, else the one that agreed best; and whether
+    /// both runs were by events to their end.
     pub fn by_events(&self) -> (Candidate, bool) {
         let candidate = |tolerance, estimate_m| Candidate { method: by_events(tolerance), step_s: None, estimate_m };
         let is_whole = |run: &Stepped| run.stopped.is_none() && run.work.fallbacks == 0;
@@ -160,7 +160,7 @@ impl Asked<'_> {
         (best, false)
     }
 
-    /// The first step at which two runs agree, else the one that agreed best.
+    /// Candidate by steps: the first step at which two runs agree, else the one that agreed best.
     pub fn by_steps(&self) -> Candidate {
         let end_s = self.experiment.time.end_s;
         let mut step_s = self.experiment.time.step_s.unwrap_or(end_s / FIRST_STEPS);

@@ -15,16 +15,16 @@ use crate::run::{self, Ended, ticks};
 use crate::state::State;
 use std::path::Path;
 
-/// Where a run finds what it is measured against, and what it leaves beside its result.
+/// Place of a run: where it finds what it is measured against, and what it leaves beside its result.
 #[derive(Clone, Copy, Default)]
 pub struct Place<'a> {
-    /// Folder in which references are kept; none: they are made for this run alone.
+    /// Folder in which references are kept; None where they are made for this run alone.
     pub references: Option<&'a Path>,
-    /// None: the run is not recorded.
+    /// Recording of the run; None where it is not recorded.
     pub recording: Option<Recording<'a>>,
 }
 
-/// What a run is recorded into, and what its recording is called.
+/// Files and name of a run's recording.
 #[derive(Clone, Copy)]
 pub struct Recording<'a> {
     pub dir: &'a Path,
@@ -36,13 +36,13 @@ pub struct Recording<'a> {
 /// A run that has been measured.
 pub struct Studied {
     pub ended: Ended,
-    /// What has run.
+    /// Experiment that has run.
     pub chosen: Chosen,
-    /// A run that cannot be recorded still has its result.
+    /// Failure of the recording, if there was one. A run that cannot be recorded still has its result.
     pub recorded: Result<(), RecordError>,
 }
 
-/// Runs an experiment from `start` to its end or its divergence.
+/// Result of an experiment, run from `start` to its end or its divergence.
 pub fn measure(experiment: &Experiment, model: &Model, start: State, place: &Place) -> Studied {
     let reference = place.references.map_or_else(
         || reference::made(experiment, model, &start),

@@ -21,13 +21,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Instant;
 
-/// From the tolerance of one run to that of the other.
+/// Quotient of the tolerances of the two runs.
 const SECOND: f64 = 10.0;
-/// Runs have parted beyond this part of the largest bounding radius, or so many times the tolerance.
+/// Distance beyond which runs have parted: this part of the largest bounding radius, or so many times the tolerance.
 const PARTED: f64 = 1e-6;
 const PARTED_TOLERANCES: f64 = 1000.0;
 
-/// The name that cases of the same motion share; none: the experiment asks for no reference.
+/// Name that cases of the same motion share; None where the experiment asks for no reference.
 pub fn id(experiment: &Experiment) -> Option<String> {
     let ReferenceRun { tolerance } = experiment.reference.clone()?;
     let random = experiment.scene.random.as_ref();
@@ -51,12 +51,12 @@ pub fn id(experiment: &Experiment) -> Option<String> {
     Some(case::id(&[case::canonical(&decisive), BUILD.as_bytes().to_vec()]))
 }
 
-/// Its file in a folder of results; none: the experiment asks for no reference.
+/// Path of the reference in a folder of results; None where the experiment asks for none.
 pub fn path(dir: &Path, experiment: &Experiment) -> Option<PathBuf> {
     Some(dir.join(format!("reference-{}.json", id(experiment)?)))
 }
 
-/// Reads an experiment's reference from its file, which is made if it is not there; none: it asks for no reference.
+/// Reference of an experiment, read from its file, which is made if it is not there; None where it asks for none.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -79,7 +79,7 @@ pub fn of(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> 
     Ok(made)
 }
 
-/// The same; where no file can be written, for this case alone.
+/// Reference of an experiment, read from its file or made for it; where no file can be written, for this case alone.
 pub fn of_or_made(dir: &Path, experiment: &Experiment, model: &Model, start: &State) -> Option<Reference> {
     of(dir, experiment, model, start).unwrap_or_else(|_| made(experiment, model, start))
 }
@@ -94,7 +94,7 @@ fn read(path: &Path) -> Option<Reference> {
     serde_json::from_str(&unsealed(&files::read(path).ok()?)?).ok()
 }
 
-/// Runs a reference; none: the experiment asks for none.
+/// Reference of an experiment, from its two runs; None where the experiment asks for none.
 pub fn made(experiment: &Experiment, model: &Model, start: &State) -> Option<Reference> {
     let ReferenceRun { tolerance } = experiment.reference.clone()?;
     let second_tolerance = second(tolerance);

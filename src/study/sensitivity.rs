@@ -1,4 +1,4 @@
-//! How an error of the start has grown at the end of a run, from twin runs whose start is displaced a little.
+//! Growth of an error of the start until the end of a run, from twin runs whose start is displaced a little.
 //!
 //! κ = max |p′(T) − p(T)| / ε over bodies and twins. Three twins displace every body by ε along the three axes of a
 //! frame that no scene has, each body along another one, and give it ε/T of velocity along the same line: a body in
@@ -21,9 +21,10 @@ use crate::work::Work;
 use nalgebra::Vector3;
 use std::time::Instant;
 
-/// Of the largest bounding radius: above the tolerances of methods that control their error, below what bends a motion.
+/// Displacement, of the largest bounding radius: above the tolerances of methods that control their error, below what
+/// bends a motion.
 const PART: f64 = 1e-6;
-/// A twin that needs so many times the steps of the run is given up.
+/// Times the steps of the run after which a twin is given up.
 const PATIENCE: u64 = 10;
 /// Normals closer to a plane of others than this say nothing new, and directions shorter than it are none.
 const SHORT: f64 = 1e-3;
@@ -35,7 +36,7 @@ const FRAME: [Vector3<f64>; 3] = [
     Vector3::new(6.0 / 7.0, 2.0 / 7.0, -3.0 / 7.0),
 ];
 
-/// It costs three more runs: who follows events wants to be told, others ask.
+/// Whether the growth is measured. It costs three more runs: who follows events wants to be told, others ask.
 pub fn is_wanted(experiment: &Experiment) -> bool {
     experiment.method.follows_events() || experiment.measure.contains(&Measure::Sensitivity)
 }
@@ -47,7 +48,7 @@ pub fn fill(chosen: &Chosen, model: &Model, start: &State, ended: &mut Ended) {
     }
 }
 
-/// Of the run from `start` to `end`; none if nothing can be displaced or no twin arrives.
+/// Growth of the error of the run from `start` to `end`; None if nothing can be displaced or no twin arrives.
 pub fn sensitivity(chosen: &Chosen, model: &Model, start: &State, end: &State) -> Option<f64> {
     if end.step == 0 || end.time_s <= start.time_s {
         return None;
@@ -63,14 +64,14 @@ pub fn sensitivity(chosen: &Chosen, model: &Model, start: &State, end: &State) -
     arrived.reduce(f64::max)
 }
 
-/// Of points without size in metres.
+/// Displacement in metres; for points without size a part of a metre.
 fn perturbation_m(model: &Model) -> f64 {
     let largest_m = model.largest_radius_m();
     if largest_m > 0.0 { PART * largest_m } else { PART }
 }
 
-/// Of every body an orthonormal basis of the directions in which it is held by what it touches; none: it is not to be
-/// moved at all.
+/// Orthonormal basis, for every body, of the directions in which it is held by what it touches; None where it is not to
+/// be moved at all.
 fn held(model: &Model, start: &State, size_m: f64) -> Vec<Option<Vec<Vector3<f64>>>> {
     let is_free = |i: usize| !model.bodies[i].driven && !model.pins.iter().any(|pin| pin.holds(i));
     let mut held: Vec<_> = (0..model.bodies.len()).map(|i| is_free(i).then(Vec::new)).collect();
@@ -87,7 +88,7 @@ fn held(model: &Model, start: &State, size_m: f64) -> Vec<Option<Vec<Vector3<f64
     held
 }
 
-/// What would be inside after a displacement.
+/// Contacts that would be inside after a displacement.
 fn closed(model: &Model, start: &State, size_m: f64) -> Vec<Contact> {
     let radii = model.bodies.iter().map(|body| body.bounding_radius_m).filter(|radius| *radius > 0.0);
     let margin = 4.0 * size_m / radii.fold(f64::INFINITY, f64::min);
@@ -96,18 +97,18 @@ fn closed(model: &Model, start: &State, size_m: f64) -> Vec<Contact> {
     contacts
 }
 
-/// The direction's part along what the body touches, of length one; none: there is no such part.
+/// Part of the direction along what the body touches, of length one; None where there is no such part.
 fn along(held: &Option<Vec<Vector3<f64>>>, direction: &Vector3<f64>) -> Option<Vector3<f64>> {
     let free = rest(direction, held.as_ref()?);
     (free.norm() > SHORT).then(|| free.normalize())
 }
 
-/// What no vector of an orthonormal basis spans.
+/// Part of a vector that no vector of an orthonormal basis spans.
 fn rest(v: &Vector3<f64>, basis: &[Vector3<f64>]) -> Vector3<f64> {
     basis.iter().fold(*v, |rest, b| rest - b * b.dot(&rest))
 }
 
-/// None: no body moves.
+/// Start of a twin; None where no body moves.
 fn displaced(
     start: &State,
     direction: impl Fn(usize) -> Option<Vector3<f64>>,
@@ -126,7 +127,8 @@ fn displaced(
     moved.then_some(twin)
 }
 
-/// At the time of the run's end, however the run has come to it. The twins together have the wall time of the run.
+/// State of a twin at the time of the run's end, however the run has come to it. The twins together have the wall time
+/// of the run.
 fn twin_end(chosen: &Chosen, model: &Model, twin: State, end: &State, started: Instant) -> Option<State> {
     let Chosen { experiment, method, .. } = chosen;
     let follows_events = experiment.method.follows_events();

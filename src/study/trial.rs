@@ -1,4 +1,4 @@
-//! How long a case would take, from as many of its steps as fit in a moment.
+//! Estimate of how long a case would take, from as many of its steps as fit in a moment.
 
 use super::choose::first_tried;
 use super::sensitivity;
@@ -10,10 +10,10 @@ use crate::state::State;
 /// Runs beside the one that is shown: three twins, and two more for what `auto` compares.
 const TWINS: f64 = 3.0;
 const TRIED_BY_AUTO: f64 = 2.0;
-/// Of a case, below which a moment says little.
+/// Least part of a case from which a moment says something.
 const LEAST_PART: f64 = 1e-3;
 
-/// Seconds that a case would take, tried for `moment_s` at most (and one step).
+/// Time that a case would take, in seconds, tried for `moment_s` at most (and one step).
 pub fn seconds(experiment: &Experiment, model: &Model, start: State, moment_s: f64) -> f64 {
     let clock = experiment.clock();
     let limits = Limits { wall_s: Some(moment_s), ..Limits::default() };

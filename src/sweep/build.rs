@@ -10,12 +10,12 @@ use crate::scene::BuildError;
 use crate::state::State;
 use serde_json::Value;
 
-/// A point of the axes as the result columns show it.
+/// Cells of a point of the axes, as the result columns show it.
 pub(super) fn columns(axes: &Axes, point: &[usize]) -> impl Iterator<Item = (String, Value)> {
     axes.axes.iter().zip(point).map(|(axis, &value)| (axis.path.clone(), axis.values[value].cell()))
 }
 
-/// The model and first state of the experiment at `point` (empty without axes).
+/// Model and first state of the experiment at `point` (empty without axes).
 ///
 /// # Errors
 /// What only geometry shows, with the place in the file.

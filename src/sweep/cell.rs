@@ -1,4 +1,4 @@
-//! The critical value of a key in one cell of the axes, by bisection.
+//! Critical value of a key in one cell of the axes, by bisection.
 
 use super::build::build;
 use crate::experiment::axes::{decimal, float};
@@ -15,33 +15,33 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
 
-/// One cell of the other axes.
+/// Cell of the other axes, in which a critical value is searched.
 #[derive(Clone, Debug)]
 pub struct Cell {
     pub(super) file: Arc<ExperimentFile>,
     pub(super) search: Search,
     /// Points of the axes that are tried together.
     pub(super) members: Vec<Vec<usize>>,
-    /// The key takes whole numbers only.
+    /// Whether the key takes whole numbers only.
     pub(super) whole: bool,
 }
 
-/// What was found at one value.
+/// Runs at one value of the key.
 struct Trial {
     value: Number,
     reached: bool,
-    /// Of the first member.
+    /// Measurements of the first member.
     measured: Measured,
 }
 
 impl Cell {
-    /// What a row of this cell depends on beside its experiments.
+    /// Text of what a row of this cell depends on beside its experiments.
     pub fn rule(&self) -> String {
         let Search { critical, until, fraction, relative_width, .. } = &self.search;
         format!("{critical} until {until} in {fraction} to {relative_width}")
     }
 
-    /// Runs that a bracket of this width takes, about.
+    /// Number of runs that a bracket of this width takes, about.
     pub fn expected_runs(&self) -> usize {
         let [low, high] = self.search.between.each_ref().map(float);
         let width = if low > 0.0 { libm::log(high / low) } else { 1.0 };
@@ -62,8 +62,8 @@ impl Cell {
         self.file.searched_case(&self.members[0], low.as_ref().unwrap_or(&self.search.between[0]))
     }
 
-    /// Bisects. The row's other columns are those of the run at `search_low`, or at the bracket's lower end where there
-    /// is none; `wall_s` is that of all runs. References are kept in the folder.
+    /// Row of the cell, by bisection. Its other columns are those of the run at `search_low`, or at the bracket's lower
+    /// end where there is none; `wall_s` is that of all runs. References are kept in the folder.
     pub fn bisect(&self, dir: &Path) -> Measured {
         self.try_bisect(dir).unwrap_or_else(|error| Measured::failed(error.to_string()))
     }
@@ -106,7 +106,7 @@ impl Cell {
         Ok(study::measure(experiment, &model, start, &place).ended.measured)
     }
 
-    /// The value to try next; none: the bracket is narrow enough.
+    /// Value to try next; None where the bracket is narrow enough.
     fn between(&self, low: f64, high: f64) -> Option<Number> {
         if self.whole {
             let middle = ((low + high) / 2.0).floor();

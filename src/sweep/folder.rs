@@ -1,4 +1,4 @@
-//! A folder of results as a reader finds it: its question, its plan, its rows.
+//! Folder of results as a reader finds it: its question, its plan, its rows.
 
 use super::journal::Journal;
 use super::kept::{EXPERIMENT, PLAN, read_plan};
@@ -15,26 +15,26 @@ use std::path::{Path, PathBuf};
 /// A folder of results, read; nobody is kept from working in it.
 pub struct Folder {
     pub dir: PathBuf,
-    /// As the folder says it.
+    /// Plan as the folder says it.
     pub plan: PlanFile,
     /// The configuration that was run.
     pub file: ExperimentFile,
-    /// Its cases, as this program resolves them.
+    /// Cases of the folder, as this program resolves them.
     pub cases: Vec<Planned>,
     pub journal: Journal,
 }
 
-/// Why a folder of results cannot be read.
+/// Reason why a folder of results cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     #[error("{0}: expected a folder of results, found no {PLAN} in it")]
     NoResults(String),
     #[error(transparent)]
     Experiment(#[from] ExperimentError),
-    /// Its plan, or a file of it.
+    /// Failure of the machine, or a plan that is none.
     #[error(transparent)]
     File(#[from] FileError),
-    /// One of the two was changed, or belongs to another build.
+    /// Plan and configuration of which one was changed, or belongs to another build.
     #[error("{dir}: {PLAN} is not what {EXPERIMENT} beside it makes{why}; `{mend}` mends it")]
     OtherPlan { dir: String, why: String, mend: String },
 }
@@ -44,6 +44,8 @@ impl Folder {
         dir.join(PLAN).is_file()
     }
 
+    /// The results in a folder.
+    ///
     /// # Errors
     /// It is none, cannot be read, or its configuration is not that of its plan.
     pub fn read(dir: &Path) -> Result<Self, FolderError> {

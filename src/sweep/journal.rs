@@ -1,4 +1,4 @@
-//! journal.jsonl: what was measured and what was recorded, by the ids of cases, a line each.
+//! The journal, journal.jsonl: what was measured and what was recorded, by the ids of cases, a line each.
 //!
 //! A line goes there as soon as its case ends, so that nothing computed is lost. Every line carries a checksum of the
 //! rest of it, so that a line that is torn or changed counts for nothing and its case is run again. The journal is
@@ -15,7 +15,7 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// What was measured of a case.
+/// Measurements of a case.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Entry {
     pub case: String,
@@ -32,14 +32,14 @@ enum Line {
     Row(Box<Entry>),
 }
 
-/// What a journal says: of every case the last line.
+/// Content of a journal: of every case the last line.
 #[derive(Clone, Debug, Default)]
 pub struct Journal {
     pub rows: HashMap<String, Entry>,
     pub recordings: HashMap<String, Recorded>,
-    /// Recordings that later lines stand for.
+    /// Recordings that were replaced by those of later lines.
     pub superseded: Vec<Recorded>,
-    /// Lines that are torn, changed, or of another version.
+    /// Number of lines that are torn, changed, or of another version.
     pub unreadable: usize,
 }
 
@@ -47,12 +47,12 @@ pub struct Journal {
 pub struct JournalFile {
     path: PathBuf,
     file: File,
-    /// A killed run has left half a line: it is ended before the next one.
+    /// Whether a killed run has left half a line, which is ended before the next one.
     is_torn: bool,
 }
 
 impl Journal {
-    /// Of a folder, which need not have one yet.
+    /// Journal of a folder, which need not have one yet.
     ///
     /// # Errors
     /// The machine failed.
@@ -76,13 +76,13 @@ impl Journal {
         journal
     }
 
-    /// Of a row that is there: the recording of the run that made it, or of this program's own.
+    /// Recording of a row that is there: of the run that made it, or of this program's own.
     pub fn recorded(&self, case: &str) -> Option<&Recorded> {
         let build = &self.rows.get(case)?.build;
         self.recordings.get(case).filter(|recorded| [build.as_str(), BUILD].contains(&recorded.build.as_str()))
     }
 
-    /// Leaves what this very program has made.
+    /// Drops what another program has made.
     pub fn retain_build(&mut self) {
         self.rows.retain(|_, entry| entry.build == BUILD);
         self.recordings.retain(|_, recorded| recorded.build == BUILD);
@@ -90,7 +90,7 @@ impl Journal {
 }
 
 impl JournalFile {
-    /// Opens or makes a folder's journal, and reads it.
+    /// Journal of a folder, opened or made, and what it says.
     ///
     /// # Errors
     /// The machine failed, or another program has it open.
@@ -111,7 +111,7 @@ impl JournalFile {
         self.write(&(begin.to_string() + &line(entry)))
     }
 
-    /// Leaves these lines alone, in the order of the ids.
+    /// Makes these lines the whole journal, in the order of the ids.
     ///
     /// # Errors
     /// The machine failed.
@@ -152,17 +152,17 @@ pub fn open_alone(dir: &Path, path: &Path) -> Result<File, FileError> {
     }
 }
 
-/// A sealed object on a line of its own.
+/// Sealed object on a line of its own.
 pub fn line(entry: &impl Serialize) -> String {
     sealed(entry) + "\n"
 }
 
-/// Where it is in a folder.
+/// Path of the journal in a folder.
 pub(super) fn path(dir: &Path) -> PathBuf {
     dir.join("journal.jsonl")
 }
 
-/// Nothing: there is none yet.
+/// Content of the journal; empty where there is none yet.
 fn read(dir: &Path) -> Result<Vec<u8>, FileError> {
     let path = path(dir);
     match std::fs::read(&path) {

@@ -1,4 +1,4 @@
-//! What a folder of results keeps of its question: experiment.yaml, and the plan that follows from it.
+//! Question of a folder of results, as it keeps it: experiment.yaml, and the plan that follows from it.
 
 use crate::files::{self, FileError};
 use crate::rows::plan_file::{FORMAT, PlanFile};

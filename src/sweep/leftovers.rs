@@ -8,7 +8,7 @@ use crate::record::writer::{PARTIAL, Target};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// Digits of a case's id.
+/// Number of digits of a case's id.
 const ID: usize = 16;
 
 /// Recordings that were being written when their program was killed.

@@ -3,7 +3,8 @@
 use crate::experiment::axes::AxisValue;
 use crate::experiment::{ExperimentFile, Value, error};
 
-/// The values that tell a case from others: those of axes with more than one, in plan order. None of them: `config`.
+/// Values that tell a case from others: those of axes with more than one, in plan order. Where there are none:
+/// `config`.
 pub(super) fn values(file: &ExperimentFile, point: &[usize], config: &str) -> Vec<String> {
     // The values of this axis are tried together.
     let over = file.search().and_then(|search| search.over);

@@ -21,12 +21,13 @@ use std::path::Path;
 pub struct SweepPlan {
     pub cases: Vec<Planned>,
     pub file: PlanFile,
-    /// The experiment file that it follows from: what is set, and what it extends, written in.
+    /// Text of the experiment file that it follows from: what is set, and what it extends, written in.
     pub written: String,
 }
 
 impl SweepPlan {
-    /// Resolves every point of the grid, and builds its model once to find what only geometry shows (overlap).
+    /// Plan of a file. Every point of the grid is resolved, and its model built once to find what only geometry shows
+    /// (overlap).
     ///
     /// # Errors
     /// The first wrong case in plan order.
@@ -40,7 +41,7 @@ impl SweepPlan {
         Ok(plan)
     }
 
-    /// The same without building a model, of a file that was called `config`.
+    /// Plan of a file that was called `config`, without building a model.
     ///
     /// # Errors
     /// The first wrong case in plan order.
@@ -57,7 +58,7 @@ impl SweepPlan {
         Ok(SweepPlan { file: plan_file(file, &cases, config), written: file.written(), cases })
     }
 
-    /// The one case of a file without axes, built once.
+    /// Plan of the one case of a file without axes, built once.
     ///
     /// # Errors
     /// Axes are left, or the experiment is wrong.
@@ -90,7 +91,7 @@ fn case(file: &ExperimentFile, point: Vec<usize>, config: &str) -> Result<Planne
     Ok(Planned::new(file, case, point, config))
 }
 
-/// Where two cases of a plan would share a name (values that were cut, ids that begin alike), the later one has all
+/// Gives the later of two cases of a plan that would share a name (values that were cut, ids that begin alike) all
 /// digits of its id.
 fn tell_apart(cases: &mut [Planned], file: &ExperimentFile, config: &str) {
     let mut seen = HashSet::with_capacity(cases.len());
@@ -101,8 +102,8 @@ fn tell_apart(cases: &mut [Planned], file: &ExperimentFile, config: &str) {
     }
 }
 
-/// Of the file, without folders and ending; of a recording, its values; of what a folder of results keeps, what that
-/// was called.
+/// Name of the file, without folders and ending; of a recording, its values; of what a folder of results keeps, what
+/// that was called.
 fn config_name(file: &ExperimentFile) -> String {
     if let Some(plan) = plan_beside(file.path()) {
         return plan.name;

@@ -1,4 +1,4 @@
-//! What is planned: a case, or a search that makes one row.
+//! Rows to come: a case, or a search that makes one row.
 
 use super::cell::Cell;
 use super::names;
@@ -13,11 +13,11 @@ use std::path::Path;
 #[derive(Clone, Debug)]
 pub struct Planned {
     pub case: Case,
-    /// For every axis of the file the index of its value; empty without axes.
+    /// Point of the case: for every axis of the file the index of its value; empty without axes.
     pub point: Vec<usize>,
-    /// What it is called where it is recorded.
+    /// Name of its recording.
     pub name: RecordingName,
-    /// Many runs that make the row: a bisection, whose first run is the case's.
+    /// Search of many runs that make the row: a bisection, whose first run is the case's.
     pub search: Option<Cell>,
 }
 
@@ -28,12 +28,12 @@ impl Planned {
         Planned { case, point, name, search: None }
     }
 
-    /// With all digits of its id in its name.
+    /// Puts all digits of its id into its name.
     pub fn with_whole_id(&mut self, file: &ExperimentFile, config: &str) {
         self.name = RecordingName::new(&names::values(file, &self.point, config), &self.case.id);
     }
 
-    /// Its recording in a folder; none: into no kind of file.
+    /// Recording of the case in a folder; None where there is no kind of file to record into.
     pub fn recording<'a>(&'a self, dir: &'a Path, targets: &'a [Target]) -> Option<Recording<'a>> {
         (!targets.is_empty()).then_some(Recording { dir, targets, case: &self.case, name: &self.name })
     }

@@ -1,4 +1,4 @@
-//! What a folder knows of its recordings: which case, by which program, how long and with which checksum.
+//! Recordings as a folder knows them: which case, by which program, how long and with which checksum.
 
 use crate::build_info::BUILD;
 use crate::case::Case;
@@ -21,15 +21,15 @@ pub struct Recorded {
     /// Id of the case.
     pub recorded: String,
     pub build: String,
-    /// Of the files, without their endings.
+    /// Name of the files, without their endings.
     pub name: String,
     /// Hash of what decides about its content beside the case.
     pub shows: String,
-    /// By their endings.
+    /// Sums of the files by their endings.
     pub files: BTreeMap<String, Sum>,
 }
 
-/// What tells a file from one that was cut or changed.
+/// Length and checksum that tell a file from one that was cut or changed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sum {
     pub bytes: u64,
@@ -37,7 +37,7 @@ pub struct Sum {
 }
 
 impl Recorded {
-    /// Of files that have just been written, of a run that ended so.
+    /// Recording of files that have just been written, of a run that ended so.
     ///
     /// # Errors
     /// They cannot be read.
@@ -48,7 +48,7 @@ impl Recorded {
         Ok(Recorded { recorded: case.id.clone(), build: BUILD.to_string(), shows: shows(case), name, files })
     }
 
-    /// With the files of another one that is of the same run and shows the same.
+    /// The recording with the files of another one that is of the same run and shows the same.
     pub fn with_files_of(mut self, before: &Recorded) -> Self {
         let of = |recorded: &Recorded| [&recorded.build, &recorded.name, &recorded.shows].map(String::clone);
         if of(&self) == of(before) {
@@ -77,7 +77,7 @@ impl Sum {
     }
 }
 
-/// Of the question and of `record:`, without the kinds of file and the choice of cases.
+/// Hash of the question and of `record:`, without the kinds of file and the choice of cases.
 pub fn shows(case: &Case) -> String {
     let record = Record { to: None, cases: RecordCases::All, ..case.experiment.record.clone() };
     sha256(json!([case.experiment.question, record]).to_string(), 8)

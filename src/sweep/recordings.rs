@@ -1,4 +1,4 @@
-//! Which cases of a sweep are recorded.
+//! Choice of the cases of a sweep that are recorded.
 //!
 //! Rules that ask for an outcome are answered after the rows are there: the chosen cases run once more with their
 //! recorders on, which gives the same bits.
@@ -7,7 +7,7 @@ use crate::experiment::types::RecordCases;
 use crate::outcome::Outcome;
 use crate::rows::Measured;
 
-/// `few`: what a person can look at, and 24 files of some MB each.
+/// Number of cases of `few`: what a person can look at, and 24 files of some MB each.
 pub const FEW: usize = 24;
 
 /// Indices of the cases to record, known before anything has run.
@@ -22,7 +22,7 @@ pub fn known_before(rule: RecordCases, cases: usize) -> Option<Vec<usize>> {
     }
 }
 
-/// Indices of the cases to record, from what all cases measured (in plan order; none: no row).
+/// Indices of the cases to record, from what all cases measured (in plan order; None where there is no row).
 pub fn known_after(rule: RecordCases, measured: &[Option<&Measured>]) -> Vec<usize> {
     if let Some(known) = known_before(rule, measured.len()) {
         return known;

@@ -1,4 +1,4 @@
-//! Runs the missing cases of a plan on all cores, each row kept as soon as its case ends.
+//! Runner of the missing cases of a plan on all cores, each row kept as soon as its case ends.
 
 use super::leftovers;
 use super::planned::Planned;
@@ -23,44 +23,45 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
-/// The machine failed during a sweep; rows of cases that had ended are kept.
+/// Failure of the machine during a sweep; rows of cases that had ended are kept.
 #[derive(Debug, thiserror::Error)]
 pub enum SweepError {
     #[error(transparent)]
     Store(#[from] FileError),
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// The program failed: a case that was run again for its recording measured something else.
+    /// Failure of the program: a case that was run again for its recording measured something else.
     #[error("case {0}: the recorded run differs from the first one; please report this")]
     NotDeterministic(String),
 }
 
-/// How far a sweep is, for a progress bar.
+/// Progress of a sweep, for a bar.
 pub trait Progress: Sync {
     fn begin(&self, what: &str, total: usize);
     fn one_done(&self);
     fn end(&self);
 }
 
-/// What a sweep does with every case, and where.
+/// Work of a sweep on every case, and where it is done.
 pub struct Job<'a> {
     pub dir: &'a Path,
-    /// What the chosen cases are recorded into; empty: nothing is.
+    /// Kinds of file that the chosen cases are recorded into; empty where nothing is.
     pub targets: &'a [Target],
-    /// A table of text, however long.
+    /// Whether a table of text is written, however long.
     pub csv: bool,
-    /// Runs a case and records it into the targets.
+    /// Function that runs a case and records it into the targets.
     pub work: &'a Make<'a>,
     pub progress: &'a dyn Progress,
 }
 
 pub type Make<'a> = dyn Fn(&Planned, &[Target]) -> (Measured, Written) + Sync + 'a;
 
-/// What was recorded of a run. A run that cannot be recorded still has its result.
+/// Recording of a run, None where there is none, or its failure. A run that cannot be recorded still has its result.
 pub type Written = Result<Option<Recorded>, SweepError>;
 
 impl Job<'_> {
-    /// Runs what is missing, then records the chosen cases and writes the tables. How many cases were run.
+    /// Runs what is missing, then records the chosen cases and writes the tables. Returns the number of cases that were
+    /// run.
     ///
     /// # Errors
     /// The machine failed; rows of cases that had ended are kept.
@@ -213,7 +214,7 @@ pub fn build_and_run(planned: &Planned, dir: &Path, targets: &[Target]) -> (Meas
     }
 }
 
-/// Runs one case and writes its recordings.
+/// Result of one case, whose recordings are written, and what was recorded.
 pub fn run_case(case: &Case, model: &Model, start: State, place: &Place) -> (Ended, Written) {
     let Studied { ended, recorded, .. } = study::measure(&case.experiment, model, start, place);
     let of_files = |recording| Recorded::of(recording, ended.measured.outcome);
@@ -243,7 +244,7 @@ pub fn run_one(
     (ended, kept)
 }
 
-/// What `record.to` means in this build; nothing said: everything it can write.
+/// Kinds of file that `record.to` means in this build; where nothing is said, all that it can write.
 pub fn targets(to: Option<RecordTo>) -> Vec<Target> {
     match to {
         None => Target::AVAILABLE.to_vec(),
@@ -254,7 +255,7 @@ pub fn targets(to: Option<RecordTo>) -> Vec<Target> {
     }
 }
 
-/// A thread that panics while it holds the store has already been caught; the store itself is whole.
+/// Lock on a store. A thread that panics while it holds the store has already been caught; the store itself is whole.
 pub fn lock(store: &Mutex<Store>) -> MutexGuard<'_, Store> {
     store.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }

@@ -1,4 +1,4 @@
-//! The critical value of a key, by bisection (L3), in every cell of the axes.
+//! Critical value of a key, by bisection (L3), in every cell of the axes.
 //!
 //! A value counts as reached when the condition holds in the stated share of the runs that are tried together (all
 //! seeds, say; the same ones at every value). Between an end where it is reached and one where it is not, the bracket
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use serde_json::Map;
 use std::sync::Arc;
 
-/// All cells in plan order, both ends of every bracket resolved and built.
+/// Rows of all cells in plan order, both ends of every bracket resolved and built.
 ///
 /// # Errors
 /// The first wrong case; a column that the condition names and no row has.

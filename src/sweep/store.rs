@@ -1,4 +1,4 @@
-//! A folder of results: experiment.yaml, plan.json, journal.jsonl, rows.csv, rows.parquet, recordings.
+//! Folder of results: experiment.yaml, plan.json, journal.jsonl, rows.csv, rows.parquet, recordings.
 //!
 //! Rows go to the journal as their cases end; the tables are written from it in plan order. The journal holds what was
 //! measured by case id, the plan holds the axes: a sweep whose axes have grown finds its old rows again.
@@ -20,7 +20,7 @@ use std::collections::HashSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Above so many rows a table of text is written only when it is asked for.
+/// Most rows of which a table of text is written without being asked for.
 const CSV_ROWS: usize = 100_000;
 
 /// A folder of results, open for adding rows.
@@ -35,20 +35,20 @@ pub struct Store {
     done: Journal,
 }
 
-/// What an edited plan has left of the rows that are there.
+/// Change of a plan, and what it has left of the rows that are there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edited {
-    /// Phrases, one an axis.
+    /// Phrases about the axes that have changed, one an axis.
     pub changes: Vec<String>,
-    /// Rows of the plan that are there already.
+    /// Number of rows of the plan that are there already.
     pub held: usize,
-    /// All rows of the plan.
+    /// Number of all rows of the plan.
     pub planned: usize,
-    /// Rows that are there and no longer planned.
+    /// Number of rows that are there and no longer planned.
     pub unplanned: usize,
 }
 
-/// Why a folder cannot be opened for adding rows.
+/// Reason why a folder cannot be opened for adding rows.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
     #[error(transparent)]
@@ -79,7 +79,7 @@ impl Store {
         &self.dir
     }
 
-    /// Of an edited plan that goes on in its folder; none: it is the same, or the first.
+    /// Change of an edited plan that goes on in its folder; None where it is the same, or the first.
     pub fn edited(&self) -> Option<Edited> {
         let before = self.before.as_ref().filter(|before| before.hash != self.plan.hash)?;
         let planned: HashSet<&String> = self.order.iter().map(|(case, _)| case).collect();
@@ -91,7 +91,7 @@ impl Store {
         })
     }
 
-    /// Cases that have failed count as missing.
+    /// Drops the rows of cases that have failed, so that they count as missing.
     pub fn forget_failed(&mut self) {
         self.done.rows.retain(|_, entry| entry.measured.outcome != Outcome::Failed);
     }
@@ -100,12 +100,12 @@ impl Store {
         self.done.rows.get(case).map(|entry| &entry.measured)
     }
 
-    /// The same, if this very program measured it: another one may give other bits.
+    /// Measurements of a case, if this very program made them: another one may give other bits.
     pub fn measured_by_this_build(&self, case: &str) -> Option<&Measured> {
         self.done.rows.get(case).filter(|entry| entry.build == BUILD).map(|entry| &entry.measured)
     }
 
-    /// Of rows that are there, whichever build they are of.
+    /// Recording of a case whose row is there, whichever build they are of.
     pub fn recorded(&self, case: &str) -> Option<&Recorded> {
         self.done.recorded(case)
     }
@@ -115,7 +115,7 @@ impl Store {
         leftovers::older(&self.dir, &self.done)
     }
 
-    /// Appends to the journal at once.
+    /// Appends a row to the journal at once.
     ///
     /// # Errors
     /// The machine failed.
@@ -126,7 +126,7 @@ impl Store {
         Ok(())
     }
 
-    /// The same of a recording.
+    /// Appends a recording to the journal at once.
     ///
     /// # Errors
     /// The machine failed.
@@ -146,7 +146,7 @@ impl Store {
         rows(&self.dir, &self.order, &self.done)
     }
 
-    /// `csv`: also where a table of text is long.
+    /// Writes the tables; with `csv` also one of text where it is long.
     ///
     /// # Errors
     /// The machine failed.
@@ -170,7 +170,7 @@ impl fmt::Display for Edited {
     }
 }
 
-/// What somebody else has written under our names would be lost.
+/// Refuses a folder in which somebody else has written under our names, which would be lost.
 fn refuse_foreign(dir: &Path) -> Result<(), StoreError> {
     let (plan, experiment) = (dir.join(PLAN), dir.join(EXPERIMENT));
     if plan.exists() && !kept::is_ours(&plan) {

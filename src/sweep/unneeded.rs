@@ -1,4 +1,4 @@
-//! What nobody needs of a folder of results, and what its files take.
+//! Files and rows of a folder of results that nobody needs, and the size of its files.
 
 use super::folder::Folder;
 use super::leftovers;
@@ -11,27 +11,27 @@ use serde::Serialize;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// Below a folder of results: what runs of single rows leave; and how their locks end.
+/// Folder below a folder of results for what runs of single rows leave; and how their locks end.
 pub const REPLAYS: &str = "replays";
 pub const LOCK: &str = "lock";
 
-/// What a kill may leave of files that are written whole or not at all.
+/// Names of what a kill may leave of files that are written whole or not at all.
 const HALF_WRITTEN: [&str; 4] = ["experiment.partial", "plan.partial", "rows.partial", "journal.partial"];
 
-/// Bytes.
+/// Sizes of a folder's files, in bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Bytes {
     pub total: u64,
     pub recordings: u64,
     pub replays: u64,
-    /// What `gotai clean` drops beside replays.
+    /// Size of what `gotai clean` drops beside replays.
     pub unneeded: u64,
 }
 
-/// What nobody needs any more.
+/// Files and rows that nobody needs any more.
 #[derive(Clone, Debug, Default)]
 pub struct Unneeded {
-    /// What runs of single rows have left.
+    /// Files that runs of single rows have left.
     pub replays: Vec<PathBuf>,
     /// Recordings that were being written when their program was killed, or that newer ones stand for.
     pub leftovers: Vec<PathBuf>,
@@ -39,13 +39,15 @@ pub struct Unneeded {
     pub recordings: Vec<PathBuf>,
     /// References of other builds.
     pub references: Vec<PathBuf>,
-    /// Rows of other builds.
+    /// Number of rows of other builds.
     pub rows: usize,
-    /// Lines of the journal that nobody can read.
+    /// Number of lines of the journal that nobody can read.
     pub lines: usize,
 }
 
 impl Unneeded {
+    /// Files and rows in a folder of results that nobody needs.
+    ///
     /// # Errors
     /// The folder cannot be read.
     pub fn of(folder: &Folder) -> Result<Self, FileError> {
@@ -71,13 +73,15 @@ impl Unneeded {
         })
     }
 
-    /// All files but the replays.
+    /// Files of all kinds but the replays.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
         self.leftovers.iter().chain(&self.recordings).chain(&self.references)
     }
 }
 
 impl Bytes {
+    /// Sizes of the files in a folder of results.
+    ///
     /// # Errors
     /// The folder cannot be read.
     pub fn of(folder: &Folder) -> Result<Self, FileError> {
@@ -94,7 +98,7 @@ impl Bytes {
     }
 }
 
-/// Of files; those that have just gone count for nothing.
+/// Size of files, in bytes; those that have just gone count for nothing.
 pub fn size<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> u64 {
     files.into_iter().filter_map(|path| Some(std::fs::metadata(path).ok()?.len())).sum()
 }
@@ -122,7 +126,7 @@ fn is_reference_of_another_build(path: &Path) -> bool {
     }
 }
 
-/// In a folder, which need not be there, in the order of their names. A link is followed nowhere.
+/// Files in a folder, which need not be there, in the order of their names. A link is followed nowhere.
 fn files_of(dir: &Path) -> Result<Vec<PathBuf>, FileError> {
     if !dir.symlink_metadata().is_ok_and(|found| found.is_dir()) && !Folder::is_one(dir) {
         return Ok(Vec::new());

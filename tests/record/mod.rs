@@ -3,5 +3,6 @@
 mod mcap;
 #[cfg(feature = "rerun")]
 mod rerun;
+mod schema;
 mod synthetic;
 mod writer;

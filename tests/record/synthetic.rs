@@ -3,7 +3,8 @@
 
 use gotai::outcome::Outcome;
 use gotai::record::name::RecordingName;
-use gotai::record::sample::{Batch, BodyHeader, BodySample, ContactSample, Ending, EnergySample, Header, Streams};
+use gotai::record::sample::{Batch, BodyHeader, ContactSample, Ending, EnergySample, Header, Streams};
+use gotai::rows::BodyRow;
 
 pub const ALL: Streams = Streams { bodies: true, contacts: true, forces: true, energy: true };
 pub const NONE: Streams = Streams { bodies: false, contacts: false, forces: false, energy: false };
@@ -75,10 +76,10 @@ pub fn time_s(i: u64) -> f64 {
 }
 
 /// One bounce a second, one turn about an edge a second.
-pub fn body(i: u64) -> BodySample {
+pub fn body(i: u64) -> BodyRow {
     let part = time_s(i).fract();
     let half_turn = std::f64::consts::PI * part;
-    BodySample {
+    BodyRow {
         position_m: [0.3, HALF_EDGE_M + 4.0 * BOUNCE_M * part * (1.0 - part), -0.2],
         orientation_xyzw: [0.0, 0.0, libm::sin(half_turn), libm::cos(half_turn)],
         velocity_m_s: [0.0, 4.0 * BOUNCE_M * (1.0 - 2.0 * part), 0.0],
@@ -108,7 +109,7 @@ pub fn contacts(i: u64) -> Vec<ContactSample> {
 }
 
 pub fn energy(i: u64) -> EnergySample {
-    let BodySample { position_m, velocity_m_s, .. } = body(i);
+    let BodyRow { position_m, velocity_m_s, .. } = body(i);
     let kinetic_j = 0.5 * MASS_KG * velocity_m_s[1] * velocity_m_s[1];
     let potential_j = MASS_KG * 8.0 * BOUNCE_M * position_m[1];
     let lowest_m = contacts(i).iter().map(|contact| contact.gap_m).fold(0.0, f64::min);

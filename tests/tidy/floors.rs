@@ -18,7 +18,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("panics", &[]),
     ("clock", &["state"]),
     ("shape", &["math"]),
-    ("rows", &["digest", "math", "heading", "outcome", "work"]),
+    ("rows", &["state", "digest", "math", "heading", "outcome", "work"]),
     ("experiment", &["shape", "clock", "outcome"]),
     ("report", &["rows"]),
     ("model", &["experiment", "shape", "state"]),
@@ -316,6 +316,17 @@ fn files_clocks_and_printing_stay_at_the_edges() {
             assert!(!is_named || rooms.contains(&source.room()), "{} names {name}", source.name);
         }
     }
+}
+
+/// Of `experiment/` only what reads and writes the text, and the file from which all others take the tree's types.
+#[test]
+fn few_files_know_the_yaml_library() {
+    const FILES: [&str; 4] = ["emit.rs", "positions.rs", "source.rs", "tree.rs"];
+    let is_code = |line: &&str| !line.trim_start().starts_with("//");
+    let names_it = |source: &&Source| source.text.lines().filter(is_code).any(|line| line.contains("serde_yaml"));
+    let sources = sources();
+    let found: Vec<_> = sources.iter().filter(names_it).map(|source| source.name.as_str()).collect();
+    assert_eq!(found, FILES.map(|file| format!("experiment/{file}")));
 }
 
 /// The drawing is of the rooms that there are.

@@ -22,17 +22,17 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, SymmetricEigen, UnitQuaternion, V
 struct Moving {
     p: Id,
     v: Id,
-    /// In principal axes.
+    /// Angular velocity in principal axes.
     w: Id,
     q: Id,
-    /// From principal axes to the body's.
+    /// Rotation from principal axes to the body's.
     q_BP: UnitQuaternion<f64>,
     gyroscopic: bool,
     /// Principal moments.
     I: Vector3<f64>,
-    /// If nothing else acts on it.
+    /// Gravity, if nothing else acts on the body.
     gravity: Option<Vector3<f64>>,
-    /// Of a free body that is not isotropic, from its start on.
+    /// Invariants of a free body that is not isotropic, from its start on.
     invariants: Option<Invariants>,
 }
 
@@ -48,9 +48,9 @@ pub struct Equations {
     pub tape: Tape,
     bodies: Vec<Moving>,
     circling: Vec<Circling>,
-    /// Of every pin: its force, and the acceleration between its two points.
+    /// Force of every pin, and the acceleration between its two points.
     pins: Vec<(Id, Id)>,
-    /// Operations from here on depend on the forces of the pins.
+    /// Number of the first operation that depends on the forces of the pins.
     pinned_from: usize,
 }
 
@@ -126,15 +126,15 @@ impl Equations {
         }
     }
 
-    /// Starts where the present expansion is after `h`. Its own numbers, not the island's: in world axes a small part
-    /// of ω would be rounded like the whole.
+    /// Starts anew at the end of `h` of the present expansion, from its own numbers, not from the island's: in world
+    /// axes a small part of ω would be rounded like the whole.
     pub fn go_on(&mut self, order: usize, h: f64) {
         for moving in &self.bodies {
             moving.go_on(&mut self.tape, order, h);
         }
     }
 
-    /// All coefficients up to `order`, from the start, at `t_s`.
+    /// Works out all coefficients up to `order`, from the start, at `t_s`.
     pub fn expand(&mut self, island: &mut Chain, model: &Model, t_s: f64, order: usize, work: &mut Work) {
         work.gyroscopic += (self.bodies.iter().filter(|moving| moving.gyroscopic).count() * order) as u64;
         let (all, from) = (self.tape.operations(), self.pinned_from);
@@ -175,7 +175,7 @@ impl Equations {
         }
     }
 
-    /// The size of coefficient k against the motion's own: of the worst body and quantity.
+    /// Size of coefficient k against the motion's own: of the worst body and quantity.
     pub fn relative_size(&self, k: usize) -> f64 {
         let sizes = self.bodies.iter().flat_map(|b| [b.p, b.v, b.w, b.q]);
         sizes.map(|id| self.tape.size(id, k) / (1.0 + self.tape.size(id, 0))).fold(0.0, f64::max)
@@ -232,7 +232,7 @@ impl Moving {
         (tape.sum_at(self.p, order, h).xyz(), tape.sum_at(self.v, order, h).xyz())
     }
 
-    /// About one axis for ever.
+    /// Whether the body turns about one axis for ever.
     fn turns_evenly(&self) -> bool {
         self.gravity.is_some() && !self.gyroscopic
     }
@@ -262,7 +262,7 @@ fn principal(I_B: &Matrix3<f64>) -> Matrix3<f64> {
     axes
 }
 
-/// What changes a body's velocities, as sums of series: world axes, and principal axes about the centre of mass.
+/// Accelerations of a body's velocities, as sums of series: world axes, and principal axes about the centre of mass.
 struct Driven {
     acceleration: Vec<(f64, Id)>,
     torque: Vec<(f64, Id)>,
@@ -321,7 +321,7 @@ impl Driven {
         }
     }
 
-    /// Of the centre of mass, and the angular one.
+    /// Acceleration of the centre of mass, and the angular one.
     fn accelerations(&mut self, tape: &mut Tape) -> [Id; 2] {
         let acceleration = tape.sum(std::mem::take(&mut self.acceleration));
         let mut turning: Vec<(f64, Id)> = self.spin.iter().map(|spin| (1.0, *spin)).collect();

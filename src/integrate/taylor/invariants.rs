@@ -19,7 +19,7 @@ pub struct Invariants {
 }
 
 impl Invariants {
-    /// Of a start, in principal axes.
+    /// Invariants of a start, in principal axes.
     pub fn new(I: &Vector3<f64>, w_P: &Vector3<f64>, q_WP: &UnitQuaternion<f64>) -> Self {
         let mut invariants = Invariants {
             I: *I,
@@ -31,7 +31,8 @@ impl Invariants {
         invariants
     }
 
-    /// The nearest ω that has them, and the attitude nearest to the one given at which L is where it was.
+    /// Restores the invariants: the nearest ω that has them, and the attitude nearest to the one given at which L is
+    /// where it was.
     pub fn restore(&self, w_P: &mut Vector3<f64>, q_WP: &mut UnitQuaternion<f64>) {
         let m = w_P.iamax();
         // Newton's method, from what one expansion has left: it squares, and a change this small leaves nothing.

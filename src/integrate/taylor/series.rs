@@ -5,29 +5,30 @@ use super::equations::Equations;
 use crate::model::Model;
 use crate::work::Work;
 
-/// Expansions in one step of the clock; then it is given up.
+/// Most expansions in one step of the clock, after which it is given up.
 const MOST: u32 = 1_000_000;
 
 pub struct Taylor {
     tolerance: f64,
-    /// Of the highest term.
+    /// Number of the highest term.
     order: usize,
     equations: Equations,
-    /// Start and end of the present expansion.
+    /// Start and end of the present expansion, in seconds.
     reach_s: Option<[f64; 2]>,
 }
 
 impl Taylor {
-    /// At the step that costs least terms shrink by e² from one to the next, whatever the tolerance, which asks for
-    /// 1 − ½ log ε of them (Jorba & Zou, 3.1); as many more as pay for what every expansion costs once.
+    /// Series for a tolerance. At the step that costs least terms shrink by e² from one to the next, whatever the
+    /// tolerance, which asks for 1 − ½ log ε of them (Jorba & Zou, 3.1); as many more as pay for what every expansion
+    /// costs once.
     pub fn new(tolerance: f64, island: &Chain, model: &Model) -> Self {
-        /// Measured on a free top at 1e-12: 0 more take 1.3 times as long, 8 more 1.03 times.
+        /// Number of terms more. Measured on a free top at 1e-12: 0 more take 1.3 times as long, 8 more 1.03 times.
         const MORE: f64 = 5.0;
         let order = (1.0 - libm::log(tolerance) / 2.0 + MORE).ceil().clamp(4.0, super::tape::HIGHEST as f64) as usize;
         Taylor { tolerance, order, equations: Equations::new(island, model), reach_s: None }
     }
 
-    /// One step of the clock. False: no expansion reaches far enough to get on.
+    /// Takes an island over one step of the clock. False where no expansion reaches far enough to get on.
     pub fn step(&mut self, island: &mut Chain, model: &Model, [t_s, step_s]: [f64; 2], work: &mut Work) -> bool {
         let end_s = t_s + step_s;
         for _ in 0..MOST {
@@ -63,7 +64,7 @@ impl Taylor {
         *self.reach_s.insert([t_s, t_s + self.reach(self.order).min(self.reach(self.order - 1))])
     }
 
-    /// Where term k has grown to a part of the tolerance: the terms left out are together about as large.
+    /// Time after which term k has grown to a part of the tolerance: the terms left out are together about as large.
     fn reach(&self, k: usize) -> f64 {
         /// Brings the error of an expansion to that of a step of `dop853`.
         const PART: f64 = 0.1;

@@ -8,11 +8,11 @@
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 
-/// Coefficients 0 … `HIGHEST` of a series.
+/// Number of the highest coefficient of a series, the first being 0.
 pub const HIGHEST: usize = 31;
 const STRIDE: usize = HIGHEST + 1;
 
-/// Of a series.
+/// Number of a series on its tape.
 pub type Id = usize;
 
 /// A vector and 0, or a quaternion.
@@ -120,7 +120,7 @@ impl Tape {
         self.rotated_by(q, a, 2.0)
     }
 
-    /// R(q)ᵀ a: the same with −v.
+    /// R(q)ᵀ a, which is R(q) a with −v.
     pub fn rotated_back(&mut self, q: Id, a: Id) -> Id {
         self.rotated_by(q, a, -2.0)
     }
@@ -131,17 +131,17 @@ impl Tape {
         self.sum(vec![(1.0, a), (twice, wt), (2.0, vt)])
     }
 
-    /// `out` is the integral of `of`; coefficient 0 is `set`.
+    /// Makes `out` the integral of `of`; coefficient 0 is `set`.
     pub fn integrate(&mut self, of: Id, out: Id) {
         self.integrals.push(Integral { of, out });
     }
 
-    /// Operations so far.
+    /// Number of operations so far.
     pub fn operations(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Coefficient `k` of the results of these operations, at the time `t_s`.
+    /// Works out coefficient `k` of the results of these operations, at the time `t_s`.
     pub fn evaluate(&mut self, range: std::ops::Range<usize>, k: usize, t_s: f64) {
         for (node, out) in &self.nodes[range] {
             let of = |id: &Id| -> &[Four] { &self.coefficients[id * STRIDE..][..=k] };
@@ -172,7 +172,7 @@ impl Tape {
         }
     }
 
-    /// Coefficients k + 1 of all integrals.
+    /// Works out coefficients k + 1 of all integrals.
     pub fn advance(&mut self, k: usize) {
         let part = 1.0 / (k + 1) as f64;
         for Integral { of, out } in &self.integrals {
@@ -188,7 +188,7 @@ impl Tape {
         self.coefficients[id * STRIDE + k] = (*value).into();
     }
 
-    /// Of a vector.
+    /// Coefficient of a vector.
     pub fn coefficient(&self, id: Id, k: usize) -> Vector3<f64> {
         vector(&self.coefficients[id * STRIDE + k])
     }

@@ -1,4 +1,4 @@
-//! What an .rrd says once, before the first sample: layout, names, surfaces, colours, configuration.
+//! Head of an .rrd, once, before the first sample: layout, names, surfaces, colours, configuration.
 
 use super::layout;
 use super::names::{
@@ -22,13 +22,16 @@ const ARROW_RADIUS: f32 = 2.0;
 const LINE_RADIUS: f32 = 1.0;
 const PLOT_WIDTH: f32 = 1.5;
 
-/// Up to this many triangles a body is shaded by facet, 72 bytes each; above, corners are shared, half of that.
+/// Most triangles of a body that is shaded by facet, 72 bytes each; above, corners are shared, half of that.
 const FACETED_TRIANGLES: usize = 20_000;
 
 /// Opacity of bodies, of 255: the forces on a body mostly point into it and should be seen.
 const BODY_ALPHA: u8 = 190;
 
-/// The recording's name and its first messages. `bodies`: the bodies' entities, in the header's order.
+/// Name and first messages of the recording. `bodies` are the bodies' entities, in the header's order.
+///
+/// # Errors
+/// Rerun's own.
 pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
     let (stream, memory) = stream(&recording_id(header))?;
     let store = memory.store_id().ok_or("Rerun made no recording")?;
@@ -48,12 +51,13 @@ pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<
     Ok((store, messages))
 }
 
-/// Cases of another build have the same id; the viewer would merge recordings that share one.
+/// Id of the recording, with the build in it: cases of another build have the same id, and the viewer would merge
+/// recordings that share one.
 pub fn recording_id(header: &Header) -> String {
     format!("{} {}", header.case, header.build)
 }
 
-/// What the end of a run adds to the recording of this id: its name, and how the run ended.
+/// Messages that the end of a run adds to the recording of this id: its name, and how the run ended.
 pub fn ending(
     recording_id: &str,
     name: &RecordingName,

@@ -12,14 +12,17 @@ use ::rerun::log::LogMsg;
 use ::rerun::{AsComponents, RecordingStreamBuilder, StoreId};
 use std::error::Error;
 
-/// Where the camera stands, seen from the container's centre, in diagonals of the container: in front, to the right,
-/// above, far enough for all of it.
+/// Place of the camera, seen from the container's centre, in diagonals of the container: in front, to the right, above,
+/// far enough for all of it.
 const EYE: [f64; 3] = [0.48, 0.36, 0.90];
 
 /// A plot, and whether it has more than one line.
 type Plot = (TimeSeriesView, bool);
 
 /// The layout as messages of a blueprint store, complete with its activation.
+///
+/// # Errors
+/// Rerun's own.
 pub fn messages(header: &Header) -> Result<Vec<LogMsg>, Box<dyn Error>> {
     let mut properties = Properties::default();
     let scene: ContainerLike = Spatial3DView::new("scene").with_origin(WORLD).into();
@@ -60,7 +63,7 @@ impl Properties {
         }
     }
 
-    /// As messages of the layout's store.
+    /// Messages of the layout's store.
     fn messages(&self, store: &StoreId) -> Result<Vec<LogMsg>, Box<dyn Error>> {
         let builder = RecordingStreamBuilder::from_store_id(store).enabled(true).send_properties(false);
         let (stream, memory) = builder.memory()?;

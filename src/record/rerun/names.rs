@@ -3,7 +3,7 @@
 use crate::record::schema::Series;
 use ::rerun::EntityPath;
 
-/// Application id: recordings of one application share a layout and are listed together.
+/// Id of the application: recordings of one application share a layout and are listed together.
 pub const APPLICATION: &str = "gotai";
 
 /// Timelines: simulated time, and the number of the step.
@@ -23,7 +23,7 @@ pub const CONTACT_FORCE: &str = "/contact/force";
 pub const LOG: &str = "/log";
 pub const CONFIG: &str = "/config";
 
-/// Penetration has a plot of its own: it is a length.
+/// Entity of a plotted energy. Penetration has a plot of its own: it is a length.
 pub fn energy_path(series: &Series) -> EntityPath {
     match series.name {
         "penetration" => PENETRATION.into(),

@@ -40,7 +40,7 @@ pub enum Acted<'a> {
     /// An impact, which takes no time and changes velocities alone.
     Blow { contacts: &'a [SolvedContact] },
     /// Forces all along the way.
-    Motion(&'a dyn Moments),
+    Motion(&'a dyn Smooth),
 }
 
 /// The way of a step that is known at every time in it.
@@ -52,7 +52,7 @@ pub trait Passage {
 }
 
 /// What acts along the way of a step.
-pub trait Moments {
+pub trait Smooth {
     /// States and forces on the way between two states of it, for a quadrature.
     fn moments(&self, model: &Model, span: [&State; 2]) -> Vec<Moment>;
 }

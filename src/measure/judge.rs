@@ -45,20 +45,20 @@ pub struct Judge {
     moment_s: f64,
     exchange: Exchange,
     dissipation: Dissipation,
-    instant: Instant,
+    impacts: Impacts,
     /// Between two steps.
     middle: State,
 }
 
 /// Impacts at one instant, which the law of contact judges as one.
-struct Instant {
+struct Impacts {
     /// None of them yet.
     is_empty: bool,
     before: State,
     contacts: Vec<SolvedContact>,
 }
 
-impl Instant {
+impl Impacts {
     fn add(&mut self, before: &State, contacts: &[SolvedContact]) {
         if std::mem::take(&mut self.is_empty) {
             self.before.copy_from(before);
@@ -93,7 +93,7 @@ impl Judge {
             moment_s: moment_s(model),
             exchange: Exchange::with_capacity(bodies, plan.contacts),
             dissipation: Dissipation::with_capacity(bodies),
-            instant: Instant { is_empty: true, before: start.clone(), contacts: Vec::new() },
+            impacts: Impacts { is_empty: true, before: start.clone(), contacts: Vec::new() },
             middle: start.clone(),
         }
     }
@@ -157,14 +157,14 @@ impl Judge {
         self.add_driven(model, before, contacts, &mut done);
         self.momentum.observe_pushes(model, before, &self.exchange.pushes, 1.0);
         self.watched.observe(before, contacts);
-        self.instant.add(before, contacts);
+        self.impacts.add(before, contacts);
         (done, self.observe_contacts(contacts))
     }
 
     /// The impacts of an instant that is over.
     fn end_instant(&mut self, model: &Model, after: &State) {
-        if !std::mem::replace(&mut self.instant.is_empty, true) {
-            let Instant { before, contacts, .. } = &self.instant;
+        if !std::mem::replace(&mut self.impacts.is_empty, true) {
+            let Impacts { before, contacts, .. } = &self.impacts;
             self.exchange.look(model, [before, after], contacts, Over::Step(0.0));
             self.residual.observe(model, contacts, &self.exchange, AT_ONCE);
         }

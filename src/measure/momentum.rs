@@ -1,7 +1,6 @@
 //! Linear momentum, and angular momentum about the centre of mass of all bodies: what is left of their change after
-//! gravity, applied forces and the contacts' impulses have been taken off. 0 for a method that conserves it. It is
-//! relative to what there was at the start, Σ m|v| and Σ(|Iω| + |r × mv|), and the sizes of all that was given and taken
-//! since.
+//! gravity, loads and the impulses of contacts have been taken off. 0 for a method that conserves it. It is relative to
+//! what there was at the start, Σ m|v| and Σ(|Iω| + |r × mv|), and the sizes of all that was given and taken since.
 //!
 //! A pin to the world takes momentum, and how much only the solver knows. What is left to judge is the angular momentum
 //! about the pin along gravity (a heavy top's L_z; without gravity all of it). Two such points leave nothing.

@@ -22,7 +22,7 @@ use crate::math::quadrature;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::plan::Plan;
-use crate::shown::{Acted, ContactForce, Moment, Moments, Passage};
+use crate::shown::{Acted, ContactForce, Moment, Passage, Smooth};
 use crate::state::State;
 use crate::work::Work;
 use std::cell::RefCell;
@@ -473,7 +473,7 @@ impl Passage for EventDriven {
     }
 }
 
-impl Moments for EventDriven {
+impl Smooth for EventDriven {
     /// At the nodes of Gauss's quadrature with five points.
     fn moments(&self, model: &Model, [before, after]: [&State; 2]) -> Vec<Moment> {
         let span_s = after.time_s - before.time_s;

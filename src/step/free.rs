@@ -11,7 +11,7 @@ use crate::integrate::{
 };
 use crate::math::quadrature;
 use crate::model::Model;
-use crate::shown::{Moment, Moments};
+use crate::shown::{Moment, Smooth};
 use crate::state::State;
 use crate::work::Work;
 use nalgebra::Vector3;
@@ -68,7 +68,7 @@ impl Free {
     }
 
     /// The way of the last step, where its ends do not show all.
-    pub(super) fn shown_way(&self) -> Option<&dyn Moments> {
+    pub(super) fn shown_way(&self) -> Option<&dyn Smooth> {
         self.shows_way.then_some(self)
     }
 
@@ -104,7 +104,7 @@ fn shows_way(settings: &Settings, model: &Model) -> bool {
     !is_exact && (model.has_driven_pins() || is_controlled && model.has_varying_loads())
 }
 
-impl Moments for Free {
+impl Smooth for Free {
     fn moments(&self, model: &Model, [before, after]: [&State; 2]) -> Vec<Moment> {
         let mut follower = self.follower.borrow_mut();
         let follower = follower.get_or_insert_with(|| Box::new(Free::new(&self.settings, model, &self.start)));

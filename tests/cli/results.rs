@@ -48,7 +48,7 @@ fn a_folder_tells_its_question_and_shows_a_case_again() {
     );
     // The plan holds the axes, experiment.yaml makes the same plan again.
     let plan: Value = serde_json::from_slice(&std::fs::read(folder.path().join("plan.json")).unwrap()).unwrap();
-    assert_eq!((&plan["format"], plan.get("cases")), (&2.into(), None));
+    assert_eq!((&plan["format"], plan.get("cases")), (&3.into(), None));
     assert_eq!(plan["axes"][0], value!({ "path": "scene.bodies.body", "values": ["cube 125", "ico 162"] }));
     let kept = folder.path().join("experiment.yaml");
     let again = json(&["sweep", kept.to_str().unwrap(), "--out", out, "--json", "--record", "mcap"]);
@@ -263,7 +263,7 @@ fn parquet_says_question_units_program_and_format() {
     let said = file.metadata().file_metadata().key_value_metadata().unwrap();
     let said: BTreeMap<_, _> = said.iter().map(|said| (said.key.as_str(), said.value.clone().unwrap())).collect();
     assert_eq!(said["question"], "Which mesh explodes at which time step?");
-    assert_eq!((said["program"].as_str(), said["format"].as_str()), (gotai::build_info::PROGRAM, "2"));
+    assert_eq!((said["program"].as_str(), said["format"].as_str()), (gotai::build_info::PROGRAM, "3"));
     assert_eq!(said["rows_hash"], json(&["status", out, "--json"])["rows_hash"].as_str().unwrap());
     let units: Value = serde_json::from_str(&said["units"]).unwrap();
     for (column, unit) in [("time.step_s", "s"), ("energy_start_j", "J"), ("penetration_max_m", "m"), ("wall_s", "s")] {

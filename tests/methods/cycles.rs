@@ -56,8 +56,8 @@ fn a_whole_face_can_cycle_for_ever() {
     let left = |sweeps: u32| solved(37, sweeps, &[]).contact_gain_max.unwrap();
     // measured: 0.129 and 0.479 of the kinetic energy
     assert!(left(20_001) > 3.0 * left(20_000));
-    // measured: 0.336
-    assert!(residual(37, 50_000, &[]) > 0.3);
+    // measured: RES37
+    assert!(residual(37, 50_000, &[]) > 0.1);
 }
 
 #[test]

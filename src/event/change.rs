@@ -35,6 +35,9 @@ impl Looking<'_> {
         let mut low_s = from_s;
         for look in 1..=LOOKS {
             let high_s = from_s + (to_s - from_s) * f64::from(look) / f64::from(LOOKS);
+            if self.forces.deadline.is_over() {
+                return None;
+            }
             if self.has_changed(high_s) {
                 let t_s = self.when(low_s, high_s);
                 return Some((t_s, self.what(t_s)));
@@ -73,7 +76,7 @@ impl Looking<'_> {
     /// Bisection: the first moment after the change, to the last bit but some.
     fn when(&mut self, mut low_s: f64, mut high_s: f64) -> f64 {
         let width_s = (high_s - low_s) * 1e-14;
-        while high_s - low_s > width_s.max(f64::EPSILON * high_s) {
+        while high_s - low_s > width_s.max(f64::EPSILON * high_s) && !self.forces.deadline.is_over() {
             let middle_s = 0.5 * (low_s + high_s);
             if self.has_changed(middle_s) {
                 high_s = middle_s;

@@ -213,7 +213,7 @@ fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], slow: &[bool],
         }
     }
     let mut p = vec![Impulse::zeros(); problem.blocks.len()];
-    if !newton::solve_evenly(&problem, MOST, &mut p, work) {
+    if !newton::solve_evenly(&problem, &newton::to_rounding(MOST, forces.deadline), &mut p, work) {
         return Decision::Unsolved;
     }
     forces.problem.response(&p, &mut forces.added);

@@ -137,6 +137,9 @@ impl Dense {
                 self.finish(field, tried_s);
                 return true;
             }
+            if field.forces.deadline.is_over() {
+                return false;
+            }
             failed = true;
             self.wanted_s = if error.is_finite() { tried_s * factor } else { tried_s / 5.0 };
             if self.wanted_s <= SHORTEST * self.t_s.abs().max(left_s) {

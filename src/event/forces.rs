@@ -9,6 +9,7 @@
 use super::touch::{Here, Touch};
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
+use crate::deadline::Deadline;
 use crate::integrate::rotation::gyroscopic_torque_B;
 use crate::math::full_pivot::{Eliminated, Selection};
 use crate::model::pins::Anchor;
@@ -79,6 +80,8 @@ pub struct Forces {
     pub added: Vec<Twist>,
     contacts: Vec<Contact>,
     pins: Vec<Pin>,
+    /// What is not solved by then is not.
+    pub deadline: Deadline,
 }
 
 /// Slower, of the speeds that meet at a contact, is no slip, and no approach.
@@ -211,7 +214,7 @@ impl Forces {
     pub fn solve(&mut self, choice: Selection) -> bool {
         self.p.clear();
         self.p.resize(self.problem.blocks.len(), Impulse::zeros());
-        let solved = solve(&self.problem, &self.rows, choice, &mut self.p);
+        let solved = solve(&self.problem, &self.rows, choice, &mut self.p, self.deadline);
         self.problem.response(&self.p, &mut self.added);
         solved
     }
@@ -259,7 +262,7 @@ fn free_acceleration(model: &Model, state: &State, index: usize) -> Twist {
     Twist { v, w }
 }
 
-fn solve(problem: &ContactProblem, rows: &[Rows], choice: Selection, p: &mut [Impulse]) -> bool {
+fn solve(problem: &ContactProblem, rows: &[Rows], choice: Selection, p: &mut [Impulse], deadline: Deadline) -> bool {
     if let ([Rows::Normal(edge)], [block]) = (rows, &problem.blocks[..]) {
         let k = block.A.row(0).transpose().dot(edge);
         p[0] = edge * (-block.b.x / k);
@@ -280,12 +283,15 @@ fn solve(problem: &ContactProblem, rows: &[Rows], choice: Selection, p: &mut [Im
     }
     let mut K = DMatrix::zeros(n, n);
     for (r, (i, _, k)) in unknowns.iter().enumerate() {
+        if deadline.is_over() {
+            return false;
+        }
         for (c, (j, along, _)) in unknowns.iter().enumerate() {
             K[(r, c)] = problem.coupling(*i, *j).row(*k).transpose().dot(along);
         }
     }
     let rhs = DVector::from_iterator(n, unknowns.iter().map(|(i, _, k)| -problem.blocks[*i].b[*k]));
-    let Some(x) = solution(&K, &rhs, choice) else { return false };
+    let Some(x) = solution(&K, &rhs, choice, deadline) else { return false };
     for ((i, along, _), x) in unknowns.iter().zip(x.iter()) {
         p[*i] += along * *x;
     }
@@ -297,8 +303,8 @@ fn solve(problem: &ContactProblem, rows: &[Rows], choice: Selection, p: &mut [Im
 const CONSISTENT: f64 = 1e-9;
 
 /// Once more for what rounding has left.
-fn solution(K: &DMatrix<f64>, rhs: &DVector<f64>, choice: Selection) -> Option<DVector<f64>> {
-    let eliminated = Eliminated::new(K.clone());
+fn solution(K: &DMatrix<f64>, rhs: &DVector<f64>, choice: Selection, deadline: Deadline) -> Option<DVector<f64>> {
+    let eliminated = Eliminated::new(K.clone(), deadline)?;
     let x = eliminated.solve(rhs, choice)?;
     let again = eliminated.solve(&(rhs - K * &x), choice)?;
     Some(x + again)

@@ -5,6 +5,7 @@
 
 use super::forces::Forces;
 use crate::collide::{Contact, SolvedContact};
+use crate::deadline::Deadline;
 use crate::experiment::types::Impact;
 use crate::model::Model;
 use crate::solve::block::Block;
@@ -30,7 +31,7 @@ pub fn strike(
     work: &mut Work,
 ) -> bool {
     forces.gather_plain(model, state, contacts);
-    let problem = &mut forces.problem;
+    let (problem, deadline) = (&mut forces.problem, forces.deadline);
     forces.p.clear();
     forces.p.resize(problem.blocks.len(), Impulse::zeros());
     let ended = match law {
@@ -40,13 +41,13 @@ pub fn strike(
                 block.b.x -= rebound;
                 block.least = rebound;
             }
-            plastic(problem, &mut forces.p, work)
+            plastic(problem, &mut forces.p, deadline, work)
         }
         Impact::Poisson | Impact::Sequential => {
             let restitution: Vec<f64> = contacts.iter().map(|contact| contact.restitution).collect();
             let law = if law == Impact::Poisson { Law::Poisson } else { Law::Sequential };
-            let mut solver = |problem: &ContactProblem, p: &mut [Impulse]| plastic(problem, p, work);
-            resolve(law, problem, &restitution, &mut solver, &mut forces.p)
+            let mut solver = |problem: &ContactProblem, p: &mut [Impulse]| plastic(problem, p, deadline, work);
+            resolve(law, problem, &restitution, &mut solver, deadline, &mut forces.p)
         }
     };
     apply(model, state, forces, contacts, solved);
@@ -54,14 +55,14 @@ pub fn strike(
 }
 
 /// Without restitution, from nothing.
-fn plastic(problem: &ContactProblem, p: &mut [Impulse], work: &mut Work) -> bool {
+fn plastic(problem: &ContactProblem, p: &mut [Impulse], deadline: Deadline, work: &mut Work) -> bool {
     if let [block] = &problem.blocks[..]
         && block.pin.is_none()
     {
         p[0] = exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
         return true;
     }
-    newton::solve_evenly(problem, MOST, p, work)
+    newton::solve_evenly(problem, &newton::to_rounding(MOST, deadline), p, work)
 }
 
 /// Of the slip: an approach that is none.
@@ -83,7 +84,7 @@ pub fn jam(
     let slip = forces.problem.blocks.iter().map(|block| block.b.yz().norm()).fold(0.0, f64::max);
     let mut hinted = forces.problem.clone();
     hinted.blocks.iter_mut().for_each(|block| block.b.x -= HINT * slip);
-    let mut ended = plastic(&hinted, &mut forces.p, work);
+    let mut ended = plastic(&hinted, &mut forces.p, forces.deadline, work);
     match &forces.problem.blocks[..] {
         [only] if only.pin.is_none() => {
             let stopping = only.A.try_inverse().map(|inverse| -inverse * only.b);
@@ -92,8 +93,8 @@ pub fn jam(
         }
         blocks => {
             let mut scratch = Scratch::with_capacity(blocks.len(), 0);
-            ended =
-                ended && newton::solve(&forces.problem, &newton::to_rounding(MOST), &mut forces.p, &mut scratch, work);
+            let goal = newton::to_rounding(MOST, forces.deadline);
+            ended = ended && newton::solve(&forces.problem, &goal, &mut forces.p, &mut scratch, work);
         }
     }
     let change = |(block, p): (&Block, &Impulse)| (block.A * p).norm();

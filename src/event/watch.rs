@@ -13,6 +13,7 @@ use super::dense::Dense;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::motion::{Bounds, Motion};
 use crate::collide::{Contact, faces};
+use crate::deadline::Deadline;
 use crate::model::container::Face;
 use crate::model::{Body, Geometry, Model};
 use crate::shape::pair::touches;
@@ -27,6 +28,7 @@ pub struct Paths<'a> {
     pub model: &'a Model,
     pub motions: &'a [Motion],
     pub dense: Option<&'a Dense>,
+    pub deadline: Deadline,
 }
 
 impl Paths<'_> {
@@ -111,7 +113,8 @@ pub struct Window {
     pub to_s: f64,
 }
 
-/// The earliest time in the window at which something that is not held touches; none: nothing does.
+/// The earliest time in the window at which something that is not held touches; none: nothing does, or
+/// it is too late to say.
 pub fn first(paths: &Paths, held: &[Held], window: Window, work: &mut Work) -> Option<f64> {
     let mut window = window;
     let mut found = None;
@@ -142,10 +145,13 @@ pub fn first(paths: &Paths, held: &[Held], window: Window, work: &mut Work) -> O
     found
 }
 
-/// Goes from look to look. `look`: None, nothing is to be seen any more.
-fn march(window: Window, mut look: impl FnMut(f64) -> Option<(f64, bool)>) -> Option<f64> {
+/// Goes from look to look, up to the deadline. `look`: None, nothing is to be seen any more.
+fn march(window: Window, deadline: Deadline, mut look: impl FnMut(f64) -> Option<(f64, bool)>) -> Option<f64> {
     let mut t_s = window.from_s;
     for _ in 0..MOST {
+        if deadline.is_over() {
+            return None;
+        }
         let (safe_s, touching) = look(t_s)?;
         if touching {
             return Some(t_s);
@@ -177,7 +183,7 @@ fn with_face(
     }
     let arm_m = arm_m(body);
     let delta = |at: &BodyState| delta_m(radius_m, at.p_WB.amax() + radius_m);
-    march(window, |t_s| {
+    march(window, paths.deadline, |t_s| {
         let at = paths.at(i, t_s);
         work.contact_tests += 1;
         let delta_m = delta(&at);
@@ -265,7 +271,7 @@ fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Windo
     let toward_m_s2 = between + size(&bounds[0], arms[0]) + size(&bounds[1], arms[1]);
     let points_toward = between + size(&bounds[0], sizes[0]) + size(&bounds[1], sizes[1]);
     let mut found: Vec<Found> = Vec::new();
-    march(window, |t_s| {
+    march(window, paths.deadline, |t_s| {
         let at = pair.map(|i| paths.at(i, t_s));
         work.contact_tests += 1;
         let delta_m = delta_m(sizes[0].min(sizes[1]), at[0].p_WB.amax().max(at[1].p_WB.amax()) + sizes[0]);

@@ -6,6 +6,7 @@ use super::chain::Chain;
 use super::dop853_tableau::{A, B, B3, E5};
 use super::field::{Field, advanced, sum};
 use super::phase::{Phase, phase, state};
+use crate::deadline::Deadline;
 use crate::model::Model;
 use crate::work::Work;
 
@@ -67,11 +68,11 @@ impl Scratch {
     }
 }
 
-/// One step of the clock. False: no inner step reaches the tolerance, and the island is left on the way.
+/// One step of the clock. False: no inner step reaches the tolerance, or time is up, and the island is left on the way.
 pub fn step(
     island: &mut Chain,
     model: &Model,
-    [t_s, step_s]: [f64; 2],
+    ([t_s, step_s], deadline): ([f64; 2], Deadline),
     control: &mut Control,
     scratch: &mut Scratch,
     work: &mut Work,
@@ -84,7 +85,7 @@ pub fn step(
         let now_s = t_s + (step_s - left_s);
         let error = attempt(&mut Field { island, model, work }, [now_s, tried_s], control.tolerance, scratch);
         failed = !control.judge(error, tried_s, failed);
-        if failed && control.inner_s <= 16.0 * f64::EPSILON * step_s {
+        if (failed && control.inner_s <= 16.0 * f64::EPSILON * step_s) || deadline.is_over() {
             break;
         }
         if !failed {

@@ -6,6 +6,7 @@
 use super::stretch::{self, Stretch};
 use crate::collide::approach::Approach;
 use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
+use crate::deadline::Deadline;
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, decide, margin};
 use crate::event::dense::{Dense, Field, project};
@@ -84,6 +85,8 @@ pub struct EventDriven {
     /// Steps of equal length instead.
     stretch: Option<Stretch>,
     span: Span,
+    /// A step that takes longer is not made.
+    deadline: Deadline,
     pub(super) stalled: Option<Criterion>,
     pub(super) solved: Vec<SolvedContact>,
     pub(super) work: Work,
@@ -131,6 +134,7 @@ impl EventDriven {
             trouble: false,
             stretch: None,
             span: Span::Motion,
+            deadline: Deadline::default(),
             stalled: None,
             solved: Vec::with_capacity(16),
             work: Work::default(),
@@ -140,6 +144,20 @@ impl EventDriven {
     pub fn step(&mut self, model: &Model, state: &mut State, end_s: f64) {
         if self.stretch.is_some() || !self.step_to_event(model, state, end_s) {
             self.step_of_stretch(model, state, end_s);
+        }
+        // Whatever was left in the middle of it asked the same clock before.
+        if self.deadline.is_over() {
+            self.stalled = Some(Criterion::Limit);
+        }
+    }
+
+    /// Steps from now on have time until then.
+    pub fn hurry(&mut self, deadline: Deadline) {
+        self.deadline = deadline;
+        self.forces.get_mut().deadline = deadline;
+        self.placing.deadline = deadline;
+        if let Some(stretch) = &mut self.stretch {
+            stretch.hurry(deadline);
         }
     }
 
@@ -196,7 +214,9 @@ impl EventDriven {
 
     fn begin_stretch(&mut self, model: &Model, state: &State) {
         self.work.fallbacks += 1;
-        self.stretch = Some(Stretch::new(self.law, model, state));
+        let mut stretch = Stretch::new(self.law, model, state);
+        stretch.hurry(self.deadline);
+        self.stretch = Some(stretch);
         self.motions.clear();
         self.held.clear();
         self.dense = None;
@@ -374,7 +394,7 @@ impl EventDriven {
             (to_s, self.next) = (t_s, Event::Change(Change::default()));
         }
         if self.held.iter().any(|held| self.dense.is_some() || held.touch.is_bounded()) {
-            let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref() };
+            let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref(), deadline: self.deadline };
             let (forces, at, work) = (self.forces.get_mut(), &mut self.scratch, &mut self.work);
             let mut looking = Looking { paths, held: &self.held, forces, at, work };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
@@ -383,7 +403,7 @@ impl EventDriven {
         }
         // Last: beyond the border of a face others touch that are not held.
         if self.contact {
-            let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref() };
+            let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref(), deadline: self.deadline };
             let window = Window { from_s: state.time_s, to_s };
             if let Some(t_s) = watch::first(&paths, &self.held, window, &mut self.work) {
                 (to_s, self.next) = (t_s, Event::Impact);
@@ -452,7 +472,7 @@ impl EventDriven {
 impl Passage for EventDriven {
     /// Within the last stretch.
     fn state_at(&self, model: &Model, state: &mut State) {
-        let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref() };
+        let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref(), deadline: self.deadline };
         if !self.motions.is_empty() {
             (0..state.bodies.len()).for_each(|i| state.bodies[i] = paths.at(i, state.time_s));
         }
@@ -462,7 +482,8 @@ impl Passage for EventDriven {
         if let Span::Short { step_s } = self.span {
             return self.solved.iter().map(|solved| ContactForce::mean(solved, step_s)).collect();
         }
-        if self.held.is_empty() {
+        // What a step holds that was not made is not known.
+        if self.held.is_empty() || self.stalled == Some(Criterion::Limit) {
             return Vec::new();
         }
         let mut forces = self.forces.borrow_mut();

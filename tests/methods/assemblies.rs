@@ -3,6 +3,7 @@
 use crate::yaml::experiment;
 use gotai::collide::approach::Approach;
 use gotai::collide::{Contact, SolvedContact};
+use gotai::deadline::Deadline;
 use gotai::experiment::types::{Cone, Correction, Iteration, Solver};
 use gotai::measure::Push;
 use gotai::measure::residual::ResidualLedger;
@@ -145,6 +146,7 @@ pub fn sweeps(most: u32, tolerance: f64, friction: bool) -> Sweeps {
         tolerance,
         friction,
         variant: Variant::default(),
+        deadline: Deadline::default(),
     }
 }
 

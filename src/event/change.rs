@@ -49,7 +49,7 @@ impl Looking<'_> {
 
     fn has_changed(&mut self, t_s: f64) -> bool {
         self.look(t_s);
-        self.has_left() || (self.paths.dense.is_some() && (self.slip_left() < 0.0 || self.force_left() < PULL))
+        self.has_left() || (!self.paths.dense.is_empty() && (self.slip_left() < 0.0 || self.force_left() < PULL))
     }
 
     /// A face or an edge, at its border.
@@ -91,7 +91,7 @@ impl Looking<'_> {
     fn what(&mut self, t_s: f64) -> Change {
         let mut change = Change::default();
         self.look(t_s);
-        if self.paths.dense.is_none() || self.force_left() >= PULL {
+        if self.paths.dense.is_empty() || self.force_left() >= PULL {
             return change;
         }
         let largest = self.forces.p.iter().map(|p| p.norm()).fold(0.0, f64::max);

@@ -6,7 +6,7 @@
 //! smallest displacement and change of velocity (E. Eich 1993; `project`).
 
 use super::forces::{Forces, Held, Rows};
-use super::motion::{Bounds, Motion};
+use super::motion::{Bounds, Course, Motion};
 use crate::integrate::dop853_tableau::{A, B, B3, D, E5, EXTRA};
 use crate::integrate::field::{advanced, sum};
 use crate::integrate::phase::{Phase, phase, state};
@@ -35,10 +35,8 @@ impl Field<'_> {
     fn at(&mut self, t_s: f64, bodies: &[usize], y: &[Phase], rates: &mut [Phase]) {
         self.state.time_s = t_s;
         for (i, motion) in self.motions.iter().enumerate() {
-            if let Motion::Driven(..) = motion
-                && let Some(at) = motion.at(t_s)
-            {
-                self.state.bodies[i] = at;
+            if let Motion::Closed(course @ Course::Driven(..)) = motion {
+                self.state.bodies[i] = course.at(t_s);
             }
         }
         bodies.iter().zip(y).for_each(|(i, y)| self.state.bodies[*i] = state(y));
@@ -63,11 +61,11 @@ fn rate_of(at: &BodyState, y: &Phase, acceleration: &Twist) -> Phase {
     rate
 }
 
-#[derive(Clone, Debug)]
+/// The bodies of an integrator, and its last step; most often there is none.
+#[derive(Clone, Debug, Default)]
 pub struct Dense {
-    /// Which bodies, and of every body of the model its place among them.
+    /// Of the model, in the order of their places here.
     pub bodies: Vec<usize>,
-    place: Vec<Option<usize>>,
     tolerance: f64,
     pub t_s: f64,
     pub h: f64,
@@ -85,8 +83,6 @@ const SHORTEST: f64 = 1e-13;
 
 impl Dense {
     pub fn new(model: &Model, bodies: Vec<usize>, at: &State, tolerance: f64) -> Self {
-        let mut place = vec![None; model.bodies.len()];
-        bodies.iter().enumerate().for_each(|(k, i)| place[*i] = Some(k));
         let n = bodies.len();
         let y = bodies.iter().map(|i| phase(&at.bodies[*i])).collect();
         let rate = |i: &usize| {
@@ -97,7 +93,6 @@ impl Dense {
         let fastest = bodies.iter().map(rate).fold(0.0, f64::max);
         Dense {
             bodies,
-            place,
             tolerance,
             t_s: at.time_s,
             h: 0.0,
@@ -107,6 +102,11 @@ impl Dense {
             k: vec![vec![Phase::zeros(); n]; 16],
             spline: vec![[Phase::zeros(); 8]; n],
         }
+    }
+
+    /// No body needs it.
+    pub fn is_empty(&self) -> bool {
+        self.bodies.is_empty()
     }
 
     /// Goes on from here, with the steps that were right until now.
@@ -193,8 +193,8 @@ impl Dense {
         }
     }
 
-    pub fn at(&self, body: usize, t_s: f64) -> BodyState {
-        let place = self.place[body].unwrap_or_default();
+    /// The body at a place of this integrator, within the last step.
+    pub fn at(&self, place: usize, t_s: f64) -> BodyState {
         let x = if self.h > 0.0 { ((t_s - self.t_s) / self.h).clamp(0.0, 1.0) } else { 0.0 };
         if x == 1.0 {
             return state(&self.end[place]);
@@ -207,9 +207,9 @@ impl Dense {
         state(&y)
     }
 
-    /// Of a body in this step: its polynomial about the middle, coefficient by coefficient.
-    pub fn bounds(&self, body: usize) -> Bounds {
-        let series = self.series(self.place[body].unwrap_or_default());
+    /// Of the body at a place in this step: its polynomial about the middle, coefficient by coefficient.
+    pub fn bounds(&self, place: usize) -> Bounds {
+        let series = self.series(place);
         let part = |k: usize, row: usize| series[k].fixed_rows::<3>(row).norm();
         let half = |k: usize| 0.5_f64.powi(k as i32);
         let h2 = self.h * self.h;

@@ -1,7 +1,7 @@
 //! How bodies move once it is known what holds: which have a closed form, and until when.
 
 use super::forces::{Forces, Held, NO_SLIP};
-use super::motion::Motion;
+use super::motion::{Course, Motion};
 use crate::exact::arc::Arc;
 use crate::model::Model;
 use crate::solve::twist::Twist;
@@ -24,7 +24,11 @@ pub fn settle(
     let resting: Vec<bool> = (0..bodies).map(|i| is_at_rest(model, state, i, forces)).collect();
     let mut settling = Settling { model, held, forces, resting: &resting, ends_s: f64::INFINITY };
     motions.clear();
-    motions.extend((0..model.bodies.len()).map(|i| settling.closed(state, i).unwrap_or(Motion::Dense)));
+    let mut dense = 0;
+    for i in 0..model.bodies.len() {
+        motions.push(settling.closed(state, i).map_or(Motion::Dense(dense), Motion::Closed));
+        dense += usize::from(matches!(motions[i], Motion::Dense(_)));
+    }
     Some(settling.ends_s).filter(|ends_s| ends_s.is_finite())
 }
 
@@ -47,10 +51,10 @@ struct Settling<'a> {
 
 impl Settling<'_> {
     /// None: there is no closed form of it.
-    fn closed(&mut self, state: &mut State, i: usize) -> Option<Motion> {
+    fn closed(&mut self, state: &mut State, i: usize) -> Option<Course> {
         let (body, at) = (&self.model.bodies[i], state.bodies[i]);
         if body.driven {
-            return Some(Motion::Driven(state.time_s, at));
+            return Some(Course::Driven(state.time_s, at));
         }
         if self.model.pins.iter().any(|pin| pin.holds(i)) {
             return None;
@@ -58,14 +62,14 @@ impl Settling<'_> {
         let pull = self.model.constant_pull(i)?;
         let own = || self.held.iter().enumerate().filter(move |(_, held)| held.touch.bodies().any(|b| b == i));
         if own().next().is_none() {
-            return Some(Motion::free(body, state.time_s, &at, pull));
+            return Some(Course::free(body, state.time_s, &at, pull));
         }
         let all_others =
             |rest: &dyn Fn(usize) -> bool| own().all(|(_, held)| held.touch.bodies().all(|b| b == i || rest(b)));
         if self.resting[i] && all_others(&|b| self.resting[b]) {
             state.bodies[i].v_WB = Vector3::zeros();
             state.bodies[i].w_WB = Vector3::zeros();
-            return Some(Motion::Arc(Arc::straight(state.time_s, state.bodies[i], Vector3::zeros())));
+            return Some(Course::Arc(Arc::straight(state.time_s, state.bodies[i], Vector3::zeros())));
         }
         if !all_others(&|b| self.model.bodies[b].driven && self.resting[b]) {
             return None;
@@ -74,7 +78,7 @@ impl Settling<'_> {
             return None;
         }
         let own: Vec<usize> = own().map(|(k, _)| k).collect();
-        self.steady(state, i, &own).map(Motion::Arc)
+        self.steady(state, i, &own).map(Course::Arc)
     }
 
     /// A ball, or a body that does not turn, on what does not move, and every slip keeps its direction: all forces are

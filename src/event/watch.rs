@@ -27,24 +27,22 @@ use nalgebra::Vector3;
 pub struct Paths<'a> {
     pub model: &'a Model,
     pub motions: &'a [Motion],
-    pub dense: Option<&'a Dense>,
+    pub dense: &'a Dense,
     pub deadline: Deadline,
 }
 
 impl Paths<'_> {
     pub fn at(&self, body: usize, t_s: f64) -> BodyState {
-        match (self.motions[body].at(t_s), self.dense) {
-            (Some(at), _) => at,
-            (None, Some(dense)) => dense.at(body, t_s),
-            (None, None) => unreachable!("a body without a motion"),
+        match &self.motions[body] {
+            Motion::Closed(course) => course.at(t_s),
+            Motion::Dense(place) => self.dense.at(*place, t_s),
         }
     }
 
     fn bounds(&self, body: usize, end_s: f64) -> Bounds {
-        match (self.motions[body].bounds(&self.model.bodies[body], end_s), self.dense) {
-            (Some(bounds), _) => bounds,
-            (None, Some(dense)) => dense.bounds(body),
-            (None, None) => unreachable!("a body without a motion"),
+        match &self.motions[body] {
+            Motion::Closed(course) => course.bounds(&self.model.bodies[body], end_s),
+            Motion::Dense(place) => self.dense.bounds(*place),
         }
     }
 }

@@ -64,7 +64,7 @@ pub struct EventDriven {
     contact: bool,
     motions: Vec<Motion>,
     held: Vec<Held>,
-    dense: Option<Dense>,
+    dense: Dense,
     /// Ends of slips that are known in closed form.
     ends_s: Option<f64>,
     next: Event,
@@ -120,7 +120,7 @@ impl EventDriven {
             contact: plan.contact,
             motions: Vec::with_capacity(model.bodies.len()),
             held: Vec::new(),
-            dense: None,
+            dense: Dense::default(),
             ends_s: None,
             next: Event::Start,
             detector: Detector::default(),
@@ -208,7 +208,7 @@ impl EventDriven {
         if state.time_s - self.counted_from.0 > self.stretch_s {
             self.counted_from = (state.time_s, self.work.events);
         }
-        let most = if self.dense.is_some() { MANY_DENSE } else { MANY };
+        let most = if self.dense.is_empty() { MANY } else { MANY_DENSE };
         self.work.events - self.counted_from.1 > most
     }
 
@@ -219,7 +219,7 @@ impl EventDriven {
         self.stretch = Some(stretch);
         self.motions.clear();
         self.held.clear();
-        self.dense = None;
+        self.dense = Dense::default();
     }
 
     /// One step of equal length by time-stepping; after the last one, back to events.
@@ -370,13 +370,11 @@ impl EventDriven {
     /// How everything moves from now on.
     fn settle(&mut self, model: &Model, state: &mut State) {
         self.ends_s = settle(model, state, &self.held, self.forces.get_mut(), &mut self.motions);
-        let is_dense = |i: &usize| matches!(self.motions[*i], Motion::Dense);
+        let is_dense = |i: &usize| matches!(self.motions[*i], Motion::Dense(_));
         let dense: Vec<usize> = (0..model.bodies.len()).filter(is_dense).collect();
-        self.dense = match self.dense.take() {
-            _ if dense.is_empty() => None,
-            Some(known) if known.bodies == dense => Some(known),
-            _ => Some(Dense::new(model, dense, state, LOCAL * self.tolerance)),
-        };
+        if self.dense.bodies != dense {
+            self.dense = Dense::new(model, dense, state, LOCAL * self.tolerance);
+        }
     }
 
     /// Smooth motion up to the next event, or to the end of a step of the integrator.
@@ -386,15 +384,15 @@ impl EventDriven {
             self.trouble = true;
             return;
         }
-        if let Some(dense) = &self.dense {
-            to_s = dense.t_s + dense.h;
+        if !self.dense.is_empty() {
+            to_s = self.dense.t_s + self.dense.h;
         }
         self.next = Event::Step;
         if let Some(t_s) = self.ends_s.filter(|t_s| *t_s <= to_s) {
             (to_s, self.next) = (t_s, Event::Change(Change::default()));
         }
-        if self.held.iter().any(|held| self.dense.is_some() || held.touch.is_bounded()) {
-            let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref(), deadline: self.deadline };
+        if self.held.iter().any(|held| !self.dense.is_empty() || held.touch.is_bounded()) {
+            let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
             let (forces, at, work) = (self.forces.get_mut(), &mut self.scratch, &mut self.work);
             let mut looking = Looking { paths, held: &self.held, forces, at, work };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
@@ -403,7 +401,7 @@ impl EventDriven {
         }
         // Last: beyond the border of a face others touch that are not held.
         if self.contact {
-            let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref(), deadline: self.deadline };
+            let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
             let window = Window { from_s: state.time_s, to_s };
             if let Some(t_s) = watch::first(&paths, &self.held, window, &mut self.work) {
                 (to_s, self.next) = (t_s, Event::Impact);
@@ -414,7 +412,10 @@ impl EventDriven {
 
     /// A step of the integrator, if a body needs one.
     fn integrate(&mut self, model: &Model, state: &State, end_s: f64) -> bool {
-        let Some(mut dense) = self.dense.take() else { return true };
+        if self.dense.is_empty() {
+            return true;
+        }
+        let mut dense = std::mem::take(&mut self.dense);
         self.scratch.copy_from(state);
         let mut most_s = self.longest_s;
         if self.held.iter().any(|held| held.slides().is_some()) {
@@ -423,7 +424,7 @@ impl EventDriven {
         }
         dense.restart(state);
         let good = dense.step(&mut self.field(model), end_s, most_s);
-        self.dense = Some(dense);
+        self.dense = dense;
         good
     }
 
@@ -442,16 +443,15 @@ impl EventDriven {
 
     /// Puts the state at the end of a stretch within the integrator's last step.
     fn end_at(&mut self, model: &Model, state: &mut State, to_s: f64) {
-        if let Some(mut dense) = self.dense.take() {
-            if to_s > dense.t_s && to_s < dense.t_s + dense.h {
-                self.scratch.copy_from(state);
-                dense.shorten(&mut self.field(model), to_s);
-            }
-            self.dense = Some(dense);
+        if !self.dense.is_empty() && to_s > self.dense.t_s && to_s < self.dense.t_s + self.dense.h {
+            let mut dense = std::mem::take(&mut self.dense);
+            self.scratch.copy_from(state);
+            dense.shorten(&mut self.field(model), to_s);
+            self.dense = dense;
         }
         state.time_s = to_s;
         self.state_at(model, state);
-        if self.dense.is_some() {
+        if !self.dense.is_empty() {
             project(model, state, &self.held, &mut self.placing);
         }
     }
@@ -472,7 +472,7 @@ impl EventDriven {
 impl Passage for EventDriven {
     /// Within the last stretch.
     fn state_at(&self, model: &Model, state: &mut State) {
-        let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref(), deadline: self.deadline };
+        let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
         if !self.motions.is_empty() {
             (0..state.bodies.len()).for_each(|i| state.bodies[i] = paths.at(i, state.time_s));
         }

@@ -1,6 +1,6 @@
 //! How bodies move once it is known what holds: which have a closed form, and until when.
 
-use super::forces::{Forces, Held, NO_SLIP};
+use super::forces::{Gathered, Held, NO_SLIP, Solved};
 use super::motion::{Course, Motion};
 use crate::exact::arc::Arc;
 use crate::model::Model;
@@ -11,13 +11,20 @@ use nalgebra::Vector3;
 /// Of the acceleration without contact: what is less is none.
 const NONE: f64 = 1e-11;
 
+/// What is gathered, and its forces.
+#[derive(Clone, Copy)]
+pub struct Forces<'a> {
+    pub gathered: &'a Gathered,
+    pub solved: &'a Solved,
+}
+
 /// Fills `motions`; what rests is put to rest to the last bit. When the first slip of a closed form ends.
-/// `forces`: solved for what is held, at this state.
+/// `forces`: of what is held, at this state.
 pub fn settle(
     model: &Model,
     state: &mut State,
     held: &[Held],
-    forces: &Forces,
+    forces: Forces,
     motions: &mut Vec<Motion>,
 ) -> Option<f64> {
     let bodies = if held.is_empty() { 0 } else { model.bodies.len() };
@@ -32,19 +39,19 @@ pub fn settle(
     Some(settling.ends_s).filter(|ends_s| ends_s.is_finite())
 }
 
-fn is_at_rest(model: &Model, state: &State, i: usize, forces: &Forces) -> bool {
+fn is_at_rest(model: &Model, state: &State, i: usize, forces: Forces) -> bool {
     let (body, at) = (&model.bodies[i], &state.bodies[i]);
-    let a = forces.acceleration(i);
+    let a = forces.solved.acceleration(forces.gathered, i);
     let (radius_m, fall) = (body.bounding_radius_m, model.gravity_m_s2.norm());
     let still = at.v_WB.norm() + radius_m * at.w_WB.norm() <= NO_SLIP * (fall * radius_m).sqrt();
-    let stays = a.v.norm() + radius_m * a.w.norm() <= NONE * forces.free[i].v.norm();
+    let stays = a.v.norm() + radius_m * a.w.norm() <= NONE * forces.gathered.free[i].v.norm();
     still && (body.driven || (stays && model.constant_pull(i).is_some()))
 }
 
 struct Settling<'a> {
     model: &'a Model,
     held: &'a [Held],
-    forces: &'a Forces,
+    forces: Forces<'a>,
     resting: &'a [bool],
     ends_s: f64,
 }
@@ -85,8 +92,8 @@ impl Settling<'_> {
     /// constant.
     fn steady(&mut self, state: &mut State, i: usize, own: &[usize]) -> Option<Arc> {
         let body = &self.model.bodies[i];
-        let (radius_m, scale) = (body.bounding_radius_m, self.forces.free[i].v.norm());
-        let Twist { v: a, w: mut alpha } = self.forces.acceleration(i);
+        let (radius_m, scale) = (body.bounding_radius_m, self.forces.gathered.free[i].v.norm());
+        let Twist { v: a, w: mut alpha } = self.forces.solved.acceleration(self.forces.gathered, i);
         let at = &mut state.bodies[i];
         if !body.is_centred_ball() {
             let turning = at.w_WB.norm() * radius_m > NO_SLIP * (at.v_WB.norm() + (scale * radius_m).sqrt());
@@ -98,9 +105,9 @@ impl Settling<'_> {
         }
         let mut ends_s = f64::INFINITY;
         for k in own {
-            let (here, block) = (&self.forces.here[*k], &self.forces.problem.blocks[*k]);
+            let (here, block) = (&self.forces.gathered.here[*k], &self.forces.gathered.problem.blocks[*k]);
             let Some(d) = self.held[*k].slides() else { continue };
-            let change = block.velocity(&self.forces.added);
+            let change = block.velocity(&self.forces.solved.added);
             let change_W = block.along_W(&change);
             let along = d.dot(&change_W);
             if (change_W - d * along).norm() > NONE * scale {

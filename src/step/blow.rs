@@ -3,7 +3,8 @@
 //! those just after.
 
 use crate::collide::Contact;
-use crate::collide::approach::{Approach, is_closed};
+use crate::collide::approach::Approach;
+use crate::collide::closed::is_closed_to_rounding;
 use crate::deadline::Deadline;
 use crate::experiment::types::Impact;
 use crate::model::Model;
@@ -93,7 +94,7 @@ impl Blow {
             let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
             let strikes = self.approach.strikes(model, contact, [before, gained], step_s);
             any |= strikes;
-            if strikes || is_closed(model, contact) {
+            if strikes || is_closed_to_rounding(model, contact) {
                 self.contacts.push(*contact);
                 self.places.push(place);
                 self.restitution.push(contact.restitution);

@@ -5,15 +5,17 @@
 
 use super::stretch::{self, Stretch};
 use crate::collide::approach::Approach;
+use crate::collide::closed::{MARGIN, delta_at_m, is_closed_to_delta};
 use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
 use crate::deadline::Deadline;
 use crate::event::change::Looking;
-use crate::event::decide::{Change, Decision, decide, margin};
-use crate::event::dense::{Dense, Field, project};
-use crate::event::forces::{Forces, Held, NO_SLIP, meeting_m_s};
+use crate::event::decide::{Change, Decision, Margin, decide, margin};
+use crate::event::dense::{Dense, Field, Placed, project};
+use crate::event::forces::{Gathered, Held, NO_SLIP, Solved, meeting_m_s};
 use crate::event::impact;
+use crate::event::law::hold;
 use crate::event::motion::Motion;
-use crate::event::settle::settle;
+use crate::event::settle::{Forces, settle};
 use crate::event::slip::{self, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
@@ -71,11 +73,12 @@ pub struct EventDriven {
     detector: Detector,
     found: Vec<Contact>,
     /// Looked into from outside between two steps, too.
-    forces: RefCell<Forces>,
+    gathered: RefCell<Gathered>,
     /// When a contact had its last impact, if it may have more.
     struck_s: BTreeMap<Key, f64>,
-    /// Of the projection.
-    placing: Forces,
+    /// Of the projection, and what it did last.
+    placing: Gathered,
+    placed: Placed,
     scratch: State,
     /// Events without any time between them; and when counting of events began, with how many.
     at_once: u32,
@@ -106,9 +109,6 @@ const AT_ONCE: u32 = 200;
 const MANY_DENSE: u64 = 2_000;
 const MANY: u64 = 100_000;
 
-/// Of the bounding radius: what is nearer is looked at when something touches.
-const MARGIN: f64 = 1e-9;
-
 impl EventDriven {
     pub fn new(settings: &Settings, plan: &Plan, model: &Model, start: &State) -> Self {
         EventDriven {
@@ -125,9 +125,10 @@ impl EventDriven {
             next: Event::Start,
             detector: Detector::default(),
             found: Vec::with_capacity(16),
-            forces: RefCell::default(),
+            gathered: RefCell::default(),
             struck_s: BTreeMap::new(),
-            placing: Forces::default(),
+            placing: Gathered::default(),
+            placed: Placed::default(),
             scratch: start.clone(),
             at_once: 0,
             counted_from: (start.time_s, 0),
@@ -154,7 +155,7 @@ impl EventDriven {
     /// Steps from now on have time until then.
     pub fn hurry(&mut self, deadline: Deadline) {
         self.deadline = deadline;
-        self.forces.get_mut().deadline = deadline;
+        self.gathered.get_mut().deadline = deadline;
         self.placing.deadline = deadline;
         if let Some(stretch) = &mut self.stretch {
             stretch.hurry(deadline);
@@ -174,7 +175,7 @@ impl EventDriven {
             Event::Start | Event::Impact => {
                 self.detect(model, state);
                 blow = self.strike(model, state);
-                self.placing.p.clear();
+                self.placed = Placed::default();
                 self.regroup(model, state, &Change::default());
                 if blow {
                     self.add_placing();
@@ -186,7 +187,8 @@ impl EventDriven {
             }
             Event::Jam => {
                 self.detect(model, state);
-                blow = impact::jam(model, state, &self.found, self.forces.get_mut(), &mut self.solved, &mut self.work);
+                let (gathered, solved) = (self.gathered.get_mut(), &mut self.solved);
+                blow = impact::jam(model, state, &self.found, gathered, solved, &mut self.work);
                 self.stalled = (!blow).then_some(Criterion::Painleve);
                 self.next = Event::Change(Change::default());
             }
@@ -248,7 +250,7 @@ impl EventDriven {
                 &mut self.found,
                 &mut self.work,
             );
-            self.found.retain(|contact| watch::is_closed(model, contact));
+            self.found.retain(|contact| is_closed_to_delta(model, contact));
         }
     }
 
@@ -276,8 +278,8 @@ impl EventDriven {
                 self.found[k].tangential_restitution = 0.0;
             }
         }
-        let (forces, solved, work) = (self.forces.get_mut(), &mut self.solved, &mut self.work);
-        if !impact::strike(model, state, &self.found, self.law, forces, solved, work) {
+        let (gathered, solved, work) = (self.gathered.get_mut(), &mut self.solved, &mut self.work);
+        if !impact::strike(model, state, &self.found, self.law, gathered, solved, work) {
             work.unsolved += 1;
         }
         true
@@ -301,12 +303,12 @@ impl EventDriven {
         let height_m = fallen_m.min(approach * lasted_s / 4.0);
         let left = 1.0 - contact.restitution;
         // What stays within δ cannot be followed, however elastic.
-        height_m <= left * left * self.negligible_m(model, contact) || height_m <= watch::delta_at_m(model, contact)
+        height_m <= left * left * self.negligible_m(model, contact) || height_m <= delta_at_m(model, contact)
     }
 
     /// A height that does not matter.
     fn negligible_m(&self, model: &Model, contact: &Contact) -> f64 {
-        (ZENO * self.tolerance).max(10.0 * watch::delta_at_m(model, contact))
+        (ZENO * self.tolerance).max(10.0 * delta_at_m(model, contact))
     }
 
     /// What holds from now on, and how everything moves.
@@ -317,12 +319,15 @@ impl EventDriven {
         };
         if touches.is_empty() && model.pins.is_empty() {
             self.held.clear();
-            self.settle(model, state);
+            self.settle(model, state, &Solved::default());
             return;
         }
         let change = &Change { slow_m_s: self.slow.fading_m_s, ..change.clone() };
-        match decide(model, state, touches, change, self.forces.get_mut(), &mut self.work) {
-            Decision::Holds(held) => self.held = held,
+        let mut solved = match decide(model, state, touches, change, self.gathered.get_mut(), &mut self.work) {
+            Decision::Holds(held, solved) => {
+                self.held = held;
+                solved
+            }
             Decision::Jams => {
                 self.next = Event::Jam;
                 return;
@@ -331,18 +336,20 @@ impl EventDriven {
                 self.trouble = true;
                 return;
             }
+        };
+        self.placed = project(model, state, &self.held, &mut self.placing);
+        let gathered = self.gathered.get_mut();
+        if self.placed.moved || self.held.len() != gathered.here.len() {
+            gathered.gather(model, state, self.held.iter().map(|held| &held.touch));
+            solved = hold(gathered, &self.held, Selection::Least, &mut self.work);
         }
-        if project(model, state, &self.held, &mut self.placing) || self.held.len() != self.forces.get_mut().here.len() {
-            self.forces.get_mut().gather(model, state, self.held.iter().map(|held| &held.touch));
-            self.forces.get_mut().hold(&self.held, Selection::Least);
-        }
-        self.settle(model, state);
+        self.settle(model, state, &solved);
     }
 
     /// What ended the rest of a rocking belongs to the impact.
     fn add_placing(&mut self) {
-        let Forces { here, problem, p, .. } = &self.placing;
-        for ((here, block), p) in here.iter().zip(&problem.blocks).zip(p) {
+        let Gathered { here, problem, .. } = &self.placing;
+        for ((here, block), p) in here.iter().zip(&problem.blocks).zip(&self.placed.p) {
             let key = here.contact.key();
             if let Some(solved) = self.solved.iter_mut().find(|solved| solved.contact.key() == key) {
                 solved.impulse_W += block.in_world(p);
@@ -368,8 +375,9 @@ impl EventDriven {
     }
 
     /// How everything moves from now on.
-    fn settle(&mut self, model: &Model, state: &mut State) {
-        self.ends_s = settle(model, state, &self.held, self.forces.get_mut(), &mut self.motions);
+    fn settle(&mut self, model: &Model, state: &mut State, solved: &Solved) {
+        let forces = Forces { gathered: self.gathered.get_mut(), solved };
+        self.ends_s = settle(model, state, &self.held, forces, &mut self.motions);
         let is_dense = |i: &usize| matches!(self.motions[*i], Motion::Dense(_));
         let dense: Vec<usize> = (0..model.bodies.len()).filter(is_dense).collect();
         if self.dense.bodies != dense {
@@ -393,8 +401,8 @@ impl EventDriven {
         }
         if self.held.iter().any(|held| !self.dense.is_empty() || held.touch.is_bounded()) {
             let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
-            let (forces, at, work) = (self.forces.get_mut(), &mut self.scratch, &mut self.work);
-            let mut looking = Looking { paths, held: &self.held, forces, at, work };
+            let (gathered, at, work) = (self.gathered.get_mut(), &mut self.scratch, &mut self.work);
+            let mut looking = Looking { paths, held: &self.held, gathered, at, work };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
                 (to_s, self.next) = (t_s, Event::Change(change));
             }
@@ -419,8 +427,9 @@ impl EventDriven {
         self.scratch.copy_from(state);
         let mut most_s = self.longest_s;
         if self.held.iter().any(|held| held.slides().is_some()) {
-            margin(model, state, &self.held, self.forces.get_mut(), &mut self.work);
-            most_s = most_s.min(slip::look(&self.slow, &mut self.held, state, self.forces.get_mut()));
+            let gathered = self.gathered.get_mut();
+            let Margin { solved, .. } = margin(model, state, &self.held, gathered, &mut self.work);
+            most_s = most_s.min(slip::look(&self.slow, &mut self.held, state, gathered, &solved));
         }
         dense.restart(state);
         let good = dense.step(&mut self.field(model), end_s, most_s);
@@ -434,7 +443,7 @@ impl EventDriven {
             model,
             motions: &self.motions,
             held: &self.held,
-            forces: self.forces.get_mut(),
+            gathered: self.gathered.get_mut(),
             state: &mut self.scratch,
             choice: if sliding > 2 { Selection::Least } else { Selection::Any },
             work: &mut self.work,
@@ -452,7 +461,7 @@ impl EventDriven {
         state.time_s = to_s;
         self.state_at(model, state);
         if !self.dense.is_empty() {
-            project(model, state, &self.held, &mut self.placing);
+            self.placed = project(model, state, &self.held, &mut self.placing);
         }
     }
 
@@ -486,10 +495,10 @@ impl Passage for EventDriven {
         if self.held.is_empty() || self.stalled == Some(Criterion::Limit) {
             return Vec::new();
         }
-        let mut forces = self.forces.borrow_mut();
-        margin(model, state, &self.held, &mut forces, &mut Work::default());
-        let Forces { here, problem, p, .. } = &*forces;
-        let of = here.iter().zip(&problem.blocks).zip(p);
+        let mut gathered = self.gathered.borrow_mut();
+        let Margin { solved, .. } = margin(model, state, &self.held, &mut gathered, &mut Work::default());
+        let Gathered { here, problem, .. } = &*gathered;
+        let of = here.iter().zip(&problem.blocks).zip(&solved.p);
         of.map(|((here, block), p)| ContactForce { contact: here.contact, force_W: block.in_world(p) }).collect()
     }
 

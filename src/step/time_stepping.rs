@@ -10,20 +10,21 @@
 
 use super::blow::Blow;
 use super::drift::drift;
-use super::hold::pins;
 use super::scratch::Scratch;
 use crate::clock::Clock;
 use crate::collide::approach::{Approach, foresee};
+use crate::collide::closed::MARGIN;
 use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, Reach, SolvedContact};
 use crate::deadline::Deadline;
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
 use crate::integrate::rotation::{exponential, w_from_momentum};
 use crate::model::Model;
+use crate::model::pins::Pin as Joint;
 use crate::plan::Plan;
 use crate::solve::Impulse;
 use crate::solve::gauss_seidel::{Sweeps, Variant};
-use crate::solve::pins::Pin;
+use crate::solve::pins::{self, Pin};
 use crate::solve::position::Push;
 use crate::solve::problem::ContactProblem;
 use crate::solve::solver::ContactSolver;
@@ -33,9 +34,6 @@ use nalgebra::Vector3;
 
 /// Of the greatest friction: what is below it sticks.
 const STUCK: f64 = 1.0 - 1e-9;
-
-/// Of a body's bounding radius: a body resting at gap zero is in contact whatever its last bit says.
-const MARGIN: f64 = 1e-9;
 
 pub struct TimeStepping {
     solver: ContactSolver,
@@ -133,7 +131,9 @@ impl TimeStepping {
         let s = &mut self.scratch;
         s.problem.gather(model, state, &s.free, &mut s.found, (self.approach, step_s));
         if !model.pins.is_empty() {
-            pins(model, state, step_s, &mut self.pins);
+            // The velocity that closes what gap there is until the next step.
+            let closing = |pin: &Joint, _: &_, _: Option<&_>| -pin.apart_W(&state.bodies) / step_s;
+            pins::at(model, state, closing, &mut self.pins);
             s.problem.pin(model, state, &s.free, &self.pins);
         }
         let struck = self.blow.as_mut().filter(|_| !s.found.is_empty()).and_then(|blow| {

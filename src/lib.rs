@@ -22,6 +22,7 @@
 // knows `state`, and `work` its `heading`). rustfmt sorts within a paragraph only.
 pub mod build_info;
 pub mod clock;
+pub mod deadline;
 pub mod digest;
 pub mod files;
 pub mod heading;

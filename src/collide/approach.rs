@@ -3,6 +3,7 @@
 //! as in D. E. Stewart, J. C. Trinkle, Int. J. Numer. Meth. Engng 39 (1996) 2673).
 
 use super::Contact;
+use super::closed::{is_closed_to_rounding, rounding_m};
 pub use crate::experiment::types::Approach;
 use crate::model::Model;
 use nalgebra::Vector3;
@@ -35,27 +36,10 @@ pub fn foresee(
     contacts.truncate(kept);
 }
 
-/// Of the smaller body's bounding radius: gaps below it, or below what the coordinates can resolve, are closed.
-const CLOSED: f64 = 1e-12;
-pub(super) const ULPS: f64 = 8.0 * f64::EPSILON;
-
-pub fn rounding_m(model: &Model, contact: &Contact) -> f64 {
-    CLOSED * size_m(model, contact) + ULPS * contact.p_WC.amax()
-}
-
-/// Bounding radius of the smaller body.
-pub fn size_m(model: &Model, contact: &Contact) -> f64 {
-    contact.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).fold(f64::INFINITY, f64::min)
-}
-
-pub fn is_closed(model: &Model, contact: &Contact) -> bool {
-    contact.gap_m <= rounding_m(model, contact)
-}
-
 impl Approach {
     /// Whether this is an impact with a rebound, by whatever law, and not a contact that comes to rest.
     pub fn strikes(&self, model: &Model, contact: &Contact, [before, gained]: [f64; 2], step_s: f64) -> bool {
-        let gap_m = if is_closed(model, contact) { 0.0 } else { contact.gap_m };
+        let gap_m = if is_closed_to_rounding(model, contact) { 0.0 } else { contact.gap_m };
         let rebounds = -contact.restitution * before.min(0.0) > -gained.min(0.0);
         match self {
             Approach::Inside | Approach::Touching => before < 0.0,
@@ -67,7 +51,7 @@ impl Approach {
     /// The least normal velocity after the step, from the one before it and what forces add in it; none: the contact is
     /// not there in this step.
     pub fn least(&self, model: &Model, contact: &Contact, [before, gained]: [f64; 2], step_s: f64) -> Option<f64> {
-        let gap_m = if is_closed(model, contact) { 0.0 } else { contact.gap_m };
+        let gap_m = if is_closed_to_rounding(model, contact) { 0.0 } else { contact.gap_m };
         // The new velocity lasts until the next step's contacts are seen: the gap may close until then.
         let closing = -gap_m / step_s;
         let rebound = -contact.restitution * before.min(0.0);

@@ -1,7 +1,7 @@
 //! The contact test of a whole state, with its memory.
 
-use super::approach::ULPS;
 use super::broad::{Bounds, Broad};
+use super::closed::unresolved_m;
 use super::{Contact, faces};
 use crate::model::surface::Surface;
 use crate::model::{Body, Model};
@@ -30,7 +30,7 @@ impl Reach {
     pub const INSIDE: Reach = Reach { margin: 0.0, ahead_s: 0.0 };
 
     fn margin_m(&self, body: &Body, at: &BodyState) -> f64 {
-        if self.margin == 0.0 { 0.0 } else { self.margin * body.bounding_radius_m + ULPS * at.p_WB.amax() }
+        if self.margin == 0.0 { 0.0 } else { self.margin * body.bounding_radius_m + unresolved_m(at.p_WB.amax()) }
     }
 
     /// Length that gravity alone may close in the time, in metres.

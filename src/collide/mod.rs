@@ -7,6 +7,7 @@
 
 pub mod approach;
 pub mod broad;
+pub mod closed;
 mod contact;
 pub mod detector;
 pub mod faces;

@@ -1,8 +1,8 @@
 //! When a contact that holds stops doing so: its slip ends, it begins to slip, it opens, or it comes to the border of a
 //! face or the end of an edge.
 
-use super::decide::{Change, margin};
-use super::forces::{Forces, Held, Mode, NO_SLIP, Slip, meeting_m_s};
+use super::decide::{Change, Margin, margin};
+use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, meeting_m_s};
 use super::watch::Paths;
 use crate::collide::Key;
 use crate::state::State;
@@ -11,14 +11,21 @@ use crate::work::Work;
 /// Looks at the forces in a step of the integrator.
 const LOOKS: u32 = 4;
 
-/// A pull, or a force outside of its cone, over the largest: more is no rounding.
+/// A pull, or a force outside of its cone, relative to the largest: more is no rounding.
 const PULL: f64 = -1e-11;
+
+/// A force that is next to none, and one next to the edge of its cone, relative to the largest: where a change has been
+/// found to the last bit of time, what changes is nearer by far.
+const NEAR: f64 = 1e-6;
+
+/// How closely a change is found, relative to the time between two looks: to the last bit but some.
+const WIDTH: f64 = 1e-14;
 
 /// A step of the integrator, looked at.
 pub struct Looking<'a> {
     pub paths: Paths<'a>,
     pub held: &'a [Held],
-    pub forces: &'a mut Forces,
+    pub gathered: &'a mut Gathered,
     /// Where the bodies are at the time looked at.
     pub at: &'a mut State,
     pub work: &'a mut Work,
@@ -35,6 +42,9 @@ impl Looking<'_> {
         let mut low_s = from_s;
         for look in 1..=LOOKS {
             let high_s = from_s + (to_s - from_s) * f64::from(look) / f64::from(LOOKS);
+            if self.gathered.deadline.is_over() {
+                return None;
+            }
             if self.has_changed(high_s) {
                 let t_s = self.when(low_s, high_s);
                 return Some((t_s, self.what(t_s)));
@@ -46,7 +56,7 @@ impl Looking<'_> {
 
     fn has_changed(&mut self, t_s: f64) -> bool {
         self.look(t_s);
-        self.has_left() || (self.paths.dense.is_some() && (self.slip_left() < 0.0 || self.force_left() < PULL))
+        self.has_left() || (!self.paths.dense.is_empty() && (self.slip_left() < 0.0 || self.forces().least < PULL))
     }
 
     /// A face or an edge, at its border.
@@ -66,14 +76,14 @@ impl Looking<'_> {
         left.fold(1.0, f64::min)
     }
 
-    fn force_left(&mut self) -> f64 {
-        margin(self.paths.model, self.at, self.held, self.forces, self.work)
+    fn forces(&mut self) -> Margin {
+        margin(self.paths.model, self.at, self.held, self.gathered, self.work)
     }
 
     /// Bisection: the first moment after the change, to the last bit but some.
     fn when(&mut self, mut low_s: f64, mut high_s: f64) -> f64 {
-        let width_s = (high_s - low_s) * 1e-14;
-        while high_s - low_s > width_s.max(f64::EPSILON * high_s) {
+        let width_s = (high_s - low_s) * WIDTH;
+        while high_s - low_s > width_s.max(f64::EPSILON * high_s) && !self.gathered.deadline.is_over() {
             let middle_s = 0.5 * (low_s + high_s);
             if self.has_changed(middle_s) {
                 high_s = middle_s;
@@ -88,12 +98,15 @@ impl Looking<'_> {
     fn what(&mut self, t_s: f64) -> Change {
         let mut change = Change::default();
         self.look(t_s);
-        if self.paths.dense.is_none() || self.force_left() >= PULL {
+        if self.paths.dense.is_empty() {
             return change;
         }
-        let largest = self.forces.p.iter().map(|p| p.norm()).fold(0.0, f64::max);
-        let near = 1e-6 * largest;
-        for ((held, p), block) in self.held.iter().zip(&self.forces.p).zip(&self.forces.problem.blocks) {
+        let Margin { least, solved } = self.forces();
+        if least >= PULL {
+            return change;
+        }
+        let near = NEAR * solved.largest();
+        for ((held, p), block) in self.held.iter().zip(&solved.p).zip(&self.gathered.problem.blocks) {
             let key: Key = held.touch.key();
             if p.x <= near {
                 change.opening.push(key);

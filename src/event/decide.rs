@@ -2,16 +2,15 @@
 //! accelerations (C. Glocker, Set-Valued Force Laws, 2001).
 //!
 //! Most often what was there goes on: one linear system and a look at the cones. Else contacts that cannot stick are
-//! made to slide against the force that would be needed. Only then the law itself is solved, all contacts at once, by
-//! the exact contact solver: with accelerations for velocities it is the same law for contacts that do not slip; one
-//! that slips gets so large a fictitious slip that its force is on the edge of the cone.
+//! made to slide against the force that would be needed. Only then, and of many contacts at once, the law
+//! itself is solved (`law`).
 
-use super::forces::{Forces, Held, Mode, NO_SLIP, Rows, Slip, direction, edge, meeting_m_s};
-use super::touch::{Here, Touch};
+use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, Solved, edge, meeting_m_s};
+use super::law::{Law, MANY, ROUNDING, by_law, goes_on};
+use super::touch::Touch;
 use crate::math::full_pivot::Selection;
 use crate::model::Model;
-use crate::solve::block::Block;
-use crate::solve::{Impulse, newton};
+use crate::solve::{Impulse, exact_contact};
 use crate::state::State;
 use crate::work::Work;
 use nalgebra::Vector3;
@@ -27,157 +26,168 @@ pub struct Change {
 
 #[derive(Clone, Debug)]
 pub enum Decision {
-    Holds(Vec<Held>),
+    /// These, with their forces.
+    Holds(Vec<Held>, Solved),
     /// No force keeps a slip going, and none ends it: an impulse has to (Painlevé).
     Jams,
     Unsolved,
 }
 
-/// Of the largest acceleration: what the law's solution leaves.
-const ROUNDING: f64 = 1e-10;
-
-/// Of the largest acceleration: less does not tell a direction.
+/// An acceleration that tells a direction, relative to the largest.
 const PLAIN: f64 = 1e-6;
 
-/// Proximal problems of an island before the law is given up.
-const MOST: u32 = 200;
+/// A force along the edge of the cone accelerates its own contact by more than this part of its normal element of A, or
+/// nothing keeps the slip going: what is less is rounding of their difference.
+const KEEPS_ON: f64 = 1e-12;
 
-/// Fictitious slip over the largest acceleration.
-const FAST: f64 = 1e3;
+/// A margin that is not known, over the largest force: slightly positive, as redundant contacts could share otherwise.
+const NOT_KNOWN: f64 = 1e-3;
 
 pub fn decide(
     model: &Model,
     state: &State,
     touches: Vec<Touch>,
     change: &Change,
-    forces: &mut Forces,
+    gathered: &mut Gathered,
     work: &mut Work,
 ) -> Decision {
     let touches: Vec<Touch> = touches.into_iter().filter(|touch| !change.opening.contains(&touch.key())).collect();
     if touches.is_empty() {
-        return Decision::Holds(Vec::new());
+        return Decision::Holds(Vec::new(), Solved::default());
     }
-    forces.gather(model, state, touches.iter());
+    gathered.gather(model, state, touches.iter());
+    let gathered = &*gathered;
     let slow: Vec<bool> = touches
         .iter()
         .enumerate()
-        .map(|(i, touch)| slips(model, state, forces, (i, touch), change.slow_m_s).is_none())
+        .map(|(i, touch)| slips(model, state, gathered, (i, touch), change.slow_m_s).is_none())
         .collect();
     let young = |i: usize| if slow[i] { Slip::Young } else { Slip::Fast };
     let modes: Vec<Mode> =
-        touches.iter().enumerate().map(|(i, touch)| mode(model, state, forces, i, touch, change)).collect();
+        touches.iter().enumerate().map(|(i, touch)| mode(model, state, gathered, i, touch, change)).collect();
     work.contact_solves += 1;
     if let [touch] = &touches[..]
         && model.pins.is_empty()
-        && let Some(decision) = alone(forces, touch, modes[0], young(0))
+        && let Some(alone) = alone(gathered, modes[0])
     {
-        if let Decision::Holds(held) = &decision
-            && !held.is_empty()
-        {
-            forces.hold(held, Selection::Any);
-        }
-        return decision;
+        return match alone {
+            Alone::Holds(mode) => {
+                let held = Held { touch: touch.clone(), mode, slip: young(0) };
+                let solved = gathered.hold(std::slice::from_ref(&held), Selection::Any);
+                Decision::Holds(vec![held], solved)
+            }
+            Alone::Leaves => Decision::Holds(Vec::new(), Solved::default()),
+            Alone::Jams => Decision::Jams,
+        };
     }
-    let hold = |modes: &[Mode]| {
+    let hold = |modes: &[Mode], solved: Solved| {
         let held = |(i, mode): (usize, &Mode)| Held { touch: touches[i].clone(), mode: *mode, slip: young(i) };
-        Decision::Holds(modes.iter().enumerate().map(held).collect())
+        Decision::Holds(modes.iter().enumerate().map(held).collect(), solved)
     };
-    if try_modes(forces, &modes) {
-        let failing = failing_sticks(forces, &modes);
-        if is_pressing(forces, &modes) && failing.is_empty() {
-            return hold(&modes);
-        }
-        let sliding = made_to_slide(forces, &modes, &failing);
-        if try_modes(forces, &sliding) && is_pressing(forces, &sliding) && slide_on(forces, &modes, &sliding) {
-            return hold(&sliding);
-        }
+    if touches.len() <= MANY
+        && let Some((modes, solved)) = goes_on_or_slides(gathered, &modes)
+    {
+        return hold(&modes, solved);
     }
-    by_law(forces, &modes, &touches, &slow, work)
+    match by_law(gathered, &modes, work) {
+        Law::Holds(now, solved) => {
+            let held = now.into_iter().map(|(i, mode)| Held { touch: touches[i].clone(), mode, slip: young(i) });
+            Decision::Holds(held.collect(), solved)
+        }
+        Law::Jams => Decision::Jams,
+        Law::Unsolved => Decision::Unsolved,
+    }
 }
 
 /// Of a contact as it moves now.
-fn mode(model: &Model, state: &State, forces: &Forces, i: usize, touch: &Touch, change: &Change) -> Mode {
+fn mode(model: &Model, state: &State, gathered: &Gathered, i: usize, touch: &Touch, change: &Change) -> Mode {
     if touch.friction() == 0.0 {
         return Mode::Slide(Vector3::zeros());
     }
     if let Some((_, d)) = change.slipping.iter().find(|(key, _)| *key == touch.key()) {
         return Mode::Slide(*d);
     }
-    slips(model, state, forces, (i, touch), change.slow_m_s).map_or(Mode::Stick, Mode::Slide)
+    slips(model, state, gathered, (i, touch), change.slow_m_s).map_or(Mode::Stick, Mode::Slide)
 }
 
 /// Along which direction.
 fn slips(
     model: &Model,
     state: &State,
-    forces: &Forces,
+    gathered: &Gathered,
     (i, touch): (usize, &Touch),
     slow_m_s: f64,
 ) -> Option<Vector3<f64>> {
-    let slip = forces.here[i].slip_W();
+    let slip = gathered.here[i].slip_W();
     let speed = slip.norm();
     (speed > slow_m_s.max(NO_SLIP * meeting_m_s(model, state, touch.bodies()))).then(|| slip / speed)
 }
 
+/// What one contact does.
+enum Alone {
+    Holds(Mode),
+    Leaves,
+    Jams,
+}
+
 /// One contact has its law solved by hand. None: leave it to the law.
-fn alone(forces: &mut Forces, touch: &Touch, mode: Mode, slip: Slip) -> Option<Decision> {
-    let holds = |mode: Mode| Some(Decision::Holds(vec![Held { touch: touch.clone(), mode, slip }]));
-    let block = forces.problem.blocks[0];
+fn alone(gathered: &Gathered, mode: Mode) -> Option<Alone> {
+    let block = &gathered.problem.blocks[0];
     if block.b.x >= 0.0 {
-        return Some(Decision::Holds(Vec::new()));
+        return Some(Alone::Leaves);
     }
     match mode {
         Mode::Slide(d) => {
             let k = block.A.row(0).transpose().dot(&edge(block.friction, &block.frame, &d));
-            if k > 1e-12 * block.A[(0, 0)] { holds(mode) } else { Some(Decision::Jams) }
+            if k > KEEPS_ON * block.A[(0, 0)] { Some(Alone::Holds(mode)) } else { Some(Alone::Jams) }
         }
         Mode::Stick => {
             let p = -block.A.try_inverse()? * block.b;
             if p.x > 0.0 && p.yz().norm() <= block.friction * p.x {
-                return holds(Mode::Stick);
+                return Some(Alone::Holds(Mode::Stick));
             }
-            let p = crate::solve::exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
+            let p = exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
             let a = block.b + block.A * p;
             let d = block.along_W(&a);
-            if p.x <= 0.0 { Some(Decision::Holds(Vec::new())) } else { holds(Mode::Slide(d.try_normalize(0.0)?)) }
+            if p.x <= 0.0 { Some(Alone::Leaves) } else { Some(Alone::Holds(Mode::Slide(d.try_normalize(0.0)?))) }
         }
     }
 }
 
-fn set_rows(forces: &mut Forces, modes: &[Mode]) {
-    forces.rows.clear();
-    for (mode, block) in modes.iter().zip(&forces.problem.blocks) {
-        forces.rows.push(match mode {
-            Mode::Stick => Rows::All,
-            Mode::Slide(d) => Rows::Normal(edge(block.friction, &block.frame, d)),
-        });
+/// What was there, if it goes on, or slides where it fails; with its forces.
+fn goes_on_or_slides(gathered: &Gathered, modes: &[Mode]) -> Option<(Vec<Mode>, Solved)> {
+    let as_it_was = gathered.try_modes(modes);
+    if !as_it_was.holds {
+        return None;
     }
-    forces.rows.resize(forces.problem.blocks.len(), Rows::All);
-}
-
-fn try_modes(forces: &mut Forces, modes: &[Mode]) -> bool {
-    set_rows(forces, modes);
-    forces.solve(Selection::Least)
+    let failing = failing_sticks(gathered, &as_it_was, modes);
+    if is_pressing(&as_it_was, modes) && failing.is_empty() {
+        return Some((modes.to_vec(), as_it_was));
+    }
+    let sliding = made_to_slide(gathered, &as_it_was, modes, &failing);
+    let solved = gathered.try_modes(&sliding);
+    let holds = solved.holds && is_pressing(&solved, &sliding) && slide_on(gathered, &solved, modes, &sliding);
+    holds.then_some((sliding, solved))
 }
 
 /// No contact pulls. Of contacts that share a force evenly, none does unless one has to.
-fn is_pressing(forces: &Forces, modes: &[Mode]) -> bool {
-    let largest = forces.p.iter().map(|p| p.norm()).fold(0.0, f64::max);
-    forces.p.iter().take(modes.len()).all(|p| p.x >= -ROUNDING * largest)
+fn is_pressing(solved: &Solved, modes: &[Mode]) -> bool {
+    let largest = solved.largest();
+    solved.p.iter().take(modes.len()).all(|p| p.x >= -ROUNDING * largest)
 }
 
-fn failing_sticks(forces: &Forces, modes: &[Mode]) -> Vec<usize> {
+fn failing_sticks(gathered: &Gathered, solved: &Solved, modes: &[Mode]) -> Vec<usize> {
     let outside = |i: &usize| {
-        let (p, friction) = (&forces.p[*i], forces.problem.blocks[*i].friction);
+        let (p, friction) = (&solved.p[*i], gathered.problem.blocks[*i].friction);
         modes[*i] == Mode::Stick && p.yz().norm() > friction * p.x.max(0.0) * (1.0 + ROUNDING)
     };
     (0..modes.len()).filter(outside).collect()
 }
 
 /// Those that fail, and with them all that stick on, slide against their force.
-fn made_to_slide(forces: &Forces, modes: &[Mode], failing: &[usize]) -> Vec<Mode> {
+fn made_to_slide(gathered: &Gathered, solved: &Solved, modes: &[Mode], failing: &[usize]) -> Vec<Mode> {
     let slide = |i: usize| {
-        let d = -forces.problem.blocks[i].along_W(&forces.p[i]);
+        let d = -gathered.problem.blocks[i].along_W(&solved.p[i]);
         d.try_normalize(0.0).map_or(Mode::Stick, Mode::Slide)
     };
     let change = |(i, mode): (usize, &Mode)| match mode {
@@ -188,12 +198,12 @@ fn made_to_slide(forces: &Forces, modes: &[Mode], failing: &[usize]) -> Vec<Mode
 }
 
 /// What has begun to slide does so along its direction.
-fn slide_on(forces: &Forces, before: &[Mode], after: &[Mode]) -> bool {
-    let largest = forces.problem.blocks.iter().map(|block| block.b.norm()).fold(0.0, f64::max);
+fn slide_on(gathered: &Gathered, solved: &Solved, before: &[Mode], after: &[Mode]) -> bool {
+    let largest = gathered.scale();
     before.iter().zip(after).enumerate().all(|(i, (before, after))| match (before, after) {
         (Mode::Stick, Mode::Slide(d)) => {
-            let block = &forces.problem.blocks[i];
-            let a = block.velocity(&forces.added);
+            let block = &gathered.problem.blocks[i];
+            let a = block.velocity(&solved.added);
             let a_W = block.along_W(&a);
             let along = d.dot(&a_W);
             along >= PLAIN * largest && (a_W - d * along).norm() <= ROUNDING * largest
@@ -202,92 +212,53 @@ fn slide_on(forces: &Forces, before: &[Mode], after: &[Mode]) -> bool {
     })
 }
 
-/// The law of all contacts.
-fn by_law(forces: &mut Forces, modes: &[Mode], touches: &[Touch], slow: &[bool], work: &mut Work) -> Decision {
-    let mut problem = forces.problem.clone();
-    let scale = problem.blocks.iter().map(|block| block.b.norm()).fold(0.0, f64::max);
-    for (block, mode) in problem.blocks.iter_mut().zip(modes) {
-        if let Mode::Slide(d) = mode {
-            block.b.y += FAST * scale * d.dot(&block.frame[1]);
-            block.b.z += FAST * scale * d.dot(&block.frame[2]);
-        }
-    }
-    let mut p = vec![Impulse::zeros(); problem.blocks.len()];
-    if !newton::solve_evenly(&problem, MOST, &mut p, work) {
-        return Decision::Unsolved;
-    }
-    forces.problem.response(&p, &mut forces.added);
-    let mut held = Vec::new();
-    for (i, touch) in touches.iter().enumerate() {
-        let block = &forces.problem.blocks[i];
-        let a = block.velocity(&forces.added);
-        if let Mode::Slide(d) = modes[i]
-            && is_stopped(block, &p[i], &a, FAST * scale * d)
-        {
-            return Decision::Jams;
-        }
-        if a.x > ROUNDING * scale {
-            continue;
-        }
-        let a_W = block.along_W(&a);
-        let mode = match modes[i] {
-            // Against its force, which is known to more digits than an acceleration that has just begun.
-            Mode::Stick if a_W.norm() > ROUNDING * scale => {
-                let p_W = block.along_W(&p[i]);
-                Mode::Slide((-p_W).try_normalize(0.0).unwrap_or_else(|| a_W.normalize()))
-            }
-            mode => mode,
-        };
-        let slip = if slow[i] { Slip::Young } else { Slip::Fast };
-        held.push(Held { touch: touch.clone(), mode, slip });
-    }
-    forces.p = p;
-    Decision::Holds(held)
+/// How far the contacts that hold are from a change.
+pub struct Margin {
+    /// Over the largest force: the least normal force, and what is left of the cone of those that stick. Negative:
+    /// something has changed. Where redundant contacts share forces so that one of them pulls or slips, but could share
+    /// them otherwise, nothing has.
+    pub least: f64,
+    /// Forces there: those of the law, where it says which contacts change.
+    pub solved: Solved,
 }
 
-/// Even the fictitious slip.
-fn is_stopped(block: &Block, p: &Impulse, a: &Vector3<f64>, slip_W: Vector3<f64>) -> bool {
-    let left = Vector3::new(0.0, a.y + slip_W.dot(&block.frame[1]), a.z + slip_W.dot(&block.frame[2]));
-    slip_W != Vector3::zeros() && p.x > 0.0 && left.norm() <= 1e-6 * slip_W.norm()
-}
-
-/// How far the contacts that hold are from a change, over the largest force: the least normal force, and what is left
-/// of the cone of those that stick. Negative: something has changed. Where redundant contacts share forces so that one
-/// of them pulls or slips, but could share them otherwise, nothing has.
-pub fn margin(model: &Model, state: &State, held: &[Held], forces: &mut Forces, work: &mut Work) -> f64 {
-    forces.gather(model, state, held.iter().map(|held| &held.touch));
-    if !forces.hold(held, Selection::Least) {
-        return -1.0;
+/// Of what holds in a state, which is gathered.
+pub fn margin(model: &Model, state: &State, held: &[Held], gathered: &mut Gathered, work: &mut Work) -> Margin {
+    gathered.gather(model, state, held.iter().map(|held| &held.touch));
+    let modes = || -> Vec<Mode> { gathered.modes(held).collect() };
+    if held.len() > MANY {
+        return by_law_alone(gathered, &modes(), work);
     }
-    let largest = forces.p.iter().map(|p| p.norm()).fold(0.0, f64::max);
+    let solved = gathered.hold(held, Selection::Least);
+    if !solved.holds {
+        return Margin { least: -1.0, solved };
+    }
+    let largest = solved.largest();
     if largest == 0.0 {
         // Coulomb's law of a young slip does not pull: it lets go.
-        let lets_go = forces.problem.blocks.iter().take(held.len()).any(|block| block.b.x > 0.0);
-        return if lets_go { -1.0 } else { 0.0 };
+        let lets_go = gathered.problem.blocks.iter().take(held.len()).any(|block| block.b.x > 0.0);
+        return Margin { least: if lets_go { -1.0 } else { 0.0 }, solved };
     }
-    let margin = held.iter().zip(&forces.p).map(|(held, p)| match held.mode {
+    let margin = held.iter().zip(&solved.p).map(|(held, p)| match held.mode {
         Mode::Stick => p.x.min(held.touch.friction() * p.x - p.yz().norm()),
         Mode::Slide(_) => p.x,
     });
     let least = margin.fold(f64::INFINITY, f64::min) / largest;
     if least >= 0.0 || held.len() == 1 {
-        return least;
+        return Margin { least, solved };
     }
-    let mode = |(held, here): (&Held, &Here)| match held.mode {
-        Mode::Slide(_) => Mode::Slide(direction(held, here)),
-        Mode::Stick => Mode::Stick,
-    };
-    let modes: Vec<Mode> = held.iter().zip(&forces.here).map(mode).collect();
-    let touches: Vec<Touch> = held.iter().map(|held| held.touch.clone()).collect();
-    let now = by_law(forces, &modes, &touches, &vec![true; held.len()], work);
-    match now {
-        // Slightly positive: the true margin is not known.
-        Decision::Holds(now)
-            if now.len() == held.len() && now.iter().zip(&modes).all(|(now, mode)| now.mode == *mode) =>
-        {
-            1e-3
-        }
-        // The forces are now those of the law: which contacts change is seen in them.
-        _ => least,
+    let modes = modes();
+    match by_law(gathered, &modes, work) {
+        Law::Holds(now, solved) if goes_on(&now, &modes) => Margin { least: NOT_KNOWN, solved },
+        Law::Holds(_, solved) => Margin { least, solved },
+        Law::Jams | Law::Unsolved => Margin { least, solved },
+    }
+}
+
+/// Of many contacts only whether they go on.
+fn by_law_alone(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Margin {
+    match by_law(gathered, modes, work) {
+        Law::Holds(now, solved) => Margin { least: if goes_on(&now, modes) { NOT_KNOWN } else { -1.0 }, solved },
+        Law::Jams | Law::Unsolved => Margin { least: -1.0, solved: gathered.without_forces() },
     }
 }

@@ -5,15 +5,17 @@
 //! What holds is kept by accelerations; what drifts in a step, some part of its error, is taken off at its end by the
 //! smallest displacement and change of velocity (E. Eich 1993; `project`).
 
-use super::forces::{Forces, Held, Rows};
-use super::motion::{Bounds, Motion};
-use crate::integrate::dop853_tableau::{A, B, B3, D, E5, EXTRA};
+use super::forces::{Gathered, Held};
+use super::law::hold;
+use super::motion::{Bounds, Course, Motion};
+use crate::integrate::dop853_tableau::{D, EXTRA};
+use crate::integrate::dop853_try;
 use crate::integrate::field::{advanced, sum};
 use crate::integrate::phase::{Phase, phase, state};
 use crate::integrate::rotation::exponential;
 use crate::math::full_pivot::Selection;
 use crate::model::{Body, Model};
-use crate::solve::block::Block;
+use crate::solve::Impulse;
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use crate::work::Work;
@@ -24,7 +26,7 @@ pub struct Field<'a> {
     pub model: &'a Model,
     pub motions: &'a [Motion],
     pub held: &'a [Held],
-    pub forces: &'a mut Forces,
+    pub gathered: &'a mut Gathered,
     /// All bodies; those of the island are written over.
     pub state: &'a mut State,
     pub choice: Selection,
@@ -35,18 +37,16 @@ impl Field<'_> {
     fn at(&mut self, t_s: f64, bodies: &[usize], y: &[Phase], rates: &mut [Phase]) {
         self.state.time_s = t_s;
         for (i, motion) in self.motions.iter().enumerate() {
-            if let Motion::Driven(..) = motion
-                && let Some(at) = motion.at(t_s)
-            {
-                self.state.bodies[i] = at;
+            if let Motion::Closed(course @ Course::Driven(..)) = motion {
+                self.state.bodies[i] = course.at(t_s);
             }
         }
         bodies.iter().zip(y).for_each(|(i, y)| self.state.bodies[*i] = state(y));
-        self.forces.gather(self.model, self.state, self.held.iter().map(|held| &held.touch));
-        self.forces.hold(self.held, self.choice);
+        self.gathered.gather(self.model, self.state, self.held.iter().map(|held| &held.touch));
+        let solved = hold(self.gathered, self.held, self.choice, self.work);
         self.work.gyroscopic += 1;
         for ((i, y), rate) in bodies.iter().zip(y).zip(rates) {
-            *rate = rate_of(&self.state.bodies[*i], y, &self.forces.acceleration(*i));
+            *rate = rate_of(&self.state.bodies[*i], y, &solved.acceleration(self.gathered, *i));
         }
     }
 }
@@ -63,11 +63,11 @@ fn rate_of(at: &BodyState, y: &Phase, acceleration: &Twist) -> Phase {
     rate
 }
 
-#[derive(Clone, Debug)]
+/// The bodies of an integrator, and its last step; most often there is none.
+#[derive(Clone, Debug, Default)]
 pub struct Dense {
-    /// Which bodies, and of every body of the model its place among them.
+    /// Of the model, in the order of their places here.
     pub bodies: Vec<usize>,
-    place: Vec<Option<usize>>,
     tolerance: f64,
     pub t_s: f64,
     pub h: f64,
@@ -83,30 +83,50 @@ pub struct Dense {
 /// A step shorter than this part of the time is none.
 const SHORTEST: f64 = 1e-13;
 
+/// The first step to try, in radians of the fastest body: control finds the right one from any of them; a body that
+/// hardly moves counts as one of so many rad/s.
+const FIRST_RAD: f64 = 0.1;
+const SLOWEST_RAD_S: f64 = 1e-3;
+
+/// What a point turns about, m, and what flight counts beside turning: by its own size it changes nothing.
+const LEAST_SIZE_M: f64 = 1e-3;
+const FLIGHT: f64 = 1e-3;
+
+/// Part of the step that the estimate says, and the least and the greatest change from one step to the next (Hairer &
+/// al., II.4; the program's are a third and six: here a step costs 16 looks at all contacts, and one that fails 11).
+const SAFETY: f64 = 0.9;
+const SHORTER: f64 = 1.0 / 5.0;
+const LONGER: f64 = 4.0;
+
+/// So little more than a step is no reason for another one.
+const LITTLE_MORE: f64 = 1.01;
+
 impl Dense {
     pub fn new(model: &Model, bodies: Vec<usize>, at: &State, tolerance: f64) -> Self {
-        let mut place = vec![None; model.bodies.len()];
-        bodies.iter().enumerate().for_each(|(k, i)| place[*i] = Some(k));
         let n = bodies.len();
         let y = bodies.iter().map(|i| phase(&at.bodies[*i])).collect();
         let rate = |i: &usize| {
             let (body, at) = (&model.bodies[*i], &at.bodies[*i]);
-            let size_m = body.bounding_radius_m.max(1e-3);
-            at.w_WB.norm() + (model.gravity_m_s2.norm() / size_m).sqrt() + 1e-3 * at.v_WB.norm() / size_m
+            let size_m = body.bounding_radius_m.max(LEAST_SIZE_M);
+            at.w_WB.norm() + (model.gravity_m_s2.norm() / size_m).sqrt() + FLIGHT * at.v_WB.norm() / size_m
         };
         let fastest = bodies.iter().map(rate).fold(0.0, f64::max);
         Dense {
             bodies,
-            place,
             tolerance,
             t_s: at.time_s,
             h: 0.0,
-            wanted_s: 0.1 / fastest.max(1e-3),
+            wanted_s: FIRST_RAD / fastest.max(SLOWEST_RAD_S),
             y,
             end: vec![Phase::zeros(); n],
             k: vec![vec![Phase::zeros(); n]; 16],
             spline: vec![[Phase::zeros(); 8]; n],
         }
+    }
+
+    /// No body needs it.
+    pub fn is_empty(&self) -> bool {
+        self.bodies.is_empty()
     }
 
     /// Goes on from here, with the steps that were right until now.
@@ -125,10 +145,10 @@ impl Dense {
         let mut failed = false;
         loop {
             let wanted_s = self.wanted_s.min(most_s);
-            let tried_s = if left_s <= 1.01 * wanted_s { left_s } else { wanted_s };
+            let tried_s = if left_s <= LITTLE_MORE * wanted_s { left_s } else { wanted_s };
             let error = self.attempt(field, tried_s);
             let eighth_root = error.sqrt().sqrt().sqrt();
-            let factor = (0.9 / eighth_root).clamp(1.0 / 5.0, if failed { 1.0 } else { 4.0 });
+            let factor = (SAFETY / eighth_root).clamp(SHORTER, if failed { 1.0 } else { LONGER });
             if error <= 1.0 {
                 field.work.inner_steps += 1;
                 if tried_s == wanted_s || factor < 1.0 {
@@ -136,6 +156,9 @@ impl Dense {
                 }
                 self.finish(field, tried_s);
                 return true;
+            }
+            if field.gathered.deadline.is_over() {
+                return false;
             }
             failed = true;
             self.wanted_s = if error.is_finite() { tried_s * factor } else { tried_s / 5.0 };
@@ -154,21 +177,9 @@ impl Dense {
 
     /// Puts the end of a try into `end`; its error over the tolerance.
     fn attempt(&mut self, field: &mut Field, h: f64) -> f64 {
-        for (i, row) in A.iter().enumerate() {
-            advanced(&self.y, row, &self.k, h, &mut self.end);
-            let t_s = self.t_s + h * row.iter().sum::<f64>();
-            field.at(t_s, &self.bodies, &self.end, &mut self.k[i + 1]);
-        }
-        let (mut error5, mut error3) = (0.0, 0.0);
-        for (i, (y, end)) in self.y.iter().zip(&mut self.end).enumerate() {
-            let slope = sum(&B, &self.k, i);
-            *end = y + slope * h;
-            let scale = y.zip_map(end, |a, b| self.tolerance * (1.0 + a.abs().max(b.abs())));
-            error5 += sum(&E5, &self.k, i).component_div(&scale).norm_squared();
-            error3 += (slope - sum(&B3, &self.k, i)).component_div(&scale).norm_squared();
-        }
-        let both = error5 + 0.01 * error3;
-        if both == 0.0 { 0.0 } else { h * error5 / (both * (13 * self.y.len()) as f64).sqrt() }
+        let Dense { bodies, tolerance, y, end, k, .. } = self;
+        let mut rates = |t_s: f64, y: &[Phase], rates: &mut [Phase]| field.at(t_s, bodies, y, rates);
+        dop853_try::attempt(&mut rates, [self.t_s, h], |size| *tolerance * (1.0 + size), y, end, k)
     }
 
     /// The continuous extension.
@@ -190,8 +201,8 @@ impl Dense {
         }
     }
 
-    pub fn at(&self, body: usize, t_s: f64) -> BodyState {
-        let place = self.place[body].unwrap_or_default();
+    /// The body at a place of this integrator, within the last step.
+    pub fn at(&self, place: usize, t_s: f64) -> BodyState {
         let x = if self.h > 0.0 { ((t_s - self.t_s) / self.h).clamp(0.0, 1.0) } else { 0.0 };
         if x == 1.0 {
             return state(&self.end[place]);
@@ -204,9 +215,9 @@ impl Dense {
         state(&y)
     }
 
-    /// Of a body in this step: its polynomial about the middle, coefficient by coefficient.
-    pub fn bounds(&self, body: usize) -> Bounds {
-        let series = self.series(self.place[body].unwrap_or_default());
+    /// Of the body at a place in this step: its polynomial about the middle, coefficient by coefficient.
+    pub fn bounds(&self, place: usize) -> Bounds {
+        let series = self.series(place);
         let part = |k: usize, row: usize| series[k].fixed_rows::<3>(row).norm();
         let half = |k: usize| 0.5_f64.powi(k as i32);
         let h2 = self.h * self.h;
@@ -234,63 +245,69 @@ impl Dense {
     }
 }
 
-/// Puts what is held back in place: gaps closed by the smallest change in the metric of the masses, and no velocity
-/// left along the rows that hold, by impulses that contacts can have: what is left of a rocking that is cut off is
-/// ended with the friction that would have come with it, so that the momentum is wrong by the square of it only. True:
-/// something had to be moved. The impulses are left in `forces`.
-pub fn project(model: &Model, state: &mut State, held: &[Held], forces: &mut Forces) -> bool {
-    if held.is_empty() && model.pins.is_empty() {
-        return false;
-    }
-    let moved = close_gaps(model, state, held, forces);
-    forces.gather_velocities(model, state, held.iter().map(|held| &held.touch));
-    forces.set_rows(held);
-    let off = |(block, rows): (&Block, &Rows)| match rows {
-        Rows::None => 0.0,
-        Rows::Normal(_) => block.b.x.abs(),
-        Rows::All => block.b.amax(),
-    };
-    let largest = forces.problem.blocks.iter().zip(&forces.rows).map(off).fold(0.0, f64::max);
-    let speed = state.bodies.iter().map(|at| at.v_WB.amax()).fold(0.0, f64::max);
-    forces.p.clear();
-    if largest <= 2.0 * f64::EPSILON * speed {
-        return moved;
-    }
-    if forces.solve(Selection::Any) {
-        for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
-            at.v_WB += forces.added[i].v;
-            at.w_WB += forces.added[i].w;
-        }
-    }
-    true
+/// What `project` did.
+#[derive(Clone, Debug, Default)]
+pub struct Placed {
+    /// Something had to be moved.
+    pub moved: bool,
+    /// Impulses of the contacts and pins gathered; none: no velocity had to change.
+    pub p: Vec<Impulse>,
 }
 
-fn close_gaps(model: &Model, state: &mut State, held: &[Held], forces: &mut Forces) -> bool {
-    for tries in 0..3 {
-        forces.gather_velocities(model, state, held.iter().map(|held| &held.touch));
+/// Puts what is held back in place: gaps closed by the smallest change in the metric of the masses, and no velocity
+/// left along the rows that hold, by impulses that contacts can have: what is left of a rocking that is cut off is
+/// ended with the friction that would have come with it, so that the momentum is wrong by the square of it only.
+pub fn project(model: &Model, state: &mut State, held: &[Held], gathered: &mut Gathered) -> Placed {
+    if held.is_empty() && model.pins.is_empty() {
+        return Placed::default();
+    }
+    let moved = close_gaps(model, state, held, gathered);
+    gathered.gather_velocities(model, state, held.iter().map(|held| &held.touch));
+    let speed = state.bodies.iter().map(|at| at.v_WB.amax()).fold(0.0, f64::max);
+    let Some(solved) = gathered.stop(held, ROUNDING_OF_SPEED * speed) else {
+        return Placed { moved, p: Vec::new() };
+    };
+    if solved.holds {
+        for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
+            at.v_WB += solved.added[i].v;
+            at.w_WB += solved.added[i].w;
+        }
+    }
+    Placed { moved: true, p: solved.p }
+}
+
+/// What is no velocity beside the fastest body's, and no gap beside the farthest coordinate: their own rounding.
+const ROUNDING_OF_SPEED: f64 = 2.0 * f64::EPSILON;
+const ROUNDING_OF_PLACE: f64 = 4.0 * f64::EPSILON;
+
+/// Displacements that follow each other, as turns are not displacements: what the second leaves is rounding.
+const TRIES: u32 = 3;
+
+/// Whether there was any gap.
+fn close_gaps(model: &Model, state: &mut State, held: &[Held], gathered: &mut Gathered) -> bool {
+    for tries in 0..TRIES {
+        gathered.gather_velocities(model, state, held.iter().map(|held| &held.touch));
         let mut largest = 0.0_f64;
-        for (block, here) in forces.problem.blocks.iter_mut().zip(&forces.here) {
+        for (block, here) in gathered.problem.blocks.iter_mut().zip(&gathered.here) {
             block.b = Vector3::new(here.contact.gap_m, 0.0, 0.0);
             largest = largest.max(here.contact.gap_m.abs());
         }
-        for (block, pin) in forces.problem.blocks.iter_mut().skip(held.len()).zip(&model.pins) {
+        for (block, pin) in gathered.problem.blocks.iter_mut().skip(held.len()).zip(&model.pins) {
             block.b = pin.apart_W(&state.bodies);
             largest = largest.max(block.b.norm());
         }
         let extent = |(at, body): (&BodyState, &Body)| at.p_WB.amax() + body.bounding_radius_m;
         let extent_m = state.bodies.iter().zip(&model.bodies).map(extent).fold(0.0, f64::max);
-        if largest <= 4.0 * f64::EPSILON * extent_m {
+        if largest <= ROUNDING_OF_PLACE * extent_m {
             return tries > 0;
         }
-        forces.rows.clear();
-        forces.rows.resize(held.len(), Rows::Normal(Vector3::x()));
-        forces.rows.resize(forces.problem.blocks.len(), Rows::All);
-        if !forces.solve(Selection::Any) {
+        let closed = gathered.close(held.len());
+        if !closed.holds {
             return true;
         }
         for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
-            at.p_WB += forces.added[i].v;
-            let turn = forces.added[i].w;
+            at.p_WB += closed.added[i].v;
+            let turn = closed.added[i].w;
             if turn != Vector3::zeros() {
                 // The angular velocity stays in the world, as the momentum of so small a turn does.
                 at.q_WB = exponential(&turn) * at.q_WB;

@@ -9,11 +9,12 @@
 use super::touch::{Here, Touch};
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
+use crate::deadline::Deadline;
 use crate::integrate::rotation::gyroscopic_torque_B;
 use crate::math::full_pivot::{Eliminated, Selection};
-use crate::model::pins::Anchor;
 use crate::model::{Body, Model};
-use crate::solve::pins::{Pin, PinEnd};
+use crate::solve::block::Block;
+use crate::solve::pins::{self, Pin, PinEnd};
 use crate::solve::problem::ContactProblem;
 use crate::solve::twist::Twist;
 use crate::solve::{Impulse, exact_contact};
@@ -59,26 +60,49 @@ impl Held {
 
 /// What a block's force may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rows {
+enum Rows {
     None,
     /// The normal row; the force is along this, in the contact's frame.
     Normal(Vector3<f64>),
     All,
 }
 
-/// Contacts of one state, gathered, with the memory for it.
+/// Contacts and pins of one state. One value is gathered anew from state to state, to spare the allocator.
 #[derive(Clone, Debug, Default)]
-pub struct Forces {
+pub struct Gathered {
     pub problem: ContactProblem,
+    /// Of the touches.
     pub here: Vec<Here>,
-    pub rows: Vec<Rows>,
-    /// f of every contact and pin, in its frame.
-    pub p: Vec<Impulse>,
-    /// Accelerations without contact, then what the forces add.
+    /// Accelerations without contact, of every body.
     pub free: Vec<Twist>,
-    pub added: Vec<Twist>,
+    /// What is not solved by then is not.
+    pub deadline: Deadline,
     contacts: Vec<Contact>,
     pins: Vec<Pin>,
+}
+
+/// Forces, and what they do.
+#[derive(Clone, Debug, Default)]
+pub struct Solved {
+    /// f of every contact and pin, in its frame.
+    pub p: Vec<Impulse>,
+    /// Of every body, by the forces.
+    pub added: Vec<Twist>,
+    /// They keep what was to hold, to rounding.
+    pub holds: bool,
+}
+
+impl Solved {
+    /// V̇ of a body.
+    pub fn acceleration(&self, gathered: &Gathered, body: usize) -> Twist {
+        let (free, added) = (&gathered.free[body], &self.added[body]);
+        Twist { v: free.v + added.v, w: free.w + added.w }
+    }
+
+    /// The norm of the largest force.
+    pub fn largest(&self) -> f64 {
+        self.p.iter().map(|p| p.norm()).fold(0.0, f64::max)
+    }
 }
 
 /// Slower, of the speeds that meet at a contact, is no slip, and no approach.
@@ -95,13 +119,12 @@ pub fn meeting_m_s(model: &Model, state: &State, bodies: impl Iterator<Item = us
     bodies.map(|i| speed_m_s(model, &model.bodies[i], &state.bodies[i])).fold(0.0, f64::max)
 }
 
-impl Forces {
+impl Gathered {
     /// Accelerations without contact, and b, of these touches and of all pins.
     pub fn gather<'a>(&mut self, model: &Model, state: &State, touches: impl Iterator<Item = &'a Touch>) {
         self.free.clear();
         self.free.extend((0..model.bodies.len()).map(|i| free_acceleration(model, state, i)));
-        self.look(state, touches);
-        self.problem.gather(model, state, &self.free, &mut self.contacts, (Approach::Touching, 1.0));
+        self.look(model, state, touches);
         for (block, here) in self.problem.blocks.iter_mut().zip(&self.here) {
             block.b += here.bias(&block.frame);
         }
@@ -112,8 +135,7 @@ impl Forces {
     pub fn gather_velocities<'a>(&mut self, model: &Model, state: &State, touches: impl Iterator<Item = &'a Touch>) {
         self.free.clear();
         self.free.extend(state.bodies.iter().map(Twist::of));
-        self.look(state, touches);
-        self.problem.gather(model, state, &self.free, &mut self.contacts, (Approach::Touching, 1.0));
+        self.look(model, state, touches);
         self.pin(model, state, |_, _| Vector3::zeros());
     }
 
@@ -121,17 +143,19 @@ impl Forces {
     pub fn gather_plain(&mut self, model: &Model, state: &State, contacts: &[Contact]) {
         self.free.clear();
         self.free.extend(state.bodies.iter().map(Twist::of));
+        self.here.clear();
         self.contacts.clear();
         self.contacts.extend_from_slice(contacts);
         self.problem.gather(model, state, &self.free, &mut self.contacts, (Approach::Touching, 1.0));
         self.pin(model, state, |_, _| Vector3::zeros());
     }
 
-    fn look<'a>(&mut self, state: &State, touches: impl Iterator<Item = &'a Touch>) {
+    fn look<'a>(&mut self, model: &Model, state: &State, touches: impl Iterator<Item = &'a Touch>) {
         self.here.clear();
         self.here.extend(touches.map(|touch| touch.here(state)));
         self.contacts.clear();
         self.contacts.extend(self.here.iter().map(|here| here.contact));
+        self.problem.gather(model, state, &self.free, &mut self.contacts, (Approach::Touching, 1.0));
     }
 
     /// `bias`: what a pin's end is accelerated by the body's rotation.
@@ -139,86 +163,113 @@ impl Forces {
         if model.pins.is_empty() {
             return;
         }
-        self.pins.clear();
-        self.pins.extend(model.pins.iter().map(|pin| {
-            let end = |body: usize, sign: f64, r_B: &Vector3<f64>| {
-                let at = &state.bodies[body];
-                let r_W = at.q_WB * r_B;
-                (PinEnd { body, sign, r_W }, bias(at, &r_W) * sign)
-            };
-            let (own, own_bias) = end(pin.body, 1.0, &pin.r_B);
-            let (other, other_bias) = match &pin.anchor {
-                Anchor::World(_) => (None, Vector3::zeros()),
-                Anchor::Body(other, r_B) => {
-                    let (end, bias) = end(*other, -1.0, r_B);
-                    (Some(end), bias)
-                }
-            };
-            Pin { end: own, other, velocity_W: -(own_bias + other_bias) }
-        }));
+        let of = |end: &PinEnd| bias(&state.bodies[end.body], &end.r_W) * end.sign;
+        let both = |own: &PinEnd, other: Option<&PinEnd>| of(own) + other.map_or_else(Vector3::zeros, of);
+        pins::at(model, state, |_, own, other| -both(own, other), &mut self.pins);
         self.problem.pin(model, state, &self.free, &self.pins);
     }
 
-    /// Solves for what holds, pins with it.
-    pub fn hold(&mut self, held: &[Held], choice: Selection) -> bool {
+    /// The largest of b.
+    pub fn scale(&self) -> f64 {
+        self.problem.blocks.iter().map(|block| block.b.norm()).fold(0.0, f64::max)
+    }
+
+    /// Forces for what holds, pins with it.
+    pub fn hold(&self, held: &[Held], choice: Selection) -> Solved {
         if let ([only], [block]) = (held, &self.problem.blocks[..])
             && only.slip == Slip::Young
             && only.slides().is_some()
         {
-            self.p.clear();
-            self.p.push(exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction));
-            self.problem.response(&self.p, &mut self.added);
-            return true;
+            let p = exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
+            return self.solved(vec![p], true);
         }
-        self.set_rows(held);
-        self.solve(choice) && (choice == Selection::Any || self.push_only(held.len()))
+        let rows = self.rows(self.modes(held));
+        let solved = self.solve(&rows, choice);
+        if choice == Selection::Any || !solved.holds { solved } else { self.push_only(rows, solved, held.len()) }
     }
 
-    /// What their forces may be.
-    pub fn set_rows(&mut self, held: &[Held]) {
-        self.rows.clear();
-        for ((held, here), block) in held.iter().zip(&self.here).zip(&self.problem.blocks) {
-            self.rows.push(match held.mode {
-                Mode::Stick => Rows::All,
-                Mode::Slide(_) => Rows::Normal(edge(block.friction, &block.frame, &direction(held, here))),
-            });
-        }
-        self.rows.resize(self.problem.blocks.len(), Rows::All);
+    /// Forces of these modes, and of all pins, each contact pulling as it may.
+    pub fn try_modes(&self, modes: &[Mode]) -> Solved {
+        self.solve(&self.rows(modes.iter().copied()), Selection::Least)
+    }
+
+    /// Changes of velocity that leave none along the rows that hold; none: there is not more than `least`.
+    pub fn stop(&self, held: &[Held], least: f64) -> Option<Solved> {
+        let rows = self.rows(self.modes(held));
+        let off = |(block, rows): (&Block, &Rows)| match rows {
+            Rows::None => 0.0,
+            Rows::Normal(_) => block.b.x.abs(),
+            Rows::All => block.b.amax(),
+        };
+        let largest = self.problem.blocks.iter().zip(&rows).map(off).fold(0.0, f64::max);
+        (largest > least).then(|| self.solve(&rows, Selection::Any))
+    }
+
+    /// Displacements that close b, of so many contacts along their normals, of pins whole.
+    pub fn close(&self, contacts: usize) -> Solved {
+        let mut rows = vec![Rows::Normal(Vector3::x()); contacts];
+        rows.resize(self.problem.blocks.len(), Rows::All);
+        self.solve(&rows, Selection::Any)
+    }
+
+    /// Modes of what is held, slips along what they are now.
+    pub fn modes<'a>(&'a self, held: &'a [Held]) -> impl Iterator<Item = Mode> + 'a {
+        held.iter().zip(&self.here).map(|(held, here)| match held.mode {
+            Mode::Stick => Mode::Stick,
+            Mode::Slide(_) => Mode::Slide(direction(held, here)),
+        })
+    }
+
+    /// What the blocks' forces may be: of contacts by their modes, of pins all.
+    fn rows(&self, modes: impl Iterator<Item = Mode>) -> Vec<Rows> {
+        let of = |(mode, block): (Mode, &Block)| match mode {
+            Mode::Stick => Rows::All,
+            Mode::Slide(d) => Rows::Normal(edge(block.friction, &block.frame, &d)),
+        };
+        let mut rows: Vec<Rows> = modes.zip(&self.problem.blocks).map(of).collect();
+        rows.resize(self.problem.blocks.len(), Rows::All);
+        rows
     }
 
     /// Of contacts that share forces, those that would pull are left out as long as the others can hold them: which of
     /// them press decides how a slab that spins is slowed.
-    fn push_only(&mut self, contacts: usize) -> bool {
-        let scale = self.problem.blocks.iter().map(|block| block.b.norm()).fold(0.0, f64::max);
-        let (all_rows, all, all_added) = (self.rows.clone(), self.p.clone(), self.added.clone());
+    fn push_only(&self, mut rows: Vec<Rows>, all: Solved, contacts: usize) -> Solved {
+        if all.p[..contacts].iter().all(|p| p.x >= 0.0) {
+            return all;
+        }
+        let scale = self.scale();
+        let mut now = all.clone();
         for _ in 0..contacts {
-            let Some(worst) = (0..contacts).min_by(|a, b| self.p[*a].x.total_cmp(&self.p[*b].x)) else { return true };
-            if self.p[worst].x >= 0.0 {
-                return true;
+            let Some(worst) = (0..contacts).min_by(|a, b| now.p[*a].x.total_cmp(&now.p[*b].x)) else { return now };
+            if now.p[worst].x >= 0.0 {
+                return now;
             }
-            self.rows[worst] = Rows::None;
-            let solved = self.solve(Selection::Least);
-            let lifts = |i: usize| self.problem.blocks[i].velocity(&self.added).x.abs() > CONSISTENT * scale;
-            if !solved || (0..contacts).any(lifts) {
+            rows[worst] = Rows::None;
+            now = self.solve(&rows, Selection::Least);
+            let lifts = |i: usize| self.problem.blocks[i].velocity(&now.added).x.abs() > CONSISTENT * scale;
+            if !now.holds || (0..contacts).any(lifts) {
                 break;
             }
         }
-        (self.rows, self.p, self.added) = (all_rows, all, all_added);
-        true
+        all
     }
 
-    /// Solves for the rows set, and works out `added`. False: no solution to rounding.
-    pub fn solve(&mut self, choice: Selection) -> bool {
-        self.p.clear();
-        self.p.resize(self.problem.blocks.len(), Impulse::zeros());
-        let solved = solve(&self.problem, &self.rows, choice, &mut self.p);
-        self.problem.response(&self.p, &mut self.added);
-        solved
+    fn solve(&self, rows: &[Rows], choice: Selection) -> Solved {
+        let mut p = vec![Impulse::zeros(); self.problem.blocks.len()];
+        let holds = solve(&self.problem, rows, choice, &mut p, self.deadline);
+        self.solved(p, holds)
     }
 
-    pub fn acceleration(&self, body: usize) -> Twist {
-        let (free, added) = (&self.free[body], &self.added[body]);
-        Twist { v: free.v + added.v, w: free.w + added.w }
+    /// No solution.
+    pub fn without_forces(&self) -> Solved {
+        self.solved(vec![Impulse::zeros(); self.problem.blocks.len()], false)
+    }
+
+    /// What forces do.
+    pub fn solved(&self, p: Vec<Impulse>, holds: bool) -> Solved {
+        let mut added = Vec::new();
+        self.problem.response(&p, &mut added);
+        Solved { p, added, holds }
     }
 }
 
@@ -259,7 +310,7 @@ fn free_acceleration(model: &Model, state: &State, index: usize) -> Twist {
     Twist { v, w }
 }
 
-fn solve(problem: &ContactProblem, rows: &[Rows], choice: Selection, p: &mut [Impulse]) -> bool {
+fn solve(problem: &ContactProblem, rows: &[Rows], choice: Selection, p: &mut [Impulse], deadline: Deadline) -> bool {
     if let ([Rows::Normal(edge)], [block]) = (rows, &problem.blocks[..]) {
         let k = block.A.row(0).transpose().dot(edge);
         p[0] = edge * (-block.b.x / k);
@@ -280,12 +331,15 @@ fn solve(problem: &ContactProblem, rows: &[Rows], choice: Selection, p: &mut [Im
     }
     let mut K = DMatrix::zeros(n, n);
     for (r, (i, _, k)) in unknowns.iter().enumerate() {
+        if deadline.is_over() {
+            return false;
+        }
         for (c, (j, along, _)) in unknowns.iter().enumerate() {
             K[(r, c)] = problem.coupling(*i, *j).row(*k).transpose().dot(along);
         }
     }
     let rhs = DVector::from_iterator(n, unknowns.iter().map(|(i, _, k)| -problem.blocks[*i].b[*k]));
-    let Some(x) = solution(&K, &rhs, choice) else { return false };
+    let Some(x) = solution(&K, &rhs, choice, deadline) else { return false };
     for ((i, along, _), x) in unknowns.iter().zip(x.iter()) {
         p[*i] += along * *x;
     }
@@ -297,8 +351,8 @@ fn solve(problem: &ContactProblem, rows: &[Rows], choice: Selection, p: &mut [Im
 const CONSISTENT: f64 = 1e-9;
 
 /// Once more for what rounding has left.
-fn solution(K: &DMatrix<f64>, rhs: &DVector<f64>, choice: Selection) -> Option<DVector<f64>> {
-    let eliminated = Eliminated::new(K.clone());
+fn solution(K: &DMatrix<f64>, rhs: &DVector<f64>, choice: Selection, deadline: Deadline) -> Option<DVector<f64>> {
+    let eliminated = Eliminated::new(K.clone(), deadline)?;
     let x = eliminated.solve(rhs, choice)?;
     let again = eliminated.solve(&(rhs - K * &x), choice)?;
     Some(x + again)

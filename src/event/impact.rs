@@ -3,8 +3,9 @@
 //! Newton's law of restitution is the target of the same contact problem that time-stepping solves, with no forces in
 //! it; the other laws are `solve::impact`. Held contacts take part. Bodies do not move in an impact.
 
-use super::forces::Forces;
+use super::forces::{Gathered, Solved};
 use crate::collide::{Contact, SolvedContact};
+use crate::deadline::Deadline;
 use crate::experiment::types::Impact;
 use crate::model::Model;
 use crate::solve::block::Block;
@@ -25,14 +26,13 @@ pub fn strike(
     state: &mut State,
     contacts: &[Contact],
     law: Impact,
-    forces: &mut Forces,
+    gathered: &mut Gathered,
     solved: &mut Vec<SolvedContact>,
     work: &mut Work,
 ) -> bool {
-    forces.gather_plain(model, state, contacts);
-    let problem = &mut forces.problem;
-    forces.p.clear();
-    forces.p.resize(problem.blocks.len(), Impulse::zeros());
+    gathered.gather_plain(model, state, contacts);
+    let (problem, deadline) = (&mut gathered.problem, gathered.deadline);
+    let mut p = vec![Impulse::zeros(); problem.blocks.len()];
     let ended = match law {
         Impact::Newton => {
             for (block, contact) in problem.blocks.iter_mut().zip(contacts) {
@@ -40,28 +40,28 @@ pub fn strike(
                 block.b.x -= rebound;
                 block.least = rebound;
             }
-            plastic(problem, &mut forces.p, work)
+            plastic(problem, &mut p, deadline, work)
         }
         Impact::Poisson | Impact::Sequential => {
             let restitution: Vec<f64> = contacts.iter().map(|contact| contact.restitution).collect();
             let law = if law == Impact::Poisson { Law::Poisson } else { Law::Sequential };
-            let mut solver = |problem: &ContactProblem, p: &mut [Impulse]| plastic(problem, p, work);
-            resolve(law, problem, &restitution, &mut solver, &mut forces.p)
+            let mut solver = |problem: &ContactProblem, p: &mut [Impulse]| plastic(problem, p, deadline, work);
+            resolve(law, problem, &restitution, &mut solver, deadline, &mut p)
         }
     };
-    apply(model, state, forces, contacts, solved);
+    apply(model, state, gathered, &gathered.solved(p, ended), contacts, solved);
     ended
 }
 
 /// Without restitution, from nothing.
-fn plastic(problem: &ContactProblem, p: &mut [Impulse], work: &mut Work) -> bool {
+fn plastic(problem: &ContactProblem, p: &mut [Impulse], deadline: Deadline, work: &mut Work) -> bool {
     if let [block] = &problem.blocks[..]
         && block.pin.is_none()
     {
         p[0] = exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
         return true;
     }
-    newton::solve_evenly(problem, MOST, p, work)
+    newton::solve_evenly(problem, &newton::to_rounding(MOST, deadline), p, work)
 }
 
 /// Of the slip: an approach that is none.
@@ -73,49 +73,54 @@ pub fn jam(
     model: &Model,
     state: &mut State,
     contacts: &[Contact],
-    forces: &mut Forces,
+    gathered: &mut Gathered,
     solved: &mut Vec<SolvedContact>,
     work: &mut Work,
 ) -> bool {
-    forces.gather_plain(model, state, contacts);
-    forces.p.clear();
-    forces.p.resize(forces.problem.blocks.len(), Impulse::zeros());
-    let slip = forces.problem.blocks.iter().map(|block| block.b.yz().norm()).fold(0.0, f64::max);
-    let mut hinted = forces.problem.clone();
+    gathered.gather_plain(model, state, contacts);
+    let mut p = vec![Impulse::zeros(); gathered.problem.blocks.len()];
+    let slip = gathered.problem.blocks.iter().map(|block| block.b.yz().norm()).fold(0.0, f64::max);
+    let mut hinted = gathered.problem.clone();
     hinted.blocks.iter_mut().for_each(|block| block.b.x -= HINT * slip);
-    let mut ended = plastic(&hinted, &mut forces.p, work);
-    match &forces.problem.blocks[..] {
+    let mut ended = plastic(&hinted, &mut p, gathered.deadline, work);
+    match &gathered.problem.blocks[..] {
         [only] if only.pin.is_none() => {
             let stopping = only.A.try_inverse().map(|inverse| -inverse * only.b);
             let inside = stopping.filter(|p| p.x > 0.0 && p.yz().norm() <= only.friction * p.x);
-            forces.p[0] = inside.unwrap_or_else(Impulse::zeros);
+            p[0] = inside.unwrap_or_else(Impulse::zeros);
         }
         blocks => {
             let mut scratch = Scratch::with_capacity(blocks.len(), 0);
-            ended =
-                ended && newton::solve(&forces.problem, &newton::to_rounding(MOST), &mut forces.p, &mut scratch, work);
+            let goal = newton::to_rounding(MOST, gathered.deadline);
+            ended = ended && newton::solve(&gathered.problem, &goal, &mut p, &mut scratch, work);
         }
     }
     let change = |(block, p): (&Block, &Impulse)| (block.A * p).norm();
-    let largest = forces.problem.blocks.iter().zip(&forces.p).map(change).fold(0.0, f64::max);
+    let largest = gathered.problem.blocks.iter().zip(&p).map(change).fold(0.0, f64::max);
     if !ended || largest <= 10.0 * HINT * slip {
         return false;
     }
-    apply(model, state, forces, contacts, solved);
+    apply(model, state, gathered, &gathered.solved(p, true), contacts, solved);
     true
 }
 
-fn apply(model: &Model, state: &mut State, forces: &mut Forces, contacts: &[Contact], solved: &mut Vec<SolvedContact>) {
-    forces.problem.response(&forces.p, &mut forces.added);
+fn apply(
+    model: &Model,
+    state: &mut State,
+    gathered: &Gathered,
+    Solved { p, added, .. }: &Solved,
+    contacts: &[Contact],
+    solved: &mut Vec<SolvedContact>,
+) {
     for (i, at) in state.bodies.iter_mut().enumerate() {
         if model.bodies[i].driven {
             continue;
         }
-        let Twist { v, w } = forces.added[i];
+        let Twist { v, w } = added[i];
         at.v_WB += v;
         at.w_WB += w;
     }
     solved.clear();
-    let of = contacts.iter().zip(&forces.problem.blocks).zip(&forces.p);
+    let of = contacts.iter().zip(&gathered.problem.blocks).zip(p);
     solved.extend(of.map(|((contact, block), p)| SolvedContact { contact: *contact, impulse_W: block.in_world(p) }));
 }

@@ -3,7 +3,7 @@
 //!
 //! - `touch`: a point of contact in any state, and its rates; `shown`: which parts of two bodies meet there
 //! - `forces`: the forces that keep what is in contact together
-//! - `decide`: which contacts hold, stick, slide
+//! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once
 //! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion; `slip`: where that is
 //!   stiff
 //! - `change`: when a contact that holds stops doing so
@@ -20,6 +20,7 @@ pub mod decide;
 pub mod dense;
 pub mod forces;
 pub mod impact;
+pub mod law;
 pub mod motion;
 pub mod settle;
 pub mod shown;

@@ -11,6 +11,14 @@ use nalgebra::Vector3;
 
 #[derive(Clone, Debug)]
 pub enum Motion {
+    Closed(Course),
+    /// By the dense steps of an integrator, which has it at this place among its bodies.
+    Dense(usize),
+}
+
+/// A motion in closed form.
+#[derive(Clone, Debug)]
+pub enum Course {
     /// Constant acceleration of both kinds: at rest, a ball that slides or rolls, a slab that slides, what does not
     /// turn.
     Arc(Arc),
@@ -18,8 +26,6 @@ pub enum Motion {
     Fall(Arc, Box<FreeRotation>),
     /// As it is told.
     Driven(f64, BodyState),
-    /// By the dense steps of an integrator.
-    Dense,
 }
 
 /// No point of the body at a distance r from the centre of mass is accelerated by more than |a| + r (α + ω²).
@@ -39,45 +45,43 @@ impl Bounds {
     }
 }
 
-impl Motion {
+impl Course {
     /// Nothing but constant forces through the centre of mass act from `t_s` on.
     pub fn free(body: &Body, t_s: f64, at: &BodyState, acceleration: Vector3<f64>) -> Self {
         let arc = Arc::straight(t_s, *at, acceleration);
         if body.isotropic || at.w_WB == Vector3::zeros() {
-            return Motion::Arc(arc);
+            return Course::Arc(arc);
         }
-        Motion::Fall(arc, Box::new(FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB)))
+        Course::Fall(arc, Box::new(FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB)))
     }
 
-    /// None: ask the integrator.
-    pub fn at(&self, t_s: f64) -> Option<BodyState> {
+    pub fn at(&self, t_s: f64) -> BodyState {
         match self {
-            Motion::Arc(arc) => Some(arc.at(t_s)),
-            Motion::Fall(arc, rotation) => {
+            Course::Arc(arc) => arc.at(t_s),
+            Course::Fall(arc, rotation) => {
                 let t = t_s - arc.t_s;
                 let (q_WB, w_WB) = rotation.at(t);
                 let from = &arc.from;
                 let p_WB = from.p_WB + (from.v_WB + arc.acceleration_m_s2 * (t / 2.0)) * t;
-                Some(BodyState { p_WB, q_WB, v_WB: from.v_WB + arc.acceleration_m_s2 * t, w_WB })
+                BodyState { p_WB, q_WB, v_WB: from.v_WB + arc.acceleration_m_s2 * t, w_WB }
             }
-            Motion::Driven(from_s, at) => {
+            Course::Driven(from_s, at) => {
                 let t = t_s - from_s;
                 let q_WB = exponential(&(at.w_WB * t)) * at.q_WB;
-                Some(BodyState { p_WB: at.p_WB + at.v_WB * t, q_WB, ..*at })
+                BodyState { p_WB: at.p_WB + at.v_WB * t, q_WB, ..*at }
             }
-            Motion::Dense => None,
         }
     }
 
-    /// Until `end_s`. None: ask the integrator.
-    pub fn bounds(&self, body: &Body, end_s: f64) -> Option<Bounds> {
-        Some(match self {
-            Motion::Arc(arc) => {
+    /// Until `end_s`.
+    pub fn bounds(&self, body: &Body, end_s: f64) -> Bounds {
+        match self {
+            Course::Arc(arc) => {
                 let alpha = arc.angular_rad_s2.norm();
                 let w = arc.from.w_WB.norm() + alpha * (end_s - arc.t_s).max(0.0);
                 Bounds { acceleration: arc.acceleration_m_s2, beside: 0.0, w, alpha }
             }
-            Motion::Fall(arc, _) => {
+            Course::Fall(arc, _) => {
                 let L = momentum_W(body, &arc.from.q_WB, &arc.from.w_WB).norm();
                 let energy = arc.from.w_WB.dot(&momentum_W(body, &arc.from.q_WB, &arc.from.w_WB));
                 // 1/I of the least moment that is one: a rod does not spin about itself.
@@ -85,10 +89,9 @@ impl Motion {
                 let w = (energy * inverse).sqrt().min(L * inverse);
                 Bounds { acceleration: arc.acceleration_m_s2, beside: 0.0, w, alpha: w * L * inverse }
             }
-            Motion::Driven(_, at) => {
+            Course::Driven(_, at) => {
                 Bounds { acceleration: Vector3::zeros(), beside: 0.0, w: at.w_WB.norm(), alpha: 0.0 }
             }
-            Motion::Dense => return None,
-        })
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! How bodies move once it is known what holds: which have a closed form, and until when.
 
-use super::forces::{Forces, Held, NO_SLIP};
-use super::motion::Motion;
+use super::forces::{Gathered, Held, NO_SLIP, Solved};
+use super::motion::{Course, Motion};
 use crate::exact::arc::Arc;
 use crate::model::Model;
 use crate::solve::twist::Twist;
@@ -11,46 +11,57 @@ use nalgebra::Vector3;
 /// Of the acceleration without contact: what is less is none.
 const NONE: f64 = 1e-11;
 
+/// What is gathered, and its forces.
+#[derive(Clone, Copy)]
+pub struct Forces<'a> {
+    pub gathered: &'a Gathered,
+    pub solved: &'a Solved,
+}
+
 /// Fills `motions`; what rests is put to rest to the last bit. When the first slip of a closed form ends.
-/// `forces`: solved for what is held, at this state.
+/// `forces`: of what is held, at this state.
 pub fn settle(
     model: &Model,
     state: &mut State,
     held: &[Held],
-    forces: &Forces,
+    forces: Forces,
     motions: &mut Vec<Motion>,
 ) -> Option<f64> {
     let bodies = if held.is_empty() { 0 } else { model.bodies.len() };
     let resting: Vec<bool> = (0..bodies).map(|i| is_at_rest(model, state, i, forces)).collect();
     let mut settling = Settling { model, held, forces, resting: &resting, ends_s: f64::INFINITY };
     motions.clear();
-    motions.extend((0..model.bodies.len()).map(|i| settling.closed(state, i).unwrap_or(Motion::Dense)));
+    let mut dense = 0;
+    for i in 0..model.bodies.len() {
+        motions.push(settling.closed(state, i).map_or(Motion::Dense(dense), Motion::Closed));
+        dense += usize::from(matches!(motions[i], Motion::Dense(_)));
+    }
     Some(settling.ends_s).filter(|ends_s| ends_s.is_finite())
 }
 
-fn is_at_rest(model: &Model, state: &State, i: usize, forces: &Forces) -> bool {
+fn is_at_rest(model: &Model, state: &State, i: usize, forces: Forces) -> bool {
     let (body, at) = (&model.bodies[i], &state.bodies[i]);
-    let a = forces.acceleration(i);
+    let a = forces.solved.acceleration(forces.gathered, i);
     let (radius_m, fall) = (body.bounding_radius_m, model.gravity_m_s2.norm());
     let still = at.v_WB.norm() + radius_m * at.w_WB.norm() <= NO_SLIP * (fall * radius_m).sqrt();
-    let stays = a.v.norm() + radius_m * a.w.norm() <= NONE * forces.free[i].v.norm();
+    let stays = a.v.norm() + radius_m * a.w.norm() <= NONE * forces.gathered.free[i].v.norm();
     still && (body.driven || (stays && model.constant_pull(i).is_some()))
 }
 
 struct Settling<'a> {
     model: &'a Model,
     held: &'a [Held],
-    forces: &'a Forces,
+    forces: Forces<'a>,
     resting: &'a [bool],
     ends_s: f64,
 }
 
 impl Settling<'_> {
     /// None: there is no closed form of it.
-    fn closed(&mut self, state: &mut State, i: usize) -> Option<Motion> {
+    fn closed(&mut self, state: &mut State, i: usize) -> Option<Course> {
         let (body, at) = (&self.model.bodies[i], state.bodies[i]);
         if body.driven {
-            return Some(Motion::Driven(state.time_s, at));
+            return Some(Course::Driven(state.time_s, at));
         }
         if self.model.pins.iter().any(|pin| pin.holds(i)) {
             return None;
@@ -58,14 +69,14 @@ impl Settling<'_> {
         let pull = self.model.constant_pull(i)?;
         let own = || self.held.iter().enumerate().filter(move |(_, held)| held.touch.bodies().any(|b| b == i));
         if own().next().is_none() {
-            return Some(Motion::free(body, state.time_s, &at, pull));
+            return Some(Course::free(body, state.time_s, &at, pull));
         }
         let all_others =
             |rest: &dyn Fn(usize) -> bool| own().all(|(_, held)| held.touch.bodies().all(|b| b == i || rest(b)));
         if self.resting[i] && all_others(&|b| self.resting[b]) {
             state.bodies[i].v_WB = Vector3::zeros();
             state.bodies[i].w_WB = Vector3::zeros();
-            return Some(Motion::Arc(Arc::straight(state.time_s, state.bodies[i], Vector3::zeros())));
+            return Some(Course::Arc(Arc::straight(state.time_s, state.bodies[i], Vector3::zeros())));
         }
         if !all_others(&|b| self.model.bodies[b].driven && self.resting[b]) {
             return None;
@@ -74,15 +85,15 @@ impl Settling<'_> {
             return None;
         }
         let own: Vec<usize> = own().map(|(k, _)| k).collect();
-        self.steady(state, i, &own).map(Motion::Arc)
+        self.steady(state, i, &own).map(Course::Arc)
     }
 
     /// A ball, or a body that does not turn, on what does not move, and every slip keeps its direction: all forces are
     /// constant.
     fn steady(&mut self, state: &mut State, i: usize, own: &[usize]) -> Option<Arc> {
         let body = &self.model.bodies[i];
-        let (radius_m, scale) = (body.bounding_radius_m, self.forces.free[i].v.norm());
-        let Twist { v: a, w: mut alpha } = self.forces.acceleration(i);
+        let (radius_m, scale) = (body.bounding_radius_m, self.forces.gathered.free[i].v.norm());
+        let Twist { v: a, w: mut alpha } = self.forces.solved.acceleration(self.forces.gathered, i);
         let at = &mut state.bodies[i];
         if !body.is_centred_ball() {
             let turning = at.w_WB.norm() * radius_m > NO_SLIP * (at.v_WB.norm() + (scale * radius_m).sqrt());
@@ -94,9 +105,9 @@ impl Settling<'_> {
         }
         let mut ends_s = f64::INFINITY;
         for k in own {
-            let (here, block) = (&self.forces.here[*k], &self.forces.problem.blocks[*k]);
+            let (here, block) = (&self.forces.gathered.here[*k], &self.forces.gathered.problem.blocks[*k]);
             let Some(d) = self.held[*k].slides() else { continue };
-            let change = block.velocity(&self.forces.added);
+            let change = block.velocity(&self.forces.solved.added);
             let change_W = block.along_W(&change);
             let along = d.dot(&change_W);
             if (change_W - d * along).norm() > NONE * scale {

@@ -1,8 +1,18 @@
 //! Slips that are slow: how slow, and how long a step may be then (`forces::Slip`).
 
-use super::forces::{Forces, Held, Mode, Slip};
+use super::forces::{Gathered, Held, Mode, Slip, Solved};
 use crate::model::Model;
 use crate::state::State;
+
+/// A young slip's greatest speed over that of a fall by the bodies' size, at a tolerance of that size (chosen): its place
+/// is wrong by the fifth power of time and its speed goes with the second, so that the tolerance counts to the power of
+/// 2/5.
+const YOUNG: f64 = 0.01;
+const YOUNG_POWER: f64 = 0.4;
+
+/// A fading slip's energy over that of a fall by the tolerance, twice: its way, s²/2a, is some ten-thousandth of the
+/// tolerance.
+const FADING: f64 = 2e-4;
 
 /// Speeds below which a slip is young, after it has begun, and fades, before it ends: what is left out is a part of the
 /// tolerance.
@@ -20,23 +30,32 @@ impl Slow {
     pub fn new(model: &Model, tolerance_m: f64) -> Self {
         let (g, size_m) = falls(model);
         let (speed, part) = ((g * size_m).sqrt(), tolerance_m / size_m);
-        let young_m_s = 0.01 * speed * libm::pow(part, 0.4);
+        let young_m_s = YOUNG * speed * libm::pow(part, YOUNG_POWER);
         let youth_s = (2.0 * young_m_s / (g * (g / size_m).sqrt())).sqrt();
-        Slow { young_m_s, fading_m_s: speed * (2e-4 * part).sqrt(), youth_s }
+        Slow { young_m_s, fading_m_s: speed * (FADING * part).sqrt(), youth_s }
     }
 }
 
-/// Of the time in which a slip would end.
+/// A step's part of the time in which a slip would end.
 const BEFORE_END: f64 = 0.9;
 
-/// Says of all slips what they are at the beginning of a step, from the accelerations in `forces`. The longest step for
+/// Steps of one that fades, in the times in which it would end: over its end, which `change` finds.
+const OVER_END: f64 = 4.0;
+
+/// What is next to nothing has the direction of rounding: of the speeds below which a slip is young or fades.
+const NEXT_TO_NOTHING: f64 = 0.01;
+
+/// A step's part of a radian of the fastest force that swings: it is not stepped over.
+const SWING_RAD: f64 = 0.5;
+
+/// Says of all slips what they are at the beginning of a step, from the accelerations by its forces. The longest step for
 /// which that stays so.
-pub fn look(slow: &Slow, held: &mut [Held], state: &State, forces: &Forces) -> f64 {
+pub fn look(slow: &Slow, held: &mut [Held], state: &State, gathered: &Gathered, solved: &Solved) -> f64 {
     let mut most_s = f64::INFINITY;
-    for (held, block) in held.iter_mut().zip(&forces.problem.blocks).filter(|(held, _)| held.slides().is_some()) {
+    for (held, block) in held.iter_mut().zip(&gathered.problem.blocks).filter(|(held, _)| held.slides().is_some()) {
         let slip = held.touch.here(state).slip_W();
         let speed = slip.norm();
-        let a = block.velocity(&forces.added);
+        let a = block.velocity(&solved.added);
         let a_W = block.along_W(&a);
         held.slip = match held.slip {
             Slip::Young if speed < slow.young_m_s => Slip::Young,
@@ -49,13 +68,12 @@ pub fn look(slow: &Slow, held: &mut [Held], state: &State, forces: &Forces) -> f
             Slip::Fast if braked > 0.0 => most_s.min(BEFORE_END * speed * speed / braked),
             Slip::Fast => most_s,
             Slip::Young => most_s.min(slow.youth_s).min(slow.young_m_s / a_W.norm()),
-            Slip::Fading => most_s.min(4.0 * speed / a_W.norm()),
+            Slip::Fading => most_s.min(OVER_END * speed / a_W.norm()),
         };
-        // What is next to nothing has the direction of rounding.
         let known = match held.slip {
             Slip::Fast => 0.0,
-            Slip::Young => 0.01 * slow.young_m_s,
-            Slip::Fading => 0.01 * slow.fading_m_s,
+            Slip::Young => NEXT_TO_NOTHING * slow.young_m_s,
+            Slip::Fading => NEXT_TO_NOTHING * slow.fading_m_s,
         };
         if speed > known {
             held.mode = Mode::Slide(slip / speed);
@@ -70,8 +88,8 @@ pub fn falls(model: &Model) -> (f64, f64) {
     (model.gravity_m_s2.norm(), if size_m > 0.0 { size_m } else { 1.0 })
 }
 
-/// A force that swings is not stepped over.
+/// The longest step of the integrator.
 pub fn longest_s(model: &Model) -> f64 {
     let fastest = model.forces.iter().filter_map(|force| force.cosine).map(|(w, _)| w.abs()).fold(0.0, f64::max);
-    if fastest > 0.0 { 0.5 / fastest } else { f64::INFINITY }
+    if fastest > 0.0 { SWING_RAD / fastest } else { f64::INFINITY }
 }

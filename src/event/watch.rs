@@ -12,7 +12,9 @@
 use super::dense::Dense;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::motion::{Bounds, Motion};
-use crate::collide::{Contact, faces};
+use crate::collide::closed::delta_m;
+use crate::collide::faces;
+use crate::deadline::Deadline;
 use crate::model::container::Face;
 use crate::model::{Body, Geometry, Model};
 use crate::shape::pair::touches;
@@ -26,33 +28,24 @@ use nalgebra::Vector3;
 pub struct Paths<'a> {
     pub model: &'a Model,
     pub motions: &'a [Motion],
-    pub dense: Option<&'a Dense>,
+    pub dense: &'a Dense,
+    pub deadline: Deadline,
 }
 
 impl Paths<'_> {
     pub fn at(&self, body: usize, t_s: f64) -> BodyState {
-        match (self.motions[body].at(t_s), self.dense) {
-            (Some(at), _) => at,
-            (None, Some(dense)) => dense.at(body, t_s),
-            (None, None) => unreachable!("a body without a motion"),
+        match &self.motions[body] {
+            Motion::Closed(course) => course.at(t_s),
+            Motion::Dense(place) => self.dense.at(*place, t_s),
         }
     }
 
     fn bounds(&self, body: usize, end_s: f64) -> Bounds {
-        match (self.motions[body].bounds(&self.model.bodies[body], end_s), self.dense) {
-            (Some(bounds), _) => bounds,
-            (None, Some(dense)) => dense.bounds(body),
-            (None, None) => unreachable!("a body without a motion"),
+        match &self.motions[body] {
+            Motion::Closed(course) => course.bounds(&self.model.bodies[body], end_s),
+            Motion::Dense(place) => self.dense.bounds(*place),
         }
     }
-}
-
-/// δ: of the bounding radius, and of the coordinates.
-const DELTA: f64 = 1e-13;
-const ULPS: f64 = 8.0 * f64::EPSILON;
-
-pub fn delta_m(radius_m: f64, coordinate_m: f64) -> f64 {
-    DELTA * radius_m + ULPS * coordinate_m
 }
 
 /// Looks taken before a search is given up; they get shorter only where a gap stays within some δ.
@@ -72,6 +65,13 @@ struct Look {
 
 impl Look {
     const EMPTY: Look = Look { gap_m: 0.0, rate_m_s: 0.0, toward_m_s2: 0.0, known_s: f64::INFINITY, is_exact: false };
+
+    /// Of two points that touch at a distance.
+    fn of_points(apart: Vector3<f64>, rate: Vector3<f64>, reach_m: f64, toward_m_s2: f64) -> Self {
+        let distance = apart.norm();
+        let rate_m_s = if distance > 0.0 { apart.dot(&rate) / distance } else { 0.0 };
+        Look { gap_m: distance - reach_m, rate_m_s, toward_m_s2, ..Look::EMPTY }
+    }
 
     /// The time in which the gap cannot close.
     fn safe_s(&self, delta_m: f64, slow_m_s: f64) -> f64 {
@@ -111,7 +111,8 @@ pub struct Window {
     pub to_s: f64,
 }
 
-/// The earliest time in the window at which something that is not held touches; none: nothing does.
+/// The earliest time in the window at which something that is not held touches; none: nothing does, or
+/// it is too late to say.
 pub fn first(paths: &Paths, held: &[Held], window: Window, work: &mut Work) -> Option<f64> {
     let mut window = window;
     let mut found = None;
@@ -142,10 +143,13 @@ pub fn first(paths: &Paths, held: &[Held], window: Window, work: &mut Work) -> O
     found
 }
 
-/// Goes from look to look. `look`: None, nothing is to be seen any more.
-fn march(window: Window, mut look: impl FnMut(f64) -> Option<(f64, bool)>) -> Option<f64> {
+/// Goes from look to look, up to the deadline. `look`: None, nothing is to be seen any more.
+fn march(window: Window, deadline: Deadline, mut look: impl FnMut(f64) -> Option<(f64, bool)>) -> Option<f64> {
     let mut t_s = window.from_s;
     for _ in 0..MOST {
+        if deadline.is_over() {
+            return None;
+        }
         let (safe_s, touching) = look(t_s)?;
         if touching {
             return Some(t_s);
@@ -177,7 +181,7 @@ fn with_face(
     }
     let arm_m = arm_m(body);
     let delta = |at: &BodyState| delta_m(radius_m, at.p_WB.amax() + radius_m);
-    march(window, |t_s| {
+    march(window, paths.deadline, |t_s| {
         let at = paths.at(i, t_s);
         work.contact_tests += 1;
         let delta_m = delta(&at);
@@ -224,6 +228,12 @@ fn arm_m(body: &Body) -> f64 {
     }
 }
 
+/// The sine of a cylinder's tilt below which its rim lies flat, as far as the contact test can tell.
+const FLAT: f64 = 1e-8;
+
+/// Part of a tilt that is sure to be left until the next look: the bound of the curvature is for that.
+const KEPT: f64 = 0.5;
+
 /// The largest radius of curvature of what is round, and how long that is sure.
 fn roundness(body: &Body, at: &BodyState, normal: &Vector3<f64>, bounds: &Bounds) -> (f64, f64) {
     match &body.geometry {
@@ -232,114 +242,163 @@ fn roundness(body: &Body, at: &BodyState, normal: &Vector3<f64>, bounds: &Bounds
         }
         Geometry::Solid { solid: Solid::Cylinder { radius_m, .. }, .. } => {
             let tilt = at.q_WB.inverse_transform_vector(normal).cross(&Vector3::y()).norm();
-            let flat = tilt < 1e-8;
+            let flat = tilt < FLAT;
             if flat {
                 (0.0, f64::INFINITY)
             } else {
-                (2.0 * radius_m / tilt, 0.5 * tilt / bounds.w.max(f64::MIN_POSITIVE))
+                (radius_m / (KEPT * tilt), KEPT * tilt / bounds.w.max(f64::MIN_POSITIVE))
             }
         }
         _ => (0.0, f64::INFINITY),
     }
 }
 
+/// Within this part of the smaller body's size, its points of contact are looked at, which beyond it only their distance
+/// bounds: small enough for normals to turn little on the way, large against δ, so that the first of them is not missed.
+const NEAR: f64 = 1e-3;
+
+/// Two points of contact that are nearer to each other, of the smaller body's size, are the same: the contact test finds
+/// one that is held again, to rounding of the parts' own axes.
+const SAME: f64 = 1e-6;
+
+/// The longest way between two looks at points of contact, of the smaller body's size: other parts may come to be the
+/// nearest.
+const WAY: f64 = 0.05;
+
+/// Points of contact move over the surfaces as well as with them, and normals turn: twice the bound of either.
+const ROLLING: f64 = 2.0;
+
 fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Window, work: &mut Work) -> Option<f64> {
-    let bodies = pair.map(|i| &paths.model.bodies[i]);
-    let bounds = pair.map(|i| paths.bounds(i, window.to_s));
-    let resting: Vec<&Held> =
-        held.iter().filter(|h| h.touch.key().0 == pair[0] && h.touch.key().1 == Some(pair[1])).collect();
-    let [Some((solid_a, centre_a)), Some((solid_b, centre_b))] = bodies.map(Body::solid) else { return None };
-    let balls = match (solid_a, solid_b) {
-        (Solid::Sphere { radius_m: a }, Solid::Sphere { radius_m: b }) => Some(a + b),
-        _ => None,
-    };
-    if balls.is_some() && !resting.is_empty() {
-        return None;
+    let two = Two::new(paths, pair, held, window)?;
+    if let [Solid::Sphere { radius_m: a }, Solid::Sphere { radius_m: b }] = two.solids {
+        return if two.resting.is_empty() { two.balls(window, a + b, work) } else { None };
     }
-    let sizes = bodies.map(|body| body.bounding_radius_m);
-    let reach_m = balls.unwrap_or(sizes[0] + sizes[1]);
-    let arms = if balls.is_some() { [centre_a.norm(), centre_b.norm()] } else { [0.0, 0.0] };
-    // Against every direction: the normal turns.
-    let size = |b: &Bounds, arm: f64| b.beside + arm * (b.alpha + b.w * b.w);
-    let between = (bounds[0].acceleration - bounds[1].acceleration).norm();
-    let toward_m_s2 = between + size(&bounds[0], arms[0]) + size(&bounds[1], arms[1]);
-    let points_toward = between + size(&bounds[0], sizes[0]) + size(&bounds[1], sizes[1]);
-    let mut found: Vec<Found> = Vec::new();
-    march(window, |t_s| {
-        let at = pair.map(|i| paths.at(i, t_s));
+    two.bodies(window, work)
+}
+
+/// Two bodies that may come to touch.
+struct Two<'a> {
+    paths: &'a Paths<'a>,
+    pair: [usize; 2],
+    bodies: [&'a Body; 2],
+    solids: [&'a Solid; 2],
+    centres: [&'a Vector3<f64>; 2],
+    bounds: [Bounds; 2],
+    resting: Vec<&'a Held>,
+    sizes: [f64; 2],
+    /// Of the centres against each other.
+    between_m_s2: f64,
+}
+
+/// Both at one time.
+struct Now {
+    at: [BodyState; 2],
+    poses: [Pose; 2],
+    delta_m: f64,
+    slow_m_s: f64,
+}
+
+impl<'a> Two<'a> {
+    fn new(paths: &'a Paths, pair: [usize; 2], held: &'a [Held], window: Window) -> Option<Self> {
+        let bodies = pair.map(|i| &paths.model.bodies[i]);
+        let bounds = pair.map(|i| paths.bounds(i, window.to_s));
+        let [Some((solid_a, centre_a)), Some((solid_b, centre_b))] = bodies.map(Body::solid) else { return None };
+        let is_theirs = |h: &&Held| h.touch.key().0 == pair[0] && h.touch.key().1 == Some(pair[1]);
+        Some(Two {
+            paths,
+            pair,
+            bodies,
+            solids: [solid_a, solid_b],
+            centres: [centre_a, centre_b],
+            bounds,
+            resting: held.iter().filter(is_theirs).collect(),
+            sizes: bodies.map(|body| body.bounding_radius_m),
+            between_m_s2: (bounds[0].acceleration - bounds[1].acceleration).norm(),
+        })
+    }
+
+    fn smaller_m(&self) -> f64 {
+        self.sizes[0].min(self.sizes[1])
+    }
+
+    fn now(&self, t_s: f64, work: &mut Work) -> Now {
+        let at = self.pair.map(|i| self.paths.at(i, t_s));
         work.contact_tests += 1;
-        let delta_m = delta_m(sizes[0].min(sizes[1]), at[0].p_WB.amax().max(at[1].p_WB.amax()) + sizes[0]);
-        let slow = NO_SLIP * [0, 1].map(|k| speed_m_s(paths.model, bodies[k], &at[k])).into_iter().fold(0.0, f64::max);
-        let poses =
-            [(centre_a, &at[0]), (centre_b, &at[1])].map(|(c, at)| Pose { p_W: at.p_WB + at.q_WB * c, q_W: at.q_WB });
-        let of_centres = balls.is_some();
-        let point = |side: usize| if of_centres { poses[side].p_W } else { at[side].p_WB };
-        let rate = |side: usize| {
-            if of_centres {
-                at[side].v_WB + at[side].w_WB.cross(&(poses[side].p_W - at[side].p_WB))
-            } else {
-                at[side].v_WB
+        let speeds = [0, 1].map(|k| speed_m_s(self.paths.model, self.bodies[k], &at[k]));
+        let pose = |k: usize| Pose { p_W: at[k].p_WB + at[k].q_WB * self.centres[k], q_W: at[k].q_WB };
+        Now {
+            at,
+            poses: [0, 1].map(pose),
+            delta_m: delta_m(self.smaller_m(), at[0].p_WB.amax().max(at[1].p_WB.amax()) + self.sizes[0]),
+            slow_m_s: NO_SLIP * speeds.into_iter().fold(0.0, f64::max),
+        }
+    }
+
+    /// M against every direction, as the normal turns, of points so far from their centres of mass.
+    fn toward_m_s2(&self, arms_m: [f64; 2]) -> f64 {
+        let size = |b: &Bounds, arm_m: f64| b.beside + arm_m * (b.alpha + b.w * b.w);
+        self.between_m_s2 + size(&self.bounds[0], arms_m[0]) + size(&self.bounds[1], arms_m[1])
+    }
+
+    /// Balls touch where their centres are so near, wherever those are in their bodies.
+    fn balls(&self, window: Window, reach_m: f64, work: &mut Work) -> Option<f64> {
+        let toward_m_s2 = self.toward_m_s2(self.centres.map(|centre| centre.norm()));
+        march(window, self.paths.deadline, |t_s| {
+            let Now { at, poses, delta_m, slow_m_s } = self.now(t_s, work);
+            let rate = |k: usize| at[k].v_WB + at[k].w_WB.cross(&(poses[k].p_W - at[k].p_WB));
+            let look = Look::of_points(poses[0].p_W - poses[1].p_W, rate(0) - rate(1), reach_m, toward_m_s2);
+            Some((look.safe_s(delta_m, slow_m_s), look.is_touching(delta_m, slow_m_s)))
+        })
+    }
+
+    /// Others cannot touch while their bounding spheres do not; then their parts are looked at.
+    fn bodies(&self, window: Window, work: &mut Work) -> Option<f64> {
+        let (reach_m, toward_m_s2) = (self.sizes[0] + self.sizes[1], self.toward_m_s2([0.0, 0.0]));
+        let mut found: Vec<Found> = Vec::new();
+        march(window, self.paths.deadline, |t_s| {
+            let now = self.now(t_s, work);
+            let at = &now.at;
+            let look = Look::of_points(at[0].p_WB - at[1].p_WB, at[0].v_WB - at[1].v_WB, reach_m, toward_m_s2);
+            if look.gap_m > now.delta_m {
+                return Some((look.safe_s(now.delta_m, now.slow_m_s), false));
             }
-        };
-        let apart = point(0) - point(1);
-        let distance = apart.norm();
-        let look = Look {
-            gap_m: distance - reach_m,
-            rate_m_s: if distance > 0.0 { apart.dot(&(rate(0) - rate(1))) / distance } else { 0.0 },
-            toward_m_s2,
-            ..Look::EMPTY
-        };
-        if of_centres {
-            return Some((look.safe_s(delta_m, slow), look.is_touching(delta_m, slow)));
-        }
-        if look.gap_m > delta_m {
-            return Some((look.safe_s(delta_m, slow), false));
-        }
-        let near_m = 1e-3 * sizes[0].min(sizes[1]);
-        found.clear();
-        touches(solid_a, &poses[0], solid_b, &poses[1], sizes[0] + sizes[1], &mut found);
-        let closing = bounds[0].w * sizes[0] + bounds[1].w * sizes[1] + (at[0].v_WB - at[1].v_WB).norm();
+            found.clear();
+            touches(self.solids[0], &now.poses[0], self.solids[1], &now.poses[1], reach_m, &mut found);
+            Some(self.parts(&now, &found))
+        })
+    }
+
+    /// Of the parts that face each other: the time in which none can touch, and whether one does.
+    fn parts(&self, now: &Now, found: &[Found]) -> (f64, bool) {
+        let Now { at, delta_m, slow_m_s, .. } = now;
+        let [a, b] = &self.bounds;
+        let near_m = NEAR * self.smaller_m();
+        let closing = a.w * self.sizes[0] + b.w * self.sizes[1] + (at[0].v_WB - at[1].v_WB).norm();
         let (mut safe_s, mut touching) = (f64::INFINITY, false);
-        for touch in &found {
-            let is_held = resting.iter().any(|h| {
-                let p = h.touch.here_of(|i| if i == pair[0] { &at[0] } else { &at[1] }).contact.p_WC;
-                (p - touch.p_W).norm() <= 1e-6 * sizes[0].min(sizes[1])
-            });
-            if is_held {
-                continue;
-            }
-            let velocity = |side: usize| at[side].v_WB + at[side].w_WB.cross(&(touch.p_W - at[side].p_WB));
-            let rate_m_s = touch.normal.dot(&(velocity(0) - velocity(1)));
+        for touch in found.iter().filter(|touch| !self.is_held(at, touch)) {
             if touch.gap_m > near_m {
-                let bound =
-                    Look { gap_m: touch.gap_m - near_m / 2.0, rate_m_s: -closing, toward_m_s2: between, ..Look::EMPTY };
-                safe_s = safe_s.min(bound.safe_s(delta_m, slow));
+                let (gap_m, rate_m_s) = (touch.gap_m - near_m / 2.0, -closing);
+                let bound = Look { gap_m, rate_m_s, toward_m_s2: self.between_m_s2, ..Look::EMPTY };
+                safe_s = safe_s.min(bound.safe_s(*delta_m, *slow_m_s));
                 continue;
             }
+            let velocity = |k: usize| at[k].v_WB + at[k].w_WB.cross(&(touch.p_W - at[k].p_WB));
+            let rate_m_s = touch.normal.dot(&(velocity(0) - velocity(1)));
             // The normal turns with the bodies.
-            let turning = 2.0 * (bounds[0].w + bounds[1].w) * closing;
-            let look = Look {
-                gap_m: touch.gap_m,
-                rate_m_s,
-                toward_m_s2: 2.0 * points_toward + turning,
-                known_s: near_m / closing,
-                ..Look::EMPTY
-            };
-            safe_s = safe_s.min(look.safe_s(delta_m, slow));
-            touching |= look.is_touching(delta_m, slow);
+            let turning = ROLLING * (a.w + b.w) * closing;
+            let toward_m_s2 = ROLLING * self.toward_m_s2(self.sizes) + turning;
+            let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2, known_s: near_m / closing, ..Look::EMPTY };
+            safe_s = safe_s.min(look.safe_s(*delta_m, *slow_m_s));
+            touching |= look.is_touching(*delta_m, *slow_m_s);
         }
-        Some((safe_s.min(near_m.max(sizes[0].min(sizes[1]) * 0.05) / closing.max(f64::MIN_POSITIVE)), touching))
-    })
-}
+        let way_m = near_m.max(self.smaller_m() * WAY);
+        (safe_s.min(way_m / closing.max(f64::MIN_POSITIVE)), touching)
+    }
 
-/// δ of a contact: of the smaller body.
-pub fn delta_at_m(model: &Model, contact: &Contact) -> f64 {
-    let radius_m = contact.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).fold(f64::INFINITY, f64::min);
-    delta_m(radius_m, contact.p_WC.amax() + radius_m)
-}
-
-/// Whether a contact of the contact test is within δ.
-pub fn is_closed(model: &Model, contact: &Contact) -> bool {
-    // The search ends within δ, the projection of what is held likewise.
-    contact.gap_m <= 20.0 * delta_at_m(model, contact)
+    fn is_held(&self, at: &[BodyState; 2], touch: &Found) -> bool {
+        self.resting.iter().any(|h| {
+            let p = h.touch.here_of(|i| if i == self.pair[0] { &at[0] } else { &at[1] }).contact.p_WC;
+            (p - touch.p_W).norm() <= SAME * self.smaller_m()
+        })
+    }
 }

@@ -3,9 +3,10 @@
 //! A parabola is exact.
 
 use super::chain::Chain;
-use super::dop853_tableau::{A, B, B3, E5};
-use super::field::{Field, advanced, sum};
+use super::dop853_try;
+use super::field::Field;
 use super::phase::{Phase, phase, state};
+use crate::deadline::Deadline;
 use crate::model::Model;
 use crate::work::Work;
 
@@ -50,15 +51,12 @@ pub struct Scratch {
     y: Vec<Phase>,
     end: Vec<Phase>,
     k: [Vec<Phase>; 12],
-    /// c, the times of the slopes: sums of the rows of A.
-    nodes: [f64; 12],
 }
 
 impl Scratch {
     pub fn new(island: &Chain) -> Self {
         let room = || vec![Phase::zeros(); island.at.len()];
-        let node = |i: usize| if i == 0 { 0.0 } else { A[i - 1].iter().sum() };
-        Scratch { y: room(), end: room(), k: std::array::from_fn(|_| room()), nodes: std::array::from_fn(node) }
+        Scratch { y: room(), end: room(), k: std::array::from_fn(|_| room()) }
     }
 
     fn start(&mut self, island: &mut Chain, model: &Model, t_s: f64, work: &mut Work) {
@@ -67,12 +65,12 @@ impl Scratch {
     }
 }
 
-/// Takes an island over one step of the clock. False where no inner step reaches the tolerance; the island is then left
-/// on the way.
+/// Takes an island over one step of the clock. False where no inner step reaches the tolerance, or time is up; the island
+/// is then left on the way.
 pub fn step(
     island: &mut Chain,
     model: &Model,
-    [t_s, step_s]: [f64; 2],
+    ([t_s, step_s], deadline): ([f64; 2], Deadline),
     control: &mut Control,
     scratch: &mut Scratch,
     work: &mut Work,
@@ -85,7 +83,7 @@ pub fn step(
         let now_s = t_s + (step_s - left_s);
         let error = attempt(&mut Field { island, model, work }, [now_s, tried_s], control.tolerance, scratch);
         failed = !control.judge(error, tried_s, failed);
-        if failed && control.inner_s <= 16.0 * f64::EPSILON * step_s {
+        if (failed && control.inner_s <= 16.0 * f64::EPSILON * step_s) || deadline.is_over() {
             break;
         }
         if !failed {
@@ -103,25 +101,8 @@ pub fn step(
 }
 
 /// Puts the end of a try into the scratch; its error over the tolerance.
-fn attempt(f: &mut Field, [t_s, h]: [f64; 2], tolerance: f64, scratch: &mut Scratch) -> f64 {
-    let Scratch { y, end, k, nodes } = scratch;
-    for (i, row) in A.iter().enumerate() {
-        advanced(y, row, k, h, end);
-        f.at(t_s + nodes[i + 1] * h, end, &mut k[i + 1]);
-    }
-    let (mut error5, mut error3) = (0.0, 0.0);
-    for (i, (y, end)) in y.iter().zip(end).enumerate() {
-        let slope = sum(&B, k, i);
-        *end = y + slope * h;
-        let scale = y.zip_map(end, |a, b| tolerance + tolerance * a.abs().max(b.abs()));
-        error5 += sum(&E5, k, i).component_div(&scale).norm_squared();
-        error3 += (slope - sum(&B3, k, i)).component_div(&scale).norm_squared();
-    }
-    combined(error5, error3, h, y.len() * y[0].len())
-}
-
-/// The estimate of order 5, made smaller where that of order 3 is much larger (II.10): of order 7 in h.
-fn combined(error5: f64, error3: f64, h: f64, components: usize) -> f64 {
-    let both = error5 + 0.01 * error3;
-    if both == 0.0 { 0.0 } else { h * error5 / (both * components as f64).sqrt() }
+fn attempt(f: &mut Field, span: [f64; 2], tolerance: f64, scratch: &mut Scratch) -> f64 {
+    let Scratch { y, end, k } = scratch;
+    let mut rates = |t_s: f64, y: &[Phase], rates: &mut [Phase]| f.at(t_s, y, rates);
+    dop853_try::attempt(&mut rates, span, |size| tolerance + tolerance * size, y, end, k)
 }

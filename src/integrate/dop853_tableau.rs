@@ -1,6 +1,20 @@
 //! The coefficients of `dop853` (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, 2nd edition,
 //! II.5 and II.10, and their program of this name), rounded to f64.
 
+/// Nodes c, the times of the slopes: the sums of the rows of A.
+pub const NODES: [f64; 12] = {
+    let (mut nodes, mut i) = ([0.0; 12], 0);
+    while i < A.len() {
+        let mut j = 0;
+        while j < A[i].len() {
+            nodes[i + 1] += A[i][j];
+            j += 1;
+        }
+        i += 1;
+    }
+    nodes
+};
+
 /// Coefficients of the stages: stage i + 2 starts at y + h Σ Aᵢⱼ kⱼ. The nodes are the sums of the rows: nothing here
 /// depends on time.
 pub const A: [&[f64]; 11] = [

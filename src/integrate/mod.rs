@@ -5,6 +5,7 @@ pub mod claims;
 pub mod crank_nicolson;
 pub mod dop853;
 pub mod dop853_tableau;
+pub mod dop853_try;
 pub mod drive;
 pub mod euler;
 pub mod field;

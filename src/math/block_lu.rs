@@ -5,6 +5,7 @@
 //! are E + Gᵀ D G, whose blocks on the diagonal hold what their body's contacts add. Own code, as libraries for it
 //! choose their vector instructions, and with them their rounding, by the machine.
 
+use crate::deadline::Deadline;
 use nalgebra::{DVector, LU, Matrix6, U6, Vector6};
 
 /// Places of the blocks that the factors have.
@@ -95,11 +96,14 @@ impl<'a> BlockMatrix<'a> {
         self.diagonal.iter_mut().for_each(|block| *block += Matrix6::identity() * value);
     }
 
-    /// Factors of the matrix; None where it is singular.
-    pub fn factors(mut self) -> Option<Factors<'a>> {
+    /// Factors of the matrix; None where it is singular, or time is up.
+    pub fn factors(mut self, deadline: Deadline) -> Option<Factors<'a>> {
         let pattern = self.pattern;
         let mut pivots = Vec::with_capacity(self.diagonal.len());
         for (k, later) in pattern.later.iter().enumerate() {
+            if deadline.is_over() {
+                return None;
+            }
             let pivot = self.diagonal[k].lu();
             for own in pattern.first[k]..pattern.first[k] + later.len() {
                 pivot.solve_mut(&mut self.upper[own]).then_some(())?;

@@ -1,6 +1,7 @@
 //! Linear systems whose equations may say the same thing twice: elimination with full pivoting.
 
-use nalgebra::{DMatrix, DVector};
+use crate::deadline::Deadline;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Choice of a solution where a system leaves some of it open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,15 +21,20 @@ pub struct Eliminated {
     rows: Vec<usize>,
     columns: Vec<usize>,
     rank: usize,
+    deadline: Deadline,
 }
 
 impl Eliminated {
-    pub fn new(mut LU: DMatrix<f64>) -> Self {
+    /// None: out of time.
+    pub fn new(mut LU: DMatrix<f64>, deadline: Deadline) -> Option<Self> {
         let n = LU.nrows();
         let (mut rows, mut columns): (Vec<usize>, Vec<usize>) = ((0..n).collect(), (0..n).collect());
         let largest = LU.amax();
         let mut rank = 0;
         while rank < n {
+            if deadline.is_over() {
+                return None;
+            }
             let (r, c) = LU.view((rank, rank), (n - rank, n - rank)).icamax_full();
             let pivot = LU[(rank + r, rank + c)].abs();
             if pivot.is_nan() || pivot <= RANK * largest {
@@ -50,11 +56,11 @@ impl Eliminated {
             }
             rank += 1;
         }
-        Eliminated { LU, rows, columns, rank }
+        Some(Eliminated { LU, rows, columns, rank, deadline })
     }
 
     /// Solution for a right-hand side: unknowns that the others determine are 0, or all are as small as they can be: x
-    /// = Uᵀ (U Uᵀ)⁻¹ y. None where it is not finite.
+    /// = Uᵀ (U Uᵀ)⁻¹ y. None where it is not finite, or time is up.
     pub fn solve(&self, rhs: &DVector<f64>, choice: Selection) -> Option<DVector<f64>> {
         let (LU, rank, n) = (&self.LU, self.rank, self.rows.len());
         let mut y = DVector::from_fn(rank, |i, _| rhs[self.rows[i]]);
@@ -69,10 +75,54 @@ impl Eliminated {
             }
         } else {
             let U = DMatrix::from_fn(rank, n, |i, j| if j >= i { LU[(i, j)] } else { 0.0 });
-            own = U.tr_mul(&(&U * U.transpose()).cholesky()?.solve(&y));
+            own = U.tr_mul(&cholesky(gram(&U, self.deadline)?, self.deadline)?.solve(&y));
         }
         let mut x = DVector::zeros(n);
         own.iter().zip(&self.columns).for_each(|(own, column)| x[*column] = *own);
         x.iter().all(|x: &f64| x.is_finite()).then_some(x)
     }
+}
+
+/// Columns between two looks at the clock: of fewer, a product or factors take no time that counts.
+const AT_ONCE: usize = 256;
+
+/// U Uᵀ. None: out of time.
+fn gram(U: &DMatrix<f64>, deadline: Deadline) -> Option<DMatrix<f64>> {
+    let (rank, n) = U.shape();
+    let transposed = U.transpose();
+    if rank <= AT_ONCE {
+        return Some(U * transposed);
+    }
+    let mut product = DMatrix::zeros(rank, rank);
+    for first in (0..rank).step_by(AT_ONCE) {
+        if deadline.is_over() {
+            return None;
+        }
+        let columns = AT_ONCE.min(rank - first);
+        product.columns_mut(first, columns).gemm(1.0, U, &transposed.view((0, first), (n, columns)), 0.0);
+    }
+    Some(product)
+}
+
+/// As nalgebra has it, column by column. None: it is not positive definite, or out of time.
+fn cholesky(mut matrix: DMatrix<f64>, deadline: Deadline) -> Option<Cholesky<f64, Dyn>> {
+    let n = matrix.nrows();
+    if n <= AT_ONCE {
+        return matrix.cholesky();
+    }
+    for j in 0..n {
+        if deadline.is_over() {
+            return None;
+        }
+        for k in 0..j {
+            let factor = -matrix[(j, k)];
+            let (mut column, before) = matrix.columns_range_pair_mut(j, k);
+            column.rows_range_mut(j..).axpy(factor, &before.rows_range(j..), 1.0);
+        }
+        let root = Some(matrix[(j, j)]).filter(|pivot| *pivot > 0.0)?.sqrt();
+        matrix[(j, j)] = root;
+        let mut below = matrix.view_range_mut(j + 1.., j);
+        below /= root;
+    }
+    Some(Cholesky::pack_dirty(matrix))
 }

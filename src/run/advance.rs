@@ -1,6 +1,8 @@
-//! THE LOOP below every run: step after step, up to the end, a step that cannot be made, or a limit.
+//! THE LOOP below every run: step after step, up to the end, a step that cannot be made, or a limit, which is kept within
+//! a step as well: what is not made by then is not made.
 
 use crate::clock::Clock;
+use crate::deadline::Deadline;
 use crate::experiment::types::{Limits, Method, SteppingMethod};
 use crate::model::Model;
 use crate::outcome::Criterion;
@@ -54,7 +56,14 @@ impl<'a> Advance<'a> {
         }
         self.before.copy_from(&self.state);
         let started = self.is_timed.then(Instant::now);
+        if let Some(most_s) = self.limits.wall_s {
+            self.stepper.hurry(Deadline::after_s(most_s - self.stepping.as_secs_f64()));
+        }
         self.stepper.step(model, &mut self.state, &self.clock);
+        if self.limits.wall_s.is_some() {
+            // Whoever looks into the step afterwards takes the time that it takes.
+            self.stepper.hurry(Deadline::default());
+        }
         self.stepping += started.map_or(Duration::ZERO, |started| started.elapsed());
         let stalled = self.stepper.stalled();
         if stalled.is_some() {

@@ -8,6 +8,7 @@ use super::block::Block;
 use super::coupling::{Coupling, Memory};
 use super::problem::ContactProblem;
 use super::{Impulse, corrected, exact_contact};
+use crate::deadline::Deadline;
 use crate::experiment::types::{Cone, Correction, Iteration, Local, Order};
 use crate::work::Work;
 use nalgebra::Vector3;
@@ -26,6 +27,8 @@ pub struct Sweeps {
     /// uncorrected tangents have already been felt by the normals).
     pub friction: bool,
     pub variant: Variant,
+    /// No sweep begins later.
+    pub deadline: Deadline,
 }
 
 /// Variants of `correction: per-contact`; the default is the lecture's.
@@ -103,6 +106,9 @@ fn sweep_until_done(
     work: &mut Work,
 ) -> bool {
     for number in 0..sweeps.most {
+        if sweeps.deadline.is_over() {
+            break;
+        }
         work.sweeps += 1;
         sweep(problem, coupling, sweeps, p, before, order, number);
         if has_settled(before, p, sweeps.tolerance) {

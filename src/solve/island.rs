@@ -9,6 +9,7 @@ use super::block::Block;
 use super::end::{End, Inertia};
 use super::law::{self, Law};
 use super::problem::ContactProblem;
+use crate::deadline::Deadline;
 use crate::math::block_lu::{BlockMatrix, Factors, Pattern};
 use nalgebra::{DVector, Matrix3, Matrix3x6, Vector3};
 
@@ -40,10 +41,12 @@ pub struct Island {
     /// Of y: six a body.
     pub unknowns: usize,
     pattern: Pattern,
+    /// Nothing goes on later.
+    pub deadline: Deadline,
 }
 
-/// All islands that something can move, in the order of their first bodies.
-pub fn islands(problem: &ContactProblem) -> Vec<Island> {
+/// All islands that something can move, in the order of their first bodies; until when they may be worked on.
+pub fn islands(problem: &ContactProblem, deadline: Deadline) -> Vec<Island> {
     let whitened: Vec<Whitened> = problem.inertias.iter().map(Whitened::new).collect();
     let moves = |end: &&End| whitened[end.body].moves;
     let mut root_of: Vec<usize> = (0..whitened.len()).collect();
@@ -62,7 +65,7 @@ pub fn islands(problem: &ContactProblem) -> Vec<Island> {
         let first = root(&root_of, body);
         if first == body {
             island_of[body] = islands.len();
-            islands.push(Island { touches: Vec::new(), unknowns: 0, pattern: Pattern::default() });
+            islands.push(Island { touches: Vec::new(), unknowns: 0, pattern: Pattern::default(), deadline });
         }
         let island = &mut islands[island_of[first]];
         at[body] = island.unknowns;
@@ -146,9 +149,9 @@ impl Island {
         y
     }
 
-    /// E + Gᵀ D G in factors, with the 3×3 blocks of D.
+    /// E + Gᵀ D G in factors, with the 3×3 blocks of D. None: it is singular, or out of time.
     pub fn system(&self, D: &[Matrix3<f64>]) -> Option<Factors<'_>> {
-        self.coupled(D, 1.0).factors()
+        self.coupled(D, 1.0).factors(self.deadline)
     }
 
     /// Gᵀ D G with so much more on the diagonal.

@@ -14,6 +14,7 @@ use super::gauss_seidel::{self, Sweeps, Variant};
 use super::island::{Island, islands};
 use super::problem::ContactProblem;
 use super::{Impulse, active_set, interior, proximal, smallest};
+use crate::deadline::Deadline;
 use crate::experiment::types::{Cone, Correction, Iteration, Local, Order};
 use crate::work::Work;
 
@@ -49,7 +50,7 @@ pub fn solve(
     scratch: &mut gauss_seidel::Scratch,
     work: &mut Work,
 ) -> bool {
-    improve(problem, &islands(problem), sweeps, p, ONCE, scratch, work)
+    improve(problem, &islands(problem, sweeps.deadline), sweeps, p, ONCE, scratch, work)
 }
 
 fn improve(
@@ -87,7 +88,7 @@ fn improve(
 }
 
 /// What whoever steps from event to event asks for.
-pub fn to_rounding(most: u32) -> Sweeps {
+pub fn to_rounding(most: u32, deadline: Deadline) -> Sweeps {
     Sweeps {
         iteration: Iteration::GaussSeidel,
         correction: Correction::PerContact,
@@ -96,24 +97,25 @@ pub fn to_rounding(most: u32) -> Sweeps {
         tolerance: 1e-12,
         friction: true,
         variant: Variant::default(),
+        deadline,
     }
 }
 
-/// To rounding and from nothing, on a way that does not depend on the order of the contacts: by proximal problems about
+/// `goal`: to rounding. From nothing, on a way that does not depend on the order of the contacts: by proximal problems about
 /// nothing, with a falling η.
-pub fn solve_evenly(problem: &ContactProblem, most: u32, p: &mut [Impulse], work: &mut Work) -> bool {
-    let islands = islands(problem);
+pub fn solve_evenly(problem: &ContactProblem, goal: &Sweeps, p: &mut [Impulse], work: &mut Work) -> bool {
+    let islands = islands(problem, goal.deadline);
     for island in &islands {
         island.put(&evenly(island, work), p);
     }
     let mut scratch = gauss_seidel::Scratch::with_capacity(p.len(), 0);
-    improve(problem, &islands, &to_rounding(most), p, UNTIL_EVEN, &mut scratch, work)
+    improve(problem, &islands, goal, p, UNTIL_EVEN, &mut scratch, work)
 }
 
 fn evenly(island: &Island, work: &mut Work) -> Vec<Impulse> {
     let nothing = vec![Impulse::zeros(); island.touches.len()];
     let (mut p, mut eta) = (nothing.clone(), FIRST_ETA);
-    while eta >= EVEN_ETA {
+    while eta >= EVEN_ETA && !island.deadline.is_over() {
         let Some(next) = proximal::solve(island, &nothing, &p, eta, &mut work.newton_steps) else { break };
         p = next;
         eta /= BACK;
@@ -150,7 +152,7 @@ fn solve_island(
     }
     let (mut centre, mut eta) = (p.clone(), FIRST_ETA);
     for _ in 0..goal.most {
-        if is_enough(best, p) {
+        if is_enough(best, p) || island.deadline.is_over() {
             break;
         }
         if let Some(next) = proximal::solve(island, &centre, &centre, eta, &mut work.newton_steps) {

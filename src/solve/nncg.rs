@@ -55,6 +55,9 @@ fn descend(
     direction.resize(p.len(), Impulse::zeros());
     let mut last = f64::INFINITY;
     for number in 0..sweeps.most {
+        if sweeps.deadline.is_over() {
+            break;
+        }
         work.sweeps += 1;
         sweep(problem, coupling, sweeps, p, before, order, number);
         if has_settled(before, p, sweeps.tolerance) {

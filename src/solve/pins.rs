@@ -3,6 +3,9 @@
 use super::block::{Block, largest_eigenvalue};
 use super::end::{End, Inertia};
 use super::twist::Twist;
+use crate::model::Model;
+use crate::model::pins::{Anchor, Pin as Joint};
+use crate::state::State;
 use nalgebra::Vector3;
 
 /// A point of a body that is held, or follows a point of another body: v_rel + A p = `velocity_W`, p any impulse, in
@@ -22,6 +25,29 @@ pub struct PinEnd {
     pub sign: f64,
     /// From the centre of mass to the point, world axes.
     pub r_W: Vector3<f64>,
+}
+
+/// Fills `out` with the model's pins at this state. `wanted_W`: the velocity that one is to have, from its ends; a pin to
+/// the world has one.
+pub fn at(
+    model: &Model,
+    state: &State,
+    wanted_W: impl Fn(&Joint, &PinEnd, Option<&PinEnd>) -> Vector3<f64>,
+    out: &mut Vec<Pin>,
+) {
+    out.clear();
+    out.extend(model.pins.iter().map(|pin| {
+        let end = |body: usize, sign: f64, r_B: &Vector3<f64>| {
+            let r_W = state.bodies[body].q_WB * r_B;
+            PinEnd { body, sign, r_W }
+        };
+        let own = end(pin.body, 1.0, &pin.r_B);
+        let other = match &pin.anchor {
+            Anchor::World(_) => None,
+            Anchor::Body(other, r_B) => Some(end(*other, -1.0, r_B)),
+        };
+        Pin { end: own, other, velocity_W: wanted_W(pin, &own, other.as_ref()) }
+    }));
 }
 
 impl Block {

@@ -10,7 +10,7 @@ use super::block::Block;
 use super::problem::ContactProblem;
 use super::twist::Twist;
 use crate::collide::Contact;
-use crate::collide::approach::{rounding_m, size_m};
+use crate::collide::closed::{rounding_m, size_m};
 use crate::model::{Body, Model};
 use crate::work::Work;
 

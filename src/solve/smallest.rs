@@ -138,7 +138,7 @@ impl<'a> Faces<'a> {
         let slopes: Vec<Matrix3<f64>> = touches().zip(&at.z).map(slope).collect();
         let mut H = self.island.coupled(&slopes, 0.0);
         H.add_on_diagonal(REGULAR * H.largest());
-        let change = H.factors()?.solve(&at.missing)?;
+        let change = H.factors(self.island.deadline)?.solve(&at.missing)?;
         let mut part = 1.0;
         for _ in 0..HALVINGS {
             let moved = |(((touch, _), weight), z): (((&Share, &Face), &f64), &Vector3<f64>)| {

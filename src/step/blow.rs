@@ -3,7 +3,9 @@
 //! those just after.
 
 use crate::collide::Contact;
-use crate::collide::approach::{Approach, is_closed};
+use crate::collide::approach::Approach;
+use crate::collide::closed::is_closed_to_rounding;
+use crate::deadline::Deadline;
 use crate::experiment::types::Impact;
 use crate::model::Model;
 use crate::solve::Impulse;
@@ -57,7 +59,7 @@ impl Blow {
         state: &State,
         free: &[Twist],
         found: &[Contact],
-        step_s: f64,
+        (step_s, deadline): (f64, Deadline),
         solver: &mut Plastic,
     ) -> Option<bool> {
         if !self.take_part(model, state, free, found, step_s) {
@@ -68,7 +70,7 @@ impl Blow {
         let before: Vec<Twist> =
             state.bodies.iter().zip(free).map(|(at, free)| Twist::of(at).toward(free, part)).collect();
         self.problem.gather(model, state, &before, &mut self.contacts, (Approach::Touching, step_s));
-        let ended = impact::resolve(self.law, &self.problem, &self.restitution, solver, &mut self.own);
+        let ended = impact::resolve(self.law, &self.problem, &self.restitution, solver, deadline, &mut self.own);
         self.impulses.clear();
         self.impulses.resize(found.len(), Impulse::zeros());
         self.places.iter().zip(&self.own).for_each(|(place, p)| self.impulses[*place] = *p);
@@ -92,7 +94,7 @@ impl Blow {
             let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
             let strikes = self.approach.strikes(model, contact, [before, gained], step_s);
             any |= strikes;
-            if strikes || is_closed(model, contact) {
+            if strikes || is_closed_to_rounding(model, contact) {
                 self.contacts.push(*contact);
                 self.places.push(place);
                 self.restitution.push(contact.restitution);

@@ -5,14 +5,17 @@
 
 use super::stretch::{self, Stretch};
 use crate::collide::approach::Approach;
+use crate::collide::closed::{MARGIN, delta_at_m, is_closed_to_delta};
 use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
+use crate::deadline::Deadline;
 use crate::event::change::Looking;
-use crate::event::decide::{Change, Decision, decide, margin};
-use crate::event::dense::{Dense, Field, project};
-use crate::event::forces::{Forces, Held, NO_SLIP, meeting_m_s};
+use crate::event::decide::{Change, Decision, Margin, decide, margin};
+use crate::event::dense::{Dense, Field, Placed, project};
+use crate::event::forces::{Gathered, Held, NO_SLIP, Solved, meeting_m_s};
 use crate::event::impact;
+use crate::event::law::hold;
 use crate::event::motion::Motion;
-use crate::event::settle::settle;
+use crate::event::settle::{Forces, settle};
 use crate::event::slip::{self, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
@@ -63,18 +66,19 @@ pub struct EventDriven {
     contact: bool,
     motions: Vec<Motion>,
     held: Vec<Held>,
-    dense: Option<Dense>,
+    dense: Dense,
     /// Ends of slips that are known in closed form.
     ends_s: Option<f64>,
     next: Event,
     detector: Detector,
     found: Vec<Contact>,
     /// Looked into from outside between two steps, too.
-    forces: RefCell<Forces>,
+    gathered: RefCell<Gathered>,
     /// When a contact had its last impact, if it may have more.
     struck_s: BTreeMap<Key, f64>,
-    /// Of the projection.
-    placing: Forces,
+    /// Of the projection, and what it did last.
+    placing: Gathered,
+    placed: Placed,
     scratch: State,
     /// Events without any time between them; and when counting of events began, with how many.
     at_once: u32,
@@ -84,6 +88,8 @@ pub struct EventDriven {
     /// Steps of equal length instead.
     stretch: Option<Stretch>,
     span: Span,
+    /// A step that takes longer is not made.
+    deadline: Deadline,
     pub(super) stalled: Option<Criterion>,
     pub(super) solved: Vec<SolvedContact>,
     pub(super) work: Work,
@@ -103,9 +109,6 @@ const AT_ONCE: u32 = 200;
 const MANY_DENSE: u64 = 2_000;
 const MANY: u64 = 100_000;
 
-/// Of the bounding radius: what is nearer is looked at when something touches.
-const MARGIN: f64 = 1e-9;
-
 impl EventDriven {
     pub fn new(settings: &Settings, plan: &Plan, model: &Model, start: &State) -> Self {
         EventDriven {
@@ -117,20 +120,22 @@ impl EventDriven {
             contact: plan.contact,
             motions: Vec::with_capacity(model.bodies.len()),
             held: Vec::new(),
-            dense: None,
+            dense: Dense::default(),
             ends_s: None,
             next: Event::Start,
             detector: Detector::default(),
             found: Vec::with_capacity(16),
-            forces: RefCell::default(),
+            gathered: RefCell::default(),
             struck_s: BTreeMap::new(),
-            placing: Forces::default(),
+            placing: Gathered::default(),
+            placed: Placed::default(),
             scratch: start.clone(),
             at_once: 0,
             counted_from: (start.time_s, 0),
             trouble: false,
             stretch: None,
             span: Span::Motion,
+            deadline: Deadline::default(),
             stalled: None,
             solved: Vec::with_capacity(16),
             work: Work::default(),
@@ -140,6 +145,20 @@ impl EventDriven {
     pub fn step(&mut self, model: &Model, state: &mut State, end_s: f64) {
         if self.stretch.is_some() || !self.step_to_event(model, state, end_s) {
             self.step_of_stretch(model, state, end_s);
+        }
+        // Whatever was left in the middle of it asked the same clock before.
+        if self.deadline.is_over() {
+            self.stalled = Some(Criterion::Limit);
+        }
+    }
+
+    /// Steps from now on have time until then.
+    pub fn hurry(&mut self, deadline: Deadline) {
+        self.deadline = deadline;
+        self.gathered.get_mut().deadline = deadline;
+        self.placing.deadline = deadline;
+        if let Some(stretch) = &mut self.stretch {
+            stretch.hurry(deadline);
         }
     }
 
@@ -156,7 +175,7 @@ impl EventDriven {
             Event::Start | Event::Impact => {
                 self.detect(model, state);
                 blow = self.strike(model, state);
-                self.placing.p.clear();
+                self.placed = Placed::default();
                 self.regroup(model, state, &Change::default());
                 if blow {
                     self.add_placing();
@@ -168,7 +187,8 @@ impl EventDriven {
             }
             Event::Jam => {
                 self.detect(model, state);
-                blow = impact::jam(model, state, &self.found, self.forces.get_mut(), &mut self.solved, &mut self.work);
+                let (gathered, solved) = (self.gathered.get_mut(), &mut self.solved);
+                blow = impact::jam(model, state, &self.found, gathered, solved, &mut self.work);
                 self.stalled = (!blow).then_some(Criterion::Painleve);
                 self.next = Event::Change(Change::default());
             }
@@ -190,16 +210,18 @@ impl EventDriven {
         if state.time_s - self.counted_from.0 > self.stretch_s {
             self.counted_from = (state.time_s, self.work.events);
         }
-        let most = if self.dense.is_some() { MANY_DENSE } else { MANY };
+        let most = if self.dense.is_empty() { MANY } else { MANY_DENSE };
         self.work.events - self.counted_from.1 > most
     }
 
     fn begin_stretch(&mut self, model: &Model, state: &State) {
         self.work.fallbacks += 1;
-        self.stretch = Some(Stretch::new(self.law, model, state));
+        let mut stretch = Stretch::new(self.law, model, state);
+        stretch.hurry(self.deadline);
+        self.stretch = Some(stretch);
         self.motions.clear();
         self.held.clear();
-        self.dense = None;
+        self.dense = Dense::default();
     }
 
     /// One step of equal length by time-stepping; after the last one, back to events.
@@ -228,7 +250,7 @@ impl EventDriven {
                 &mut self.found,
                 &mut self.work,
             );
-            self.found.retain(|contact| watch::is_closed(model, contact));
+            self.found.retain(|contact| is_closed_to_delta(model, contact));
         }
     }
 
@@ -256,8 +278,8 @@ impl EventDriven {
                 self.found[k].tangential_restitution = 0.0;
             }
         }
-        let (forces, solved, work) = (self.forces.get_mut(), &mut self.solved, &mut self.work);
-        if !impact::strike(model, state, &self.found, self.law, forces, solved, work) {
+        let (gathered, solved, work) = (self.gathered.get_mut(), &mut self.solved, &mut self.work);
+        if !impact::strike(model, state, &self.found, self.law, gathered, solved, work) {
             work.unsolved += 1;
         }
         true
@@ -281,12 +303,12 @@ impl EventDriven {
         let height_m = fallen_m.min(approach * lasted_s / 4.0);
         let left = 1.0 - contact.restitution;
         // What stays within δ cannot be followed, however elastic.
-        height_m <= left * left * self.negligible_m(model, contact) || height_m <= watch::delta_at_m(model, contact)
+        height_m <= left * left * self.negligible_m(model, contact) || height_m <= delta_at_m(model, contact)
     }
 
     /// A height that does not matter.
     fn negligible_m(&self, model: &Model, contact: &Contact) -> f64 {
-        (ZENO * self.tolerance).max(10.0 * watch::delta_at_m(model, contact))
+        (ZENO * self.tolerance).max(10.0 * delta_at_m(model, contact))
     }
 
     /// What holds from now on, and how everything moves.
@@ -297,12 +319,15 @@ impl EventDriven {
         };
         if touches.is_empty() && model.pins.is_empty() {
             self.held.clear();
-            self.settle(model, state);
+            self.settle(model, state, &Solved::default());
             return;
         }
         let change = &Change { slow_m_s: self.slow.fading_m_s, ..change.clone() };
-        match decide(model, state, touches, change, self.forces.get_mut(), &mut self.work) {
-            Decision::Holds(held) => self.held = held,
+        let mut solved = match decide(model, state, touches, change, self.gathered.get_mut(), &mut self.work) {
+            Decision::Holds(held, solved) => {
+                self.held = held;
+                solved
+            }
             Decision::Jams => {
                 self.next = Event::Jam;
                 return;
@@ -311,18 +336,20 @@ impl EventDriven {
                 self.trouble = true;
                 return;
             }
+        };
+        self.placed = project(model, state, &self.held, &mut self.placing);
+        let gathered = self.gathered.get_mut();
+        if self.placed.moved || self.held.len() != gathered.here.len() {
+            gathered.gather(model, state, self.held.iter().map(|held| &held.touch));
+            solved = hold(gathered, &self.held, Selection::Least, &mut self.work);
         }
-        if project(model, state, &self.held, &mut self.placing) || self.held.len() != self.forces.get_mut().here.len() {
-            self.forces.get_mut().gather(model, state, self.held.iter().map(|held| &held.touch));
-            self.forces.get_mut().hold(&self.held, Selection::Least);
-        }
-        self.settle(model, state);
+        self.settle(model, state, &solved);
     }
 
     /// What ended the rest of a rocking belongs to the impact.
     fn add_placing(&mut self) {
-        let Forces { here, problem, p, .. } = &self.placing;
-        for ((here, block), p) in here.iter().zip(&problem.blocks).zip(p) {
+        let Gathered { here, problem, .. } = &self.placing;
+        for ((here, block), p) in here.iter().zip(&problem.blocks).zip(&self.placed.p) {
             let key = here.contact.key();
             if let Some(solved) = self.solved.iter_mut().find(|solved| solved.contact.key() == key) {
                 solved.impulse_W += block.in_world(p);
@@ -348,15 +375,14 @@ impl EventDriven {
     }
 
     /// How everything moves from now on.
-    fn settle(&mut self, model: &Model, state: &mut State) {
-        self.ends_s = settle(model, state, &self.held, self.forces.get_mut(), &mut self.motions);
-        let is_dense = |i: &usize| matches!(self.motions[*i], Motion::Dense);
+    fn settle(&mut self, model: &Model, state: &mut State, solved: &Solved) {
+        let forces = Forces { gathered: self.gathered.get_mut(), solved };
+        self.ends_s = settle(model, state, &self.held, forces, &mut self.motions);
+        let is_dense = |i: &usize| matches!(self.motions[*i], Motion::Dense(_));
         let dense: Vec<usize> = (0..model.bodies.len()).filter(is_dense).collect();
-        self.dense = match self.dense.take() {
-            _ if dense.is_empty() => None,
-            Some(known) if known.bodies == dense => Some(known),
-            _ => Some(Dense::new(model, dense, state, LOCAL * self.tolerance)),
-        };
+        if self.dense.bodies != dense {
+            self.dense = Dense::new(model, dense, state, LOCAL * self.tolerance);
+        }
     }
 
     /// Smooth motion up to the next event, or to the end of a step of the integrator.
@@ -366,24 +392,24 @@ impl EventDriven {
             self.trouble = true;
             return;
         }
-        if let Some(dense) = &self.dense {
-            to_s = dense.t_s + dense.h;
+        if !self.dense.is_empty() {
+            to_s = self.dense.t_s + self.dense.h;
         }
         self.next = Event::Step;
         if let Some(t_s) = self.ends_s.filter(|t_s| *t_s <= to_s) {
             (to_s, self.next) = (t_s, Event::Change(Change::default()));
         }
-        if self.held.iter().any(|held| self.dense.is_some() || held.touch.is_bounded()) {
-            let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref() };
-            let (forces, at, work) = (self.forces.get_mut(), &mut self.scratch, &mut self.work);
-            let mut looking = Looking { paths, held: &self.held, forces, at, work };
+        if self.held.iter().any(|held| !self.dense.is_empty() || held.touch.is_bounded()) {
+            let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
+            let (gathered, at, work) = (self.gathered.get_mut(), &mut self.scratch, &mut self.work);
+            let mut looking = Looking { paths, held: &self.held, gathered, at, work };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
                 (to_s, self.next) = (t_s, Event::Change(change));
             }
         }
         // Last: beyond the border of a face others touch that are not held.
         if self.contact {
-            let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref() };
+            let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
             let window = Window { from_s: state.time_s, to_s };
             if let Some(t_s) = watch::first(&paths, &self.held, window, &mut self.work) {
                 (to_s, self.next) = (t_s, Event::Impact);
@@ -394,16 +420,20 @@ impl EventDriven {
 
     /// A step of the integrator, if a body needs one.
     fn integrate(&mut self, model: &Model, state: &State, end_s: f64) -> bool {
-        let Some(mut dense) = self.dense.take() else { return true };
+        if self.dense.is_empty() {
+            return true;
+        }
+        let mut dense = std::mem::take(&mut self.dense);
         self.scratch.copy_from(state);
         let mut most_s = self.longest_s;
         if self.held.iter().any(|held| held.slides().is_some()) {
-            margin(model, state, &self.held, self.forces.get_mut(), &mut self.work);
-            most_s = most_s.min(slip::look(&self.slow, &mut self.held, state, self.forces.get_mut()));
+            let gathered = self.gathered.get_mut();
+            let Margin { solved, .. } = margin(model, state, &self.held, gathered, &mut self.work);
+            most_s = most_s.min(slip::look(&self.slow, &mut self.held, state, gathered, &solved));
         }
         dense.restart(state);
         let good = dense.step(&mut self.field(model), end_s, most_s);
-        self.dense = Some(dense);
+        self.dense = dense;
         good
     }
 
@@ -413,7 +443,7 @@ impl EventDriven {
             model,
             motions: &self.motions,
             held: &self.held,
-            forces: self.forces.get_mut(),
+            gathered: self.gathered.get_mut(),
             state: &mut self.scratch,
             choice: if sliding > 2 { Selection::Least } else { Selection::Any },
             work: &mut self.work,
@@ -422,17 +452,16 @@ impl EventDriven {
 
     /// Puts the state at the end of a stretch within the integrator's last step.
     fn end_at(&mut self, model: &Model, state: &mut State, to_s: f64) {
-        if let Some(mut dense) = self.dense.take() {
-            if to_s > dense.t_s && to_s < dense.t_s + dense.h {
-                self.scratch.copy_from(state);
-                dense.shorten(&mut self.field(model), to_s);
-            }
-            self.dense = Some(dense);
+        if !self.dense.is_empty() && to_s > self.dense.t_s && to_s < self.dense.t_s + self.dense.h {
+            let mut dense = std::mem::take(&mut self.dense);
+            self.scratch.copy_from(state);
+            dense.shorten(&mut self.field(model), to_s);
+            self.dense = dense;
         }
         state.time_s = to_s;
         self.state_at(model, state);
-        if self.dense.is_some() {
-            project(model, state, &self.held, &mut self.placing);
+        if !self.dense.is_empty() {
+            self.placed = project(model, state, &self.held, &mut self.placing);
         }
     }
 
@@ -452,7 +481,7 @@ impl EventDriven {
 impl Passage for EventDriven {
     /// Within the last stretch.
     fn state_at(&self, model: &Model, state: &mut State) {
-        let paths = Paths { model, motions: &self.motions, dense: self.dense.as_ref() };
+        let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
         if !self.motions.is_empty() {
             (0..state.bodies.len()).for_each(|i| state.bodies[i] = paths.at(i, state.time_s));
         }
@@ -462,13 +491,14 @@ impl Passage for EventDriven {
         if let Span::Short { step_s } = self.span {
             return self.solved.iter().map(|solved| ContactForce::mean(solved, step_s)).collect();
         }
-        if self.held.is_empty() {
+        // What a step holds that was not made is not known.
+        if self.held.is_empty() || self.stalled == Some(Criterion::Limit) {
             return Vec::new();
         }
-        let mut forces = self.forces.borrow_mut();
-        margin(model, state, &self.held, &mut forces, &mut Work::default());
-        let Forces { here, problem, p, .. } = &*forces;
-        let of = here.iter().zip(&problem.blocks).zip(p);
+        let mut gathered = self.gathered.borrow_mut();
+        let Margin { solved, .. } = margin(model, state, &self.held, &mut gathered, &mut Work::default());
+        let Gathered { here, problem, .. } = &*gathered;
+        let of = here.iter().zip(&problem.blocks).zip(&solved.p);
         of.map(|((here, block), p)| ContactForce { contact: here.contact, force_W: block.in_world(p) }).collect()
     }
 }

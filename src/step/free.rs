@@ -1,6 +1,7 @@
 //! Motion without contact (L4, L5): every island of bodies that pins join on its own.
 
 use crate::clock::Clock;
+use crate::deadline::Deadline;
 use crate::exact::Closed;
 use crate::experiment::tolerances::DEFAULT_TOLERANCE;
 use crate::experiment::types::{Accuracy, Exact, Free as Settings, Integrator, Update};
@@ -11,6 +12,7 @@ use crate::integrate::{
 };
 use crate::math::quadrature;
 use crate::model::Model;
+use crate::outcome::Criterion;
 use crate::shown::{Moment, Smooth};
 use crate::state::State;
 use crate::work::Work;
@@ -44,8 +46,10 @@ pub struct Free {
     shows_way: bool,
     /// From the start, for `exact`.
     motion: Option<Closed>,
-    /// A step has no solution, or the tolerance is out of reach.
-    pub(super) stalled: bool,
+    /// A step has no solution, or the tolerance is out of reach, or no time is left.
+    pub(super) stalled: Option<Criterion>,
+    /// Steps have time until then.
+    pub(super) deadline: Deadline,
     pub(super) work: Work,
 }
 
@@ -62,7 +66,8 @@ impl Free {
             follower: RefCell::default(),
             shows_way: shows_way(settings, model),
             motion,
-            stalled: false,
+            stalled: None,
+            deadline: Deadline::default(),
             work: Work::default(),
         }
     }
@@ -84,10 +89,13 @@ impl Free {
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
-        let span = [state.time_s, clock.step_s];
+        let (span, deadline) = ([state.time_s, clock.step_s], self.deadline);
         for (island, method) in &mut self.islands {
             island.take(state);
-            self.stalled |= !method.step(island, model, span, &mut self.work);
+            if !method.step(island, model, span, deadline, &mut self.work) {
+                let criterion = if deadline.is_over() { Criterion::Limit } else { Criterion::NotConverged };
+                self.stalled.get_or_insert(criterion);
+            }
             island.hold(model, span[0] + span[1], &mut self.work);
             island.give(state);
         }
@@ -154,8 +162,8 @@ impl Method {
         })
     }
 
-    /// From the time `span[0]`, `span[1]` long. False: there is no solution.
-    fn step(&mut self, island: &mut Chain, model: &Model, span: [f64; 2], work: &mut Work) -> bool {
+    /// From the time `span[0]`, `span[1]` long. False: there is no solution, or no time for it.
+    fn step(&mut self, island: &mut Chain, model: &Model, span: [f64; 2], deadline: Deadline, work: &mut Work) -> bool {
         match self {
             Method::Euler(update) => euler::step(*update, island, model, span, work),
             Method::Rk4(scratch) => rk4::step(island, model, span, scratch, work),
@@ -168,8 +176,10 @@ impl Method {
             Method::Momentum { driven, seen, scratch, .. } => {
                 return implicit::step(*driven, *seen, island, model, span, scratch, work);
             }
-            Method::Taylor(taylor) => return taylor.step(island, model, span, work),
-            Method::Dop853(control, scratch) => return dop853::step(island, model, span, control, scratch, work),
+            Method::Taylor(taylor) => return taylor.step(island, model, span, deadline, work),
+            Method::Dop853(control, scratch) => {
+                return dop853::step(island, model, (span, deadline), control, scratch, work);
+            }
         }
         true
     }

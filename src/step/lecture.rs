@@ -4,6 +4,7 @@ use super::scratch::{Scratch, move_body};
 use crate::clock::Clock;
 use crate::collide::Reach;
 use crate::collide::approach::Approach;
+use crate::deadline::Deadline;
 use crate::experiment::types::Lecture as Settings;
 use crate::model::Model;
 use crate::solve::gauss_seidel::{self, Sweeps, Variant, correct_all, iterate};
@@ -14,13 +15,17 @@ use crate::state::State;
 pub struct Lecture {
     settings: Settings,
     iteration: gauss_seidel::Scratch,
+    /// Steps have time until then.
+    pub(super) deadline: Deadline,
+    /// The last step was left when time was up.
+    pub(super) is_cut: bool,
     pub(super) scratch: Scratch,
 }
 
 impl Lecture {
     pub(super) fn new(settings: &Settings, scratch: Scratch) -> Self {
         let iteration = gauss_seidel::Scratch::with_capacity(scratch.contacts(), scratch.free.capacity());
-        Lecture { settings: settings.clone(), iteration, scratch }
+        Lecture { settings: settings.clone(), iteration, deadline: Deadline::default(), is_cut: false, scratch }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
@@ -54,8 +59,10 @@ impl Lecture {
                 tolerance: 0.0,
                 friction: true,
                 variant: Variant::default(),
+                deadline: self.deadline,
             };
-            iterate(&s.problem, &sweeps, &mut s.impulses, &mut self.iteration, &mut s.work);
+            let settled = iterate(&s.problem, &sweeps, &mut s.impulses, &mut self.iteration, &mut s.work);
+            self.is_cut = !settled && self.deadline.is_over();
         }
         s.take_solution();
     }

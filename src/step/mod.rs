@@ -7,7 +7,6 @@ mod blow;
 mod drift;
 mod event_driven;
 mod free;
-mod hold;
 mod lecture;
 mod penalty;
 mod scratch;

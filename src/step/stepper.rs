@@ -5,6 +5,7 @@ use super::{event_driven, free, lecture, penalty, time_stepping};
 use crate::clock::Clock;
 use crate::collide::SolvedContact;
 use crate::collide::approach::Approach;
+use crate::deadline::Deadline;
 use crate::experiment::types::SteppingMethod as Settings;
 use crate::integrate::rotation::exponential;
 use crate::model::Model;
@@ -60,6 +61,19 @@ impl Stepper {
         Stepper { method, approach: plan.approach, driven: driven.map(|(i, (_, at))| Driven(i, *at)).collect() }
     }
 
+    /// Steps from now on have time until then: one that is not made by then is not made. Without a deadline they have all
+    /// the time that they need.
+    pub fn hurry(&mut self, deadline: Deadline) {
+        match &mut self.method {
+            Method::Free(method) => method.deadline = deadline,
+            Method::Lecture(method) => method.deadline = deadline,
+            Method::TimeStepping(method) => method.hurry(deadline),
+            Method::EventDriven(method) => method.hurry(deadline),
+            // It iterates nothing.
+            Method::Penalty(_) => {}
+        }
+    }
+
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
         match &mut self.method {
             Method::Free(method) => method.step(model, state, clock),
@@ -74,9 +88,11 @@ impl Stepper {
     /// The last step could not be made: the state is to be forgotten.
     pub fn stalled(&self) -> Option<Criterion> {
         match &self.method {
-            Method::Free(method) => method.stalled.then_some(Criterion::NotConverged),
+            Method::Free(method) => method.stalled,
             Method::EventDriven(method) => method.stalled,
-            Method::Lecture(_) | Method::Penalty(_) | Method::TimeStepping(_) => None,
+            Method::Lecture(method) => method.is_cut.then_some(Criterion::Limit),
+            Method::TimeStepping(method) => method.is_cut.then_some(Criterion::Limit),
+            Method::Penalty(_) => None,
         }
     }
 

@@ -5,6 +5,7 @@ use super::scratch::Scratch;
 use super::time_stepping;
 use crate::clock::Clock;
 use crate::collide::SolvedContact;
+use crate::deadline::Deadline;
 use crate::event::slip::falls;
 use crate::experiment::types::{Impact, Method, Scheme, Solver, TimeStepping};
 use crate::model::Model;
@@ -38,6 +39,11 @@ impl Stretch {
         (state.step, state.time_s) = (step + 1, until_s);
         self.left -= 1;
         until_s - from_s
+    }
+
+    /// Steps from now on have time until then.
+    pub fn hurry(&mut self, deadline: Deadline) {
+        self.stepper.hurry(deadline);
     }
 
     pub fn is_over(&self) -> bool {

@@ -10,19 +10,21 @@
 
 use super::blow::Blow;
 use super::drift::drift;
-use super::hold::pins;
 use super::scratch::Scratch;
 use crate::clock::Clock;
 use crate::collide::approach::{Approach, foresee};
+use crate::collide::closed::MARGIN;
 use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, Reach, SolvedContact};
+use crate::deadline::Deadline;
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
 use crate::integrate::rotation::{exponential, w_from_momentum};
 use crate::model::Model;
+use crate::model::pins::Pin as Joint;
 use crate::plan::Plan;
 use crate::solve::Impulse;
 use crate::solve::gauss_seidel::{Sweeps, Variant};
-use crate::solve::pins::Pin;
+use crate::solve::pins::{self, Pin};
 use crate::solve::position::Push;
 use crate::solve::problem::ContactProblem;
 use crate::solve::solver::ContactSolver;
@@ -32,9 +34,6 @@ use nalgebra::Vector3;
 
 /// Of the greatest friction: what is below it sticks.
 const STUCK: f64 = 1.0 - 1e-9;
-
-/// Of a body's bounding radius: a body resting at gap zero is in contact whatever its last bit says.
-const MARGIN: f64 = 1e-9;
 
 pub struct TimeStepping {
     solver: ContactSolver,
@@ -50,6 +49,8 @@ pub struct TimeStepping {
     blow: Option<Blow>,
     /// Where the last step's impulses acted, if not where the step began.
     pub(super) kicked: Option<State>,
+    /// The last step was left when time was up.
+    pub(super) is_cut: bool,
     pub(super) scratch: Scratch,
 }
 
@@ -63,6 +64,7 @@ impl TimeStepping {
             tolerance: settings.tolerance(),
             friction: plan.friction,
             variant: Variant { local: settings.local, relaxation: settings.relaxation, order: settings.order },
+            deadline: Deadline::default(),
         };
         TimeStepping {
             solver: ContactSolver::new(settings.solver, scratch.contacts(), scratch.free.capacity()),
@@ -76,8 +78,14 @@ impl TimeStepping {
             push: Push::new(sweeps.tolerance, scratch.contacts(), scratch.free.capacity()),
             blow: Blow::new(settings.impact, plan.approach, start),
             kicked: (plan.approach == Approach::Middle).then(|| start.clone()),
+            is_cut: false,
             scratch,
         }
+    }
+
+    /// Steps from now on have time until then.
+    pub fn hurry(&mut self, deadline: Deadline) {
+        self.sweeps.deadline = deadline;
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
@@ -123,15 +131,18 @@ impl TimeStepping {
         let s = &mut self.scratch;
         s.problem.gather(model, state, &s.free, &mut s.found, (self.approach, step_s));
         if !model.pins.is_empty() {
-            pins(model, state, step_s, &mut self.pins);
+            // The velocity that closes what gap there is until the next step.
+            let closing = |pin: &Joint, _: &_, _: Option<&_>| -pin.apart_W(&state.bodies) / step_s;
+            pins::at(model, state, closing, &mut self.pins);
             s.problem.pin(model, state, &s.free, &self.pins);
         }
         let struck = self.blow.as_mut().filter(|_| !s.found.is_empty()).and_then(|blow| {
             let (solver, work) = (&mut self.solver, &mut s.work);
             let mut plastic =
                 |problem: &ContactProblem, p: &mut [Impulse]| solver.solve(problem, &self.sweeps, p, work);
-            let ended = blow.strike(model, state, &s.free, &s.found, step_s, &mut plastic)?;
+            let ended = blow.strike(model, state, &s.free, &s.found, (step_s, self.sweeps.deadline), &mut plastic)?;
             s.work.unsolved += u64::from(!ended);
+            self.is_cut |= !ended && self.sweeps.deadline.is_over();
             go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s));
             Some(blow)
         });
@@ -147,6 +158,7 @@ impl TimeStepping {
             s.impulses.fill(Impulse::zeros());
         }
         if !s.problem.blocks.is_empty() && !self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work) {
+            self.is_cut |= self.sweeps.deadline.is_over();
             s.work.unsolved += 1;
             s.problem.response(&s.impulses, &mut s.response);
             s.problem.take_back(&mut s.impulses, &s.response);

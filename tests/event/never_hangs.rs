@@ -1,11 +1,13 @@
 //! Events may come ever faster: a run ends, at its end or at a limit, and says what it did.
 
 use crate::yaml::{experiment, measured};
-use gotai::experiment::types::Limits;
-use gotai::outcome::Outcome;
+use gotai::clock::Clock;
+use gotai::experiment::types::{Experiment, Limits};
+use gotai::outcome::{Criterion, Outcome};
 use gotai::run::advance::{Stepped, only_step};
 use gotai::scene::build;
-use gotai::state::BodyState;
+use gotai::state::{BodyState, State};
+use std::time::{Duration, Instant};
 
 const RATTLING: &str = "
 scene:
@@ -59,4 +61,50 @@ fn a_limit_of_events_is_kept() {
     let m = measured(RATTLING, &["scene.restitution=1", "limits.events=30"]);
     assert_eq!((m.outcome, m.criterion.as_deref(), m.work.events), (Outcome::Stalled, Some("limit"), 31));
     assert!(m.end_time_s.unwrap() < 3.0);
+}
+
+/// Bricks in running bond, side by side: hundreds of redundant contacts in the first step.
+const WALL: &str = "
+scene:
+  friction: 0.6
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies:
+    - { name: a, shape: { box: { size_m: [0.2, 0.1, 0.1] } }, mass_kg: 1, position_m: [0, 0.05, 0], copies: { grid: [8, 4, 1], step_m: [0.2, 0.2, 0.1] } }
+    - { name: b, shape: { box: { size_m: [0.2, 0.1, 0.1] } }, mass_kg: 1, position_m: [0.1, 0.15, 0], copies: { grid: [8, 4, 1], step_m: [0.2, 0.2, 0.1] } }
+method: event-driven
+time: { step_s: 0.01, end_s: 100 }
+";
+
+/// A top spins half a million times.
+const TOP: &str = "
+scene:
+  container: null
+  bodies: [{ name: top, shape: { box: { size_m: [0.1, 0.2, 0.3] } }, mass_kg: 1, angular_velocity_rad_s: [1e3, 3, 2] }]
+method: { free: { integrator: dop853, tolerance: 1e-13 } }
+time: { step_s: 4000, end_s: 4000 }
+";
+
+/// Until the limit, the state that was reached, and the whole time.
+fn limited(experiment: &Experiment, wall_s: f64) -> (Stepped, State, Duration) {
+    let (model, start) = build(experiment).unwrap();
+    let limits = Limits { wall_s: Some(wall_s), ..Limits::default() };
+    let clock: Clock = experiment.clock();
+    let started = Instant::now();
+    let stepped = only_step(&experiment.method.stepping().unwrap(), &model, start.clone(), &clock, &limits);
+    (stepped, start, started.elapsed())
+}
+
+#[test]
+fn a_limit_of_time_ends_a_run_in_the_middle_of_a_step() {
+    for (text, method) in [(WALL, "event-driven"), (WALL, "{time-stepping: {solver: newton}}"), (TOP, "")] {
+        let sets = if method.is_empty() { vec![] } else { vec![format!("method={method}")] };
+        let experiment = experiment(text, &sets.iter().map(String::as_str).collect::<Vec<_>>());
+        let (Stepped { state, stopped, .. }, start, took) = limited(&experiment, 0.5);
+        assert_eq!(stopped, Some(Criterion::Limit), "{method}");
+        // measured: 0.51 s
+        assert!(took < Duration::from_secs(2), "{method}: {took:?}");
+        assert!(state.bodies.iter().all(BodyState::is_finite) && state.time_s < experiment.time.end_s);
+        // Never a half-made step: where none was made, all is as it was.
+        assert!(state.step > 0 || state.bodies == start.bodies, "{method}");
+    }
 }

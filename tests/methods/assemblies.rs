@@ -3,6 +3,7 @@
 use crate::yaml::experiment;
 use gotai::collide::approach::Approach;
 use gotai::collide::{Contact, SolvedContact};
+use gotai::deadline::Deadline;
 use gotai::experiment::types::{Cone, Correction, Diverge, Iteration, Solver};
 use gotai::measure::Judge;
 use gotai::model::Model;
@@ -146,6 +147,7 @@ pub fn sweeps(most: u32, tolerance: f64, friction: bool) -> Sweeps {
         tolerance,
         friction,
         variant: Variant::default(),
+        deadline: Deadline::default(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Laws of impact against closed forms.
 
 use super::assemblies::{Assembly, Gathered, Spread, Stone, sweeps};
+use gotai::deadline::Deadline;
 use gotai::solve::gauss_seidel::Scratch;
 use gotai::solve::impact::{Law, darboux_keller, resolve};
 use gotai::solve::problem::ContactProblem;
@@ -16,7 +17,14 @@ pub fn plastic(problem: &ContactProblem, p: &mut [Impulse]) -> bool {
 /// Whether the law came to its own end, and the impulses.
 fn impact(law: Law, at: &Gathered, restitution: f64) -> (bool, Vec<Impulse>) {
     let mut p = Vec::new();
-    let own = resolve(law, &at.problem, &vec![restitution; at.problem.blocks.len()], &mut plastic, &mut p);
+    let own = resolve(
+        law,
+        &at.problem,
+        &vec![restitution; at.problem.blocks.len()],
+        &mut plastic,
+        Deadline::default(),
+        &mut p,
+    );
     (own, p)
 }
 

@@ -5,6 +5,7 @@ use super::impact::plastic;
 use crate::yaml::experiment;
 use gotai::collide::Contact;
 use gotai::collide::approach::Approach;
+use gotai::deadline::Deadline;
 use gotai::model::Model;
 use gotai::solve::Impulse;
 use gotai::solve::gauss_seidel::{self, Scratch};
@@ -99,7 +100,7 @@ fn try_all(law: Law, solver: &mut Plastic) -> Found {
         for number in 0..IMPACTS_PER_MODEL {
             let Drawn { problem, before, restitution } = draw(&mut spread, &model, &state, number);
             let (mut p, mut u) = (Vec::new(), Vec::new());
-            let own = resolve(law, &problem, &restitution, solver, &mut p);
+            let own = resolve(law, &problem, &restitution, solver, Deadline::default(), &mut p);
             problem.response(&p, &mut u);
             let after: Vec<Twist> = before.iter().zip(&u).map(|(a, b)| Twist { v: a.v + b.v, w: a.w + b.w }).collect();
             let energy = kinetic_energy(&model, &state, &before);

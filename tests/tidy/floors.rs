@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Room → rooms that it may import, from the ground up. A room stands above all that it imports, so that this list
 /// is in an order: a new arrow is a line here, seen in review.
 const ROOMS: &[(&str, &[&str])] = &[
-    ("math", &[]),
+    ("deadline", &[]),
+    ("math", &["deadline"]),
     ("state", &[]),
     ("outcome", &[]),
     ("digest", &[]),
@@ -25,13 +26,28 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("case", &["digest", "experiment"]),
     ("check", &["experiment", "rows", "heading", "outcome", "math"]),
     ("collide", &["experiment", "model", "shape", "state", "work"]),
-    ("integrate", &["model", "experiment", "math", "state", "work"]),
+    ("integrate", &["deadline", "model", "experiment", "math", "state", "work"]),
     ("plan", &["experiment", "model"]),
     ("shown", &["collide", "experiment", "model", "outcome", "state"]),
     ("scene", &["experiment", "model", "shape", "collide", "state", "work"]),
     ("exact", &["experiment", "model", "shape", "collide", "math", "state"]),
-    ("solve", &["experiment", "model", "collide", "math", "state", "work"]),
-    ("event", &["exact", "solve", "integrate", "collide", "model", "shape", "experiment", "math", "state", "work"]),
+    ("solve", &["deadline", "experiment", "model", "collide", "math", "state", "work"]),
+    (
+        "event",
+        &[
+            "deadline",
+            "exact",
+            "solve",
+            "integrate",
+            "collide",
+            "model",
+            "shape",
+            "experiment",
+            "math",
+            "state",
+            "work",
+        ],
+    ),
     // The judges know no method: neither what steps, nor what solves, nor a closed form.
     ("measure", &["plan", "shown", "collide", "model", "experiment", "rows", "heading", "outcome", "state", "work"]),
     (
@@ -67,6 +83,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "plan",
             "shown",
             "clock",
+            "deadline",
             "outcome",
         ],
     ),
@@ -86,6 +103,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "work",
             "state",
             "clock",
+            "deadline",
         ],
     ),
     (
@@ -299,7 +317,7 @@ fn a_name_has_one_type() {
 const PLACES: &[(&str, &[&str])] = &[
     ("serde_yaml", &["experiment"]),
     ("std::fs", &["files", "experiment", "record", "sweep", "cli"]),
-    ("Instant", &["run", "study", "bench", "cli"]),
+    ("Instant", &["deadline", "run", "study", "bench", "cli"]),
     ("std::{", &[]),
     ("SystemTime", &[]),
     ("std::thread", &["record", "cli"]),

@@ -2,6 +2,7 @@
 
 use super::super::chain::Chain;
 use super::equations::Equations;
+use crate::deadline::Deadline;
 use crate::model::Model;
 use crate::work::Work;
 
@@ -28,8 +29,15 @@ impl Taylor {
         Taylor { tolerance, order, equations: Equations::new(island, model), reach_s: None }
     }
 
-    /// Takes an island over one step of the clock. False where no expansion reaches far enough to get on.
-    pub fn step(&mut self, island: &mut Chain, model: &Model, [t_s, step_s]: [f64; 2], work: &mut Work) -> bool {
+    /// Takes an island over one step of the clock. False where no expansion reaches far enough to get on, or time is up.
+    pub fn step(
+        &mut self,
+        island: &mut Chain,
+        model: &Model,
+        [t_s, step_s]: [f64; 2],
+        deadline: Deadline,
+        work: &mut Work,
+    ) -> bool {
         let end_s = t_s + step_s;
         for _ in 0..MOST {
             let [start_s, reached_s] = match self.reach_s {
@@ -43,7 +51,7 @@ impl Taylor {
                 self.equations.write(self.order, end_s - start_s, island);
                 return true;
             }
-            if reached_s - start_s <= 16.0 * f64::EPSILON * step_s {
+            if reached_s - start_s <= 16.0 * f64::EPSILON * step_s || deadline.is_over() {
                 break;
             }
             if island.pins().is_some() {

@@ -22,6 +22,7 @@ use super::super::twist::Twist;
 use super::super::{Impulse, exact_contact};
 use super::disc;
 use super::plastic::{Plastic, plastic, rounding};
+use crate::deadline::Deadline;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 const MOST: usize = 2000;
@@ -29,13 +30,19 @@ const MOST: usize = 2000;
 /// Settled: no impulse changes by more than this part of the largest.
 const TOLERANCE: f64 = 1e-13;
 
-pub(super) fn resolve(problem: &ContactProblem, restitution: &[f64], solver: &mut Plastic, p: &mut [Impulse]) -> bool {
+pub(super) fn resolve(
+    problem: &ContactProblem,
+    restitution: &[f64],
+    solver: &mut Plastic,
+    deadline: Deadline,
+    p: &mut [Impulse],
+) -> bool {
     let (compression, compressed) = plastic(problem, solver);
     let mut u = Vec::new();
     problem.response(&compression, &mut u);
     let after = problem.after(&u);
     let floors: Vec<f64> = compression.iter().zip(restitution).map(|(p, e)| e * p.x).collect();
-    let (mut expansion, mut settled) = expand(&after, &floors);
+    let (mut expansion, mut settled) = expand(&after, &floors, deadline);
     after.response(&expansion, &mut u);
     let end = after.after(&u);
     let rounding = rounding(problem);
@@ -49,11 +56,14 @@ pub(super) fn resolve(problem: &ContactProblem, restitution: &[f64], solver: &mu
 }
 
 /// Expansion from the velocities after compression. Whether it has settled.
-fn expand(after: &ContactProblem, floors: &[f64]) -> (Vec<Impulse>, bool) {
+fn expand(after: &ContactProblem, floors: &[f64], deadline: Deadline) -> (Vec<Impulse>, bool) {
     let mut p: Vec<Impulse> = floors.iter().map(|floor| Impulse::new(*floor, 0.0, 0.0)).collect();
     let shares = shares(after);
     let mut u: Vec<Twist> = Vec::new();
     for _ in 0..MOST {
+        if deadline.is_over() {
+            break;
+        }
         after.response(&p, &mut u);
         let (mut largest, mut change) = (0.0_f64, 0.0_f64);
         for (i, block) in after.blocks.iter().enumerate() {
@@ -101,7 +111,7 @@ fn bound(
     let mut u = Vec::new();
     after.response(expansion, &mut u);
     let end = after.after(&u);
-    for island in islands(problem) {
+    for island in islands(problem, Deadline::default()) {
         let sum = |of: &dyn Fn(usize) -> f64| island.touches.iter().map(|touch| of(touch.index)).sum::<f64>() / 2.0;
         // Energy gained at θ of the expansion: `compressed` + `linear` θ + `square` θ².
         let compressed = sum(&|i| compression[i].dot(&(problem.blocks[i].b + after.blocks[i].b)));

@@ -13,11 +13,18 @@ use super::super::coupling::{Coupling, Memory};
 use super::super::problem::ContactProblem;
 use super::darboux_keller;
 use super::plastic::{Plastic, plastic, rounding};
+use crate::deadline::Deadline;
 
 const MOST_PER_CONTACT: usize = 100;
 
-pub(super) fn resolve(problem: &ContactProblem, restitution: &[f64], solver: &mut Plastic, p: &mut [Impulse]) -> bool {
-    if one_by_one(problem, restitution, p) {
+pub(super) fn resolve(
+    problem: &ContactProblem,
+    restitution: &[f64],
+    solver: &mut Plastic,
+    deadline: Deadline,
+    p: &mut [Impulse],
+) -> bool {
+    if one_by_one(problem, restitution, deadline, p) {
         return true;
     }
     let mut u = Vec::new();
@@ -28,11 +35,14 @@ pub(super) fn resolve(problem: &ContactProblem, restitution: &[f64], solver: &mu
 }
 
 /// Whether no contact approaches any more.
-fn one_by_one(problem: &ContactProblem, restitution: &[f64], p: &mut [Impulse]) -> bool {
+fn one_by_one(problem: &ContactProblem, restitution: &[f64], deadline: Deadline, p: &mut [Impulse]) -> bool {
     let rounding = rounding(problem);
     let mut memory = Memory::default();
     let mut coupling = problem.through_bodies(p, &mut memory);
     for _ in 0..MOST_PER_CONTACT * problem.blocks.len() {
+        if deadline.is_over() {
+            break;
+        }
         let velocity = |i: usize| coupling.velocity(i, &problem.blocks[i], p);
         let normals = || (0..problem.blocks.len()).map(|i| velocity(i).x);
         let fastest = normals().fold(0.0, f64::min);

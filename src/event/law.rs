@@ -1,0 +1,102 @@
+//! The law of contact for accelerations, of all contacts at once, by the exact contact solver: for contacts that do not
+//! slip it is the same law with accelerations for velocities; one that slips gets so large a fictitious slip that its
+//! force is on the edge of the cone.
+//!
+//! It works on six numbers a body, and its forces are shared evenly: of many contacts, most of them redundant, this is
+//! what elimination among their forces (`forces`) has no time for.
+
+use super::forces::{Gathered, Held, Mode, Solved};
+use crate::math::full_pivot::Selection;
+use crate::solve::block::Block;
+use crate::solve::{Impulse, newton};
+use crate::work::Work;
+use nalgebra::Vector3;
+
+/// What the law's solution leaves, relative to the largest acceleration or force: rounding of redundant contacts.
+pub const ROUNDING: f64 = 1e-10;
+
+/// Contacts above which forces of what holds are those of the law: leaving out one after another of those that pull
+/// takes a minute of more than so many (measured: 400 take half an hour, the law 0.04 s).
+pub const MANY: usize = 128;
+
+/// Proximal problems of an island before the law is given up.
+const MOST: u32 = 200;
+
+/// Fictitious slip over the largest acceleration.
+const FAST: f64 = 1e3;
+
+/// What is left of a fictitious slip that is stopped, relative to it: of one that is not, nearly all.
+const STOPPED: f64 = 1e-6;
+
+/// What the law of all contacts says.
+pub enum Law {
+    /// These contacts hold, by their places, so.
+    Holds(Vec<(usize, Mode)>, Solved),
+    Jams,
+    Unsolved,
+}
+
+/// The law of all contacts, of which what slips slips on.
+pub fn by_law(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Law {
+    let mut problem = gathered.problem.clone();
+    let scale = gathered.scale();
+    for (block, mode) in problem.blocks.iter_mut().zip(modes) {
+        if let Mode::Slide(d) = mode {
+            block.b.y += FAST * scale * d.dot(&block.frame[1]);
+            block.b.z += FAST * scale * d.dot(&block.frame[2]);
+        }
+    }
+    let mut p = vec![Impulse::zeros(); problem.blocks.len()];
+    if !newton::solve_evenly(&problem, &newton::to_rounding(MOST, gathered.deadline), &mut p, work) {
+        return Law::Unsolved;
+    }
+    let solved = gathered.solved(p, true);
+    let mut held = Vec::new();
+    for (i, mode) in modes.iter().enumerate() {
+        let (block, p) = (&gathered.problem.blocks[i], &solved.p[i]);
+        let a = block.velocity(&solved.added);
+        if let Mode::Slide(d) = mode
+            && is_stopped(block, p, &a, FAST * scale * d)
+        {
+            return Law::Jams;
+        }
+        if a.x > ROUNDING * scale {
+            continue;
+        }
+        let a_W = block.along_W(&a);
+        let mode = match mode {
+            // Against its force, which is known to more digits than an acceleration that has just begun.
+            Mode::Stick if a_W.norm() > ROUNDING * scale => {
+                let p_W = block.along_W(p);
+                Mode::Slide((-p_W).try_normalize(0.0).unwrap_or_else(|| a_W.normalize()))
+            }
+            mode => *mode,
+        };
+        held.push((i, mode));
+    }
+    Law::Holds(held, solved)
+}
+
+/// Even the fictitious slip.
+fn is_stopped(block: &Block, p: &Impulse, a: &Vector3<f64>, slip_W: Vector3<f64>) -> bool {
+    let left = Vector3::new(0.0, a.y + slip_W.dot(&block.frame[1]), a.z + slip_W.dot(&block.frame[2]));
+    slip_W != Vector3::zeros() && p.x > 0.0 && left.norm() <= STOPPED * slip_W.norm()
+}
+
+/// Forces for what holds, pins with it.
+pub fn hold(gathered: &Gathered, held: &[Held], choice: Selection, work: &mut Work) -> Solved {
+    if held.len() > MANY {
+        let modes: Vec<Mode> = gathered.modes(held).collect();
+        if let Law::Holds(now, solved) = by_law(gathered, &modes, work)
+            && goes_on(&now, &modes)
+        {
+            return solved;
+        }
+    }
+    gathered.hold(held, choice)
+}
+
+/// All contacts hold as they did.
+pub fn goes_on(now: &[(usize, Mode)], before: &[Mode]) -> bool {
+    now.len() == before.len() && now.iter().zip(before).all(|((_, now), before)| now == before)
+}

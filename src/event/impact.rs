@@ -54,7 +54,7 @@ pub fn strike(
 }
 
 /// Without restitution, from nothing.
-fn plastic(problem: &ContactProblem, p: &mut [Impulse], deadline: Deadline, work: &mut Work) -> bool {
+pub(super) fn plastic(problem: &ContactProblem, p: &mut [Impulse], deadline: Deadline, work: &mut Work) -> bool {
     if let [block] = &problem.blocks[..]
         && block.pin.is_none()
     {

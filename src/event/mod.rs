@@ -18,6 +18,7 @@
 pub mod change;
 pub mod decide;
 pub mod dense;
+pub mod ending;
 pub mod forces;
 pub mod impact;
 pub mod law;

@@ -10,7 +10,8 @@ use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
 use crate::deadline::Deadline;
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
-use crate::event::dense::{Dense, Field, Placed, project};
+use crate::event::dense::{Dense, Field, project};
+use crate::event::ending;
 use crate::event::forces::{Gathered, Held, NO_SLIP, Solved, meeting_m_s};
 use crate::event::impact;
 use crate::event::law::hold;
@@ -40,6 +41,8 @@ enum Event {
     Change(Change),
     /// No force keeps a slip going, and none ends it: an impulse has to (Painlevé).
     Jam,
+    /// What holds after an impact.
+    Struck,
     /// A step of the integrator, and nothing else.
     Step,
 }
@@ -49,6 +52,8 @@ enum Event {
 enum Span {
     /// An impact, which takes no time.
     Blow,
+    /// A smooth motion whose beginning puts to rest what is left of a rocking.
+    Ending { step_s: f64 },
     /// A step of equal length, between events that were too many.
     Short { step_s: f64 },
     /// A smooth motion.
@@ -76,9 +81,11 @@ pub struct EventDriven {
     gathered: RefCell<Gathered>,
     /// When a contact had its last impact, if it may have more.
     struck_s: BTreeMap<Key, f64>,
-    /// Of the projection, and what it did last.
+    /// Of the projection.
     placing: Gathered,
-    placed: Placed,
+    /// The state before what holds was put to rest, and the time that this takes.
+    kicked: State,
+    ending_s: Option<f64>,
     scratch: State,
     /// Events without any time between them; and when counting of events began, with how many.
     at_once: u32,
@@ -98,6 +105,9 @@ pub struct EventDriven {
 /// Of the tolerance: the error of one step of the integrator; and of the bounces that are left out (`event`).
 const LOCAL: f64 = 0.01;
 const ZENO: f64 = 1e-6;
+
+/// Change of a velocity by the projection, over the integrator's own error, that is none of it.
+const SLAP: f64 = 1e3;
 
 /// Of the speeds at a contact.
 const BOUNCED_OUT: f64 = 1e-11;
@@ -128,7 +138,8 @@ impl EventDriven {
             gathered: RefCell::default(),
             struck_s: BTreeMap::new(),
             placing: Gathered::default(),
-            placed: Placed::default(),
+            kicked: start.clone(),
+            ending_s: None,
             scratch: start.clone(),
             at_once: 0,
             counted_from: (start.time_s, 0),
@@ -175,12 +186,14 @@ impl EventDriven {
             Event::Start | Event::Impact => {
                 self.detect(model, state);
                 blow = self.strike(model, state);
-                self.placed = Placed::default();
-                self.regroup(model, state, &Change::default());
                 if blow {
-                    self.add_placing();
+                    self.held.clear();
+                    self.next = Event::Struck;
+                } else {
+                    self.regroup(model, state, &Change::default());
                 }
             }
+            Event::Struck => self.regroup(model, state, &Change::default()),
             Event::Change(change) => {
                 self.detect(model, state);
                 self.regroup(model, state, &change);
@@ -193,10 +206,11 @@ impl EventDriven {
                 self.next = Event::Change(Change::default());
             }
         };
+        let ending_s = self.ending_s.take();
         if blow {
             self.span = Span::Blow;
         } else if self.stalled.is_none() && !self.trouble && !matches!(self.next, Event::Jam) {
-            self.advance(model, state, end_s);
+            blow = self.go_on(model, state, ending_s, end_s);
         }
         self.at_once = if state.time_s > from_s { 0 } else { self.at_once + 1 };
         if std::mem::take(&mut self.trouble) || self.at_once > AT_ONCE || self.accumulates(state) {
@@ -337,24 +351,39 @@ impl EventDriven {
                 return;
             }
         };
-        self.placed = project(model, state, &self.held, &mut self.placing);
+        self.kicked.copy_from(state);
+        let placed = project(model, state, &self.held, &mut self.placing);
         let gathered = self.gathered.get_mut();
-        if self.placed.moved || self.held.len() != gathered.here.len() {
+        if placed.moved || self.held.len() != gathered.here.len() {
             gathered.gather(model, state, self.held.iter().map(|held| &held.touch));
             solved = hold(gathered, &self.held, Selection::Least, &mut self.work);
+        }
+        if ending::changes(model, [&self.kicked, state], ending::NOTHING) {
+            self.ending_s = Some(ending::lasts_s(model, (&self.placing, &placed.p), (gathered, &solved)));
         }
         self.settle(model, state, &solved);
     }
 
-    /// What ended the rest of a rocking belongs to the impact.
-    fn add_placing(&mut self) {
-        let Gathered { here, problem, .. } = &self.placing;
-        for ((here, block), p) in here.iter().zip(&problem.blocks).zip(&self.placed.p) {
-            let key = here.contact.key();
-            if let Some(solved) = self.solved.iter_mut().find(|solved| solved.contact.key() == key) {
-                solved.impulse_W += block.in_world(p);
-            }
+    /// Smooth motion, with what had to be put to rest before it. True: that took no time, and is all of the step.
+    fn go_on(&mut self, model: &Model, state: &mut State, ending_s: Option<f64>, end_s: f64) -> bool {
+        let Some(over_s) = ending_s else {
+            self.advance(model, state, end_s);
+            return false;
+        };
+        let from_s = state.time_s;
+        let at_once = from_s + over_s <= from_s;
+        if !at_once {
+            self.advance(model, state, end_s.min(from_s + over_s));
         }
+        self.scratch.copy_from(state);
+        let (kicked, gathered) = (&mut self.kicked, &mut self.placing);
+        self.solved = ending::end(model, kicked, state, &self.held, gathered, &mut self.work);
+        if ending::changes(model, [&self.scratch, state], ending::NOTHING) {
+            // Not all of it holds.
+            self.next = Event::Change(Change::default());
+        }
+        self.span = if at_once { Span::Blow } else { Span::Ending { step_s: state.time_s - from_s } };
+        at_once
     }
 
     /// Of what touches, what does not leave. None: a contact of parts whose motion is not known.
@@ -461,7 +490,14 @@ impl EventDriven {
         state.time_s = to_s;
         self.state_at(model, state);
         if !self.dense.is_empty() {
-            self.placed = project(model, state, &self.held, &mut self.placing);
+            self.scratch.copy_from(state);
+            project(model, state, &self.held, &mut self.placing);
+            // What keeps a contact smoothly changes velocities by the integrator's error: more is an impact, of a face
+            // that falls flat.
+            if ending::changes(model, [&self.scratch, state], SLAP * LOCAL * self.tolerance) {
+                state.copy_from(&self.scratch);
+                self.next = Event::Impact;
+            }
         }
     }
 
@@ -470,6 +506,10 @@ impl EventDriven {
         match self.span {
             Span::Blow => Acted::Blow { contacts: &self.solved },
             Span::Motion => Acted::Motion(self),
+            Span::Ending { step_s } => {
+                let (kicked, contacts) = (&self.kicked, &self.solved[..]);
+                Acted::Kick { kicked, contacts, step_s, approach: Approach::Touching }
+            }
             Span::Short { step_s } => {
                 let kicked = self.stretch.as_ref().and_then(Stretch::kicked).unwrap_or(before);
                 Acted::Kick { kicked, contacts: &self.solved, step_s, approach: Approach::Middle }

@@ -32,6 +32,8 @@ pub struct Heading {
     /// Names of the components, each a column `name.part`; where there are none, the name is the column.
     pub parts: &'static [&'static str],
     pub kind: CellKind,
+    /// Whether the number is relative and has a sign, so that a bound on one side lets any size pass on the other.
+    pub signed: bool,
     /// Meaning of the number, in whole sentences.
     pub meaning: &'static str,
 }
@@ -42,7 +44,11 @@ pub const EACH_BODY: &str = "<body>";
 impl Heading {
     /// A heading of one column; `meaning` as a doc comment has it, with a space before every line.
     pub const fn new(name: &'static str, kind: CellKind, meaning: &'static str) -> Self {
-        Heading { name, parts: &[], kind, meaning: meaning.trim_ascii() }
+        Heading { name, parts: &[], kind, signed: false, meaning: meaning.trim_ascii() }
+    }
+
+    pub const fn with_sign(self) -> Self {
+        Heading { signed: true, ..self }
     }
 
     pub const fn with_parts(self, parts: &'static [&'static str]) -> Self {
@@ -110,10 +116,11 @@ impl Serialize for Heading {
             parts: &'a [&'a str],
             kind: CellKind,
             unit: &'a str,
+            signed: bool,
             meaning: &'a str,
         }
-        let Heading { name, parts, kind, meaning } = *self;
-        Shown { name, parts, kind, unit: self.unit(), meaning }.serialize(serializer)
+        let Heading { name, parts, kind, signed, meaning } = *self;
+        Shown { name, parts, kind, unit: self.unit(), signed, meaning }.serialize(serializer)
     }
 }
 
@@ -152,13 +159,16 @@ impl Headings for Map<String, Value> {
 }
 
 /// Declares a struct whose fields are the columns of a table, and lists them: a field's doc comment is the column's
-/// meaning, its type the kind, `#[serde(rename)]` another name for it; a field with `#[serde(flatten)]` has columns of
-/// its own.
+/// meaning, its type the kind, `#[serde(rename)]` another name for it, `#[column(signed)]` a relative number with a
+/// sign; a field with `#[serde(flatten)]` has columns of its own.
 macro_rules! columns {
     (
         $(#[$on_struct:meta])*
         pub struct $row:ident {
-            $($(#[doc = $meaning:literal])+ $(#[serde($($how:tt)+)])? pub $field:ident: $type:ty,)+
+            $(
+                $(#[doc = $meaning:literal])+ $(#[serde($($how:tt)+)])? $(#[column($sign:tt)])?
+                pub $field:ident: $type:ty,
+            )+
         }
     ) => {
         $(#[$on_struct])*
@@ -168,7 +178,9 @@ macro_rules! columns {
 
         impl $crate::heading::Headings for $row {
             fn headings() -> Vec<$crate::heading::Heading> {
-                [$($crate::heading::columns!(@of $field, $type, concat!($($meaning),+), [$($($how)+)?])),+].concat()
+                [$(
+                    $crate::heading::columns!(@of $field, $type, concat!($($meaning),+), [$($($how)+)? $(, $sign)?])
+                ),+].concat()
             }
         }
     };
@@ -181,8 +193,14 @@ macro_rules! columns {
     (@of $field:ident, $type:ty, $meaning:expr, []) => {
         $crate::heading::columns!(@one stringify!($field), $type, $meaning)
     };
+    (@of $field:ident, $type:ty, $meaning:expr, [, signed]) => {
+        vec![$crate::heading::columns!(@heading stringify!($field), $type, $meaning).with_sign()]
+    };
     (@one $name:expr, $type:ty, $meaning:expr) => {
-        vec![$crate::heading::Heading::new($name, <$type as $crate::heading::InCell>::KIND, $meaning)]
+        vec![$crate::heading::columns!(@heading $name, $type, $meaning)]
+    };
+    (@heading $name:expr, $type:ty, $meaning:expr) => {
+        $crate::heading::Heading::new($name, <$type as $crate::heading::InCell>::KIND, $meaning)
     };
 }
 

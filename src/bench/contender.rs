@@ -32,6 +32,12 @@ pub struct Contender {
     pub start: State,
 }
 
+/// Row of a contender, and what its judged run measured.
+pub struct Ran {
+    pub row: Trial,
+    pub measured: Measured,
+}
+
 /// Failure of the program: the timed and the judged run of a contender end in different states.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}: the timed run ends in another state than the judged one; please report this")]
@@ -119,7 +125,7 @@ pub fn run(
     bench: &Bench,
     scene: &str,
     references: Option<&Path>,
-) -> std::result::Result<Trial, NotDeterministic> {
+) -> std::result::Result<Ran, NotDeterministic> {
     let Contender { model, start, .. } = contender;
     let place = Place { references, recording: None };
     let judged = catch_unwind(AssertUnwindSafe(|| {
@@ -157,5 +163,5 @@ pub fn run(
         row.error = cells(&measured).get(&bench.error).and_then(|x| x.as_f64()).map(f64::abs);
         (row.wall_s, row.wall_median_s) = (finite(timed.best_s), finite(timed.median_s));
     }
-    Ok(row)
+    Ok(Ran { row, measured })
 }

@@ -8,4 +8,4 @@ mod contender;
 pub mod peer;
 pub mod timing;
 
-pub use contender::{Contender, NotDeterministic, plan, run};
+pub use contender::{Contender, NotDeterministic, Ran, plan, run};

@@ -61,6 +61,9 @@ pub fn judge(expectation: &Expectation, schema: &Schema, rows: &[Cells]) -> Judg
 fn in_words(expectation: &Expectation) -> (String, String) {
     let of_quantile = |q: &Option<f64>| q.map(|q| format!("{q} quantile of ")).unwrap_or_default();
     let (text, bound) = match &expectation.what {
+        What::Column { column, quantile: Some(q), bounds: bounds @ Bounds { within: Some(_), .. } } => {
+            (format!("{q} quantile of |{column}|"), bounds.to_string())
+        }
         What::Column { column, quantile, bounds } => (format!("{}{column}", of_quantile(quantile)), bounds.to_string()),
         What::Fraction { of, bounds } => (format!("fraction {of}"), bounds.to_string()),
         What::Trend { of, along, rising, p_max } => {
@@ -89,7 +92,8 @@ fn of_column(rows: &[&Cells], column: &Column, quantile: Option<f64>, bounds: &B
         Err(missing) => return Verdict::not(missing),
     };
     if let Some(q) = quantile {
-        let x = self::quantile(&values, q);
+        let sizes = || values.iter().map(|x| x.abs()).collect();
+        let x = self::quantile(&if bounds.within.is_some() { sizes() } else { values }, q);
         return Verdict { measured: short(x), met: bounds.contain(x) };
     }
     let outside = values.iter().filter(|x| !bounds.contain(**x)).count();

@@ -64,7 +64,7 @@ pub(super) struct OutputArgs {
     /// One JSON document on stdout and nothing else there
     #[arg(long)]
     pub(super) json: bool,
-    /// Nothing on stderr but errors
+    /// Nothing on stderr but warnings and errors
     #[arg(long)]
     pub(super) quiet: bool,
     /// More about what is done

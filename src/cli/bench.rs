@@ -4,18 +4,21 @@ use super::args::{ExperimentArgs, OutputArgs};
 use super::error::CliError;
 use super::output::{print, print_json};
 use super::progress::Bar;
+use super::remarks::{Remarks, Seen};
 use super::sweeping::{Config, configs};
 use super::table::table;
-use crate::bench::{self, Contender, timing};
+use crate::bench::{self, Contender, Ran, timing};
 use crate::experiment::ExperimentFile;
 use crate::experiment::bench::Bench;
 use crate::files::make_folder;
 use crate::report;
+use crate::rows::cells;
 use crate::rows::trials::{Trial, methods, order, pareto, to_csv};
 use crate::study::reference;
 use crate::sweep::runner::Progress;
 use clap::Args;
 use comfy_table::TableComponent;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -48,21 +51,25 @@ impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
         // Every trial of every file is checked before the first run.
         let planned = self.planned()?;
-        let mut all = Vec::new();
+        let (mut all, mut seen, mut has_failed) = (Vec::new(), Vec::new(), false);
         for planned in &planned {
             let dir = planned.config.out(self.out.as_deref(), &self.experiment);
             self.make_references(&planned.trials, &dir)?;
-            let rows = self.on_one_core(planned, &dir)?;
-            write(&dir, &title(planned), &rows)?;
+            let (rows, seen_here): (Vec<Trial>, Vec<Seen>) = self.on_one_core(planned, &dir)?.into_iter().unzip();
+            let documents: Vec<Value> = rows.iter().zip(&seen_here).map(document).collect();
+            write(&dir, &title(planned), &rows, &documents)?;
             if !self.output.json {
                 print(shown(&planned.config.path, &rows, &dir));
             }
-            all.extend(rows);
+            has_failed |= rows.iter().any(|row| row.outcome == "failed");
+            all.extend(documents);
+            seen.extend(seen_here);
         }
         if self.output.json {
             print_json(&all);
         }
-        Ok(ExitCode::from(u8::from(all.iter().any(|row| row.outcome == "failed"))))
+        Remarks::about(&seen, &[]).say(self.output.quiet);
+        Ok(ExitCode::from(u8::from(has_failed)))
     }
 
     fn planned(&self) -> Result<Vec<PlannedBench>, CliError> {
@@ -98,7 +105,7 @@ impl Command {
     }
 
     /// Rows of all trials of a file, made on a thread that stays on one core.
-    fn on_one_core(&self, planned: &PlannedBench, dir: &Path) -> Result<Vec<Trial>, CliError> {
+    fn on_one_core(&self, planned: &PlannedBench, dir: &Path) -> Result<Vec<(Trial, Seen)>, CliError> {
         let work = || {
             if !timing::pin() && !self.output.quiet {
                 eprintln!("gotai: this system does not let a thread stay on one core: times may scatter more");
@@ -107,9 +114,9 @@ impl Command {
             let bar = Bar::new(self.output.quiet);
             bar.begin("trials", planned.trials.len());
             let rows = planned.trials.iter().map(|trial| {
-                let row = bench::run(trial, &planned.bench, &scene, Some(dir));
+                let ran = bench::run(trial, &planned.bench, &scene, Some(dir));
                 bar.one_done();
-                row
+                ran.map(|Ran { row, measured }| (row, Seen::of(&cells(&measured), &trial.experiment)))
             });
             let rows = rows.collect::<Result<Vec<_>, _>>();
             bar.end();
@@ -124,17 +131,26 @@ impl Command {
     }
 }
 
+/// JSON of a row, with the remarks about its run, if there are some.
+fn document((row, seen): (&Trial, &Seen)) -> Value {
+    let mut document = serde_json::to_value(row).unwrap_or_default();
+    if seen.is_doubtful() {
+        Remarks::about([seen], &[]).put_into(&mut document);
+    }
+    document
+}
+
 /// Title of the diagram: the question, else the file's name.
 fn title(planned: &PlannedBench) -> String {
     let question = planned.trials.iter().find_map(|trial| trial.experiment.question.clone());
     question.unwrap_or_else(|| planned.file.path().display().to_string())
 }
 
-/// Writes `bench.json`, `.csv`, `.svg` and `.png`.
-fn write(dir: &Path, title: &str, rows: &[Trial]) -> Result<(), CliError> {
+/// Writes `bench.json`, which has the remarks too, `.csv`, `.svg` and `.png`.
+fn write(dir: &Path, title: &str, rows: &[Trial], documents: &[Value]) -> Result<(), CliError> {
     let diagram = report::bench::diagram(title, rows);
     let failed = |error: &dyn std::fmt::Display| CliError::Machine(format!("{}: {error}", dir.display()));
-    let mut json = serde_json::to_vec(rows).map_err(|error| failed(&error))?;
+    let mut json = serde_json::to_vec(documents).map_err(|error| failed(&error))?;
     json.push(b'\n');
     let files = [
         ("bench.json", json),

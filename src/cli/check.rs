@@ -4,9 +4,10 @@ use super::checked::Checked;
 use super::error::CliError;
 use super::junit;
 use super::output::{print, print_json};
+use super::remarks::Remarks;
 use super::sweeping::{Config, PlannedSweep, SweepArgs, Swept, configs};
 use super::table::table;
-use crate::check::{Schema, cells_of, judge, refuse_unknown};
+use crate::check::{Schema, cells_of, judge, one_sided, refuse_unknown};
 use crate::experiment::types::RecordTo;
 use crate::measure::more;
 use crate::rows::columns::{self, SEARCH};
@@ -46,10 +47,12 @@ impl Command {
                 print(checked.last().map(shown).unwrap_or_default());
             }
         }
+        let remarks = remarks(&planned, &checked);
         match self.sweep.output.json {
-            true => print_json(&document(&checked)),
+            true => print_json(&document(&checked, &remarks)),
             false => print(summary(&checked)),
         }
+        remarks.say(self.sweep.output.quiet);
         if let Some(path) = &self.junit {
             junit::write(path, &checked)?;
         }
@@ -99,6 +102,19 @@ fn schema(planned: &PlannedSweep) -> Schema {
     Schema::new(planned.file.axes(), search.and_then(|search| search.over), &names)
 }
 
+/// Remarks about bounds that pass what they seem to guard against, and about the cases.
+fn remarks(planned: &[(PlannedSweep, Schema)], checked: &[Checked]) -> Remarks {
+    let mut remarks = Swept::remarks(&checked.iter().map(|checked| &checked.swept).collect::<Vec<_>>());
+    let found = planned.iter().flat_map(|(PlannedSweep { file, .. }, _)| {
+        one_sided(file.expect()).into_iter().map(|found| {
+            let place = file.place(found.at.clone());
+            (found, place)
+        })
+    });
+    remarks.warn_of_one_sided(&found.collect::<Vec<_>>());
+    remarks
+}
+
 fn verdict(met: bool) -> &'static str {
     if met { "met" } else { "NOT MET" }
 }
@@ -130,7 +146,7 @@ fn summary(checked: &[Checked]) -> String {
     text
 }
 
-fn document(checked: &[Checked]) -> Value {
+fn document(checked: &[Checked], remarks: &Remarks) -> Value {
     let verdicts = checked.iter().flat_map(|checked| checked.judged.iter().map(move |judged| (checked, judged)));
     let expectations: Vec<Value> = verdicts
         .map(|(checked, judged)| {
@@ -151,5 +167,7 @@ fn document(checked: &[Checked]) -> Value {
         })
         .collect();
     let met = checked.iter().all(Checked::is_met);
-    json!({ "met": met, "expectations": expectations, "experiments": experiments })
+    let mut document = json!({ "met": met, "expectations": expectations, "experiments": experiments });
+    remarks.put_into(&mut document);
+    document
 }

@@ -309,7 +309,8 @@ fn all_columns() -> Vec<Section> {
 fn column_row(heading: &Heading) -> Vec<String> {
     let mut names = vec![code(&heading.names()[0])];
     names.extend(heading.parts.iter().skip(1).map(|part| code(&format!(".{part}"))));
-    vec![names.join(" "), heading.kind.word().to_string(), heading.unit().to_string(), heading.meaning.to_string()]
+    let kind = format!("{}{}", if heading.signed { "signed " } else { "" }, heading.kind.word());
+    vec![names.join(" "), kind, heading.unit().to_string(), heading.meaning.to_string()]
 }
 
 fn measures() -> Section {

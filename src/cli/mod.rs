@@ -13,6 +13,7 @@ pub mod later;
 mod list;
 mod output;
 mod progress;
+mod remarks;
 mod replay;
 mod rows;
 mod run;

@@ -3,6 +3,7 @@
 use super::args::{OutputArgs, RunArgs};
 use super::error::CliError;
 use super::output::{print, print_json};
+use super::remarks::{Remarks, Seen};
 use super::shown::{document, say_where, summary};
 use crate::build_info::BUILD;
 use crate::case::Case;
@@ -43,9 +44,10 @@ pub(super) fn replay(dir: &Path, id: &str, run: &RunArgs, output: OutputArgs) ->
     let (ended, written) = run_case(&planned.case, &model, start, &place);
     let differing = row.map_or(Vec::new(), |row| differing(&row.measured, &ended.measured));
     let name = planned.name.ended(ended.measured.outcome);
+    let remarks = Remarks::about(&[Seen::of(&cells(&ended.measured), &planned.case.experiment)], &[]);
     if output.json {
         let recording = (!targets.is_empty() && written.is_ok()).then_some(name.as_str());
-        let mut document = document(&planned.case, recording, &model, &ended);
+        let mut document = document(&planned.case, recording, &model, &ended, &remarks);
         document["row_build"] = json!(row.map(|row| &row.build));
         document["differing"] = differing.iter().map(|d| json!([d.column, d.row, d.replay])).collect();
         print_json(&document);
@@ -55,6 +57,7 @@ pub(super) fn replay(dir: &Path, id: &str, run: &RunArgs, output: OutputArgs) ->
             eprintln!("{}", compared(row, &differing));
         }
     }
+    remarks.say(output.quiet);
     written?;
     if !output.quiet {
         say_where(&replays, &name, &targets);

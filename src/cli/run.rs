@@ -4,12 +4,14 @@ use super::args::{ExperimentArgs, OutputArgs, RunArgs};
 use super::error::CliError;
 use super::output::{print, print_json};
 use super::progress::Bar;
+use super::remarks::{Remarks, Seen, table_of};
 use super::replay::replay;
 use super::shown::{describe_plan, document, say_where, summary};
 use crate::experiment::ExperimentFile;
 use crate::outcome::Outcome;
 use crate::plan::Plan;
 use crate::record::read::experiment_of;
+use crate::rows::cells;
 use crate::study::{Place, reference};
 use crate::sweep::build::build;
 use crate::sweep::folder::Folder;
@@ -86,12 +88,14 @@ impl Command {
         let place = Place { references: Some(&dir), recording: planned.recording(&dir, &targets) };
         let (ended, kept) = run_one(case, &model, start, &place, &mut store);
         let name = planned.name.ended(ended.measured.outcome);
+        let remarks = Remarks::about(&[Seen::of(&cells(&ended.measured), &case.experiment)], &[table_of(&dir)]);
         if self.output.json {
             let recording = (!targets.is_empty() && kept.is_ok()).then_some(name.as_str());
-            print_json(&document(case, recording, &model, &ended));
+            print_json(&document(case, recording, &model, &ended, &remarks));
         } else {
             print(summary(&case.id, &ended.measured));
         }
+        remarks.say(self.output.quiet);
         kept?;
         if !self.output.quiet {
             say_where(&dir, &name, &targets);

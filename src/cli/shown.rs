@@ -1,5 +1,6 @@
 //! Output of `run` about a run: a summary, or one JSON document with its columns, bodies and contacts.
 
+use super::remarks::Remarks;
 use crate::build_info::BUILD;
 use crate::case::Case;
 use crate::model::{self, Model};
@@ -13,9 +14,9 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// JSON of a run: the columns of its row, and the state and contacts at the end. `recording` is its name, if there is
-/// one.
-pub(super) fn document(case: &Case, recording: Option<&str>, model: &Model, ended: &Ended) -> Value {
+/// JSON of a run: the columns of its row, the state and contacts at the end, and remarks. `recording` is its name, if
+/// there is one.
+pub(super) fn document(case: &Case, recording: Option<&str>, model: &Model, ended: &Ended, remarks: &Remarks) -> Value {
     let row = Row {
         case: case.id.clone(),
         axes: case.axes.clone(),
@@ -26,6 +27,7 @@ pub(super) fn document(case: &Case, recording: Option<&str>, model: &Model, ende
     let mut document = serde_json::to_value(row).unwrap_or_default();
     document["bodies"] = bodies(model, ended);
     document["contacts"] = ended.forces.iter().map(|force| contact(model, force)).collect();
+    remarks.put_into(&mut document);
     document
 }
 

@@ -40,6 +40,7 @@ impl Command {
         if self.sweep.output.json {
             print_document(&swept);
         }
+        Swept::remarks(&swept.iter().collect::<Vec<_>>()).say(self.sweep.output.quiet);
         Ok(ExitCode::from(u8::from(swept.iter().any(|swept| swept.failed() > 0))))
     }
 }
@@ -55,14 +56,16 @@ fn summary(swept: &Swept) -> String {
     text + &format!("\n  rows: {}", swept.dir.join("rows.csv").display())
 }
 
-/// Prints one object for a file, a list for a folder.
+/// Prints one object for a file, a list for a folder, in which each has remarks of its own.
 fn print_document(swept: &[Swept]) {
     let document = |s: &Swept| {
         let counted = Outcome::ALL.map(|outcome| (outcome.name().to_string(), count(&s.rows, outcome).into()));
         let outcomes: serde_json::Map<_, _> = counted.into_iter().collect();
-        json!({
+        let mut document = json!({
             "config": s.config, "dir": s.dir, "cases": s.planned, "ran": s.ran, "outcomes": outcomes, "rows": s.rows,
-        })
+        });
+        Swept::remarks(&[s]).put_into(&mut document);
+        document
     };
     match swept {
         [only] => print_json(&document(only)),

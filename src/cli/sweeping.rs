@@ -3,11 +3,12 @@
 use super::args::{ExperimentArgs, OutputArgs, RunArgs, below_configs};
 use super::error::CliError;
 use super::progress::Bar;
+use super::remarks::{Remarks, Seen, table_of};
 use crate::experiment::ExperimentFile;
 use crate::experiment::types::RecordTo;
 use crate::outcome::Outcome;
 use crate::record::writer::Target;
-use crate::rows::{Row, count};
+use crate::rows::{Row, cells, count};
 use crate::sweep::folder::Folder;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::planned::Planned;
@@ -16,6 +17,7 @@ use crate::sweep::store::Store;
 use clap::Args;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
+use std::collections::HashMap;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -62,11 +64,20 @@ pub struct Swept {
     pub ran: usize,
     pub planned: usize,
     pub rows: Vec<Row>,
+    /// What is seen of each row.
+    seen: Vec<Seen>,
 }
 
 impl Swept {
     pub fn failed(&self) -> usize {
         count(&self.rows, Outcome::Failed)
+    }
+
+    /// Remarks about the cases of several files.
+    pub(super) fn remarks(all: &[&Swept]) -> Remarks {
+        let doubtful = all.iter().filter(|swept| swept.seen.iter().any(Seen::is_doubtful));
+        let tables: Vec<PathBuf> = doubtful.map(|swept| table_of(&swept.dir)).collect();
+        Remarks::about(all.iter().flat_map(|swept| &swept.seen), &tables)
     }
 }
 
@@ -120,7 +131,10 @@ impl SweepArgs {
         let job = Job { dir: &dir, targets, csv: self.csv, work: &work, progress: &bar };
         let ran = quietly(|| job.sweep(&plan.cases, &store))?;
         let rows = lock(&store).rows();
-        Ok(Swept { config: config.path.clone(), dir, ran, planned: plan.cases.len(), rows })
+        let cases: HashMap<&str, &Planned> = plan.cases.iter().map(|planned| (&*planned.case.id, planned)).collect();
+        let seen = |row: &Row| Some(Seen::of(&cells(row), &cases.get(&*row.case)?.case.experiment));
+        let seen = rows.iter().filter_map(seen).collect();
+        Ok(Swept { config: config.path.clone(), dir, ran, planned: plan.cases.len(), rows, seen })
     }
 }
 

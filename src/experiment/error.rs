@@ -66,6 +66,18 @@ pub enum Kind {
     AxesLeft,
 }
 
+impl Details {
+    /// Text of the place as messages begin with it: the flag, else the file and the line; empty where nothing is known.
+    pub fn place(&self) -> String {
+        match (&self.set, &self.file, self.line) {
+            (Some(set), _, _) => format!("{} {}", self.flag.unwrap_or("--set"), in_one_line(set)),
+            (None, Some(file), Some(line)) => format!("{file}:{line}"),
+            (None, Some(file), None) => file.clone(),
+            (None, None, _) => String::new(),
+        }
+    }
+}
+
 impl ExperimentError {
     pub(crate) fn new(kind: Kind, path: KeyPath, message: impl Into<String>) -> Self {
         ExperimentError(Box::new(Details {
@@ -179,12 +191,10 @@ impl std::error::Error for ExperimentError {}
 
 impl fmt::Display for ExperimentError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Details { file, line, flag, set, axis, case, path, message, .. } = self.details();
-        match (set, file, line) {
-            (Some(set), _, _) => write!(f, "{} {}: ", flag.unwrap_or("--set"), in_one_line(set))?,
-            (None, Some(file), Some(line)) => write!(f, "{file}:{line}: ")?,
-            (None, Some(file), None) => write!(f, "{file}: ")?,
-            (None, None, _) => {}
+        let Details { axis, case, path, message, .. } = self.details();
+        let place = self.details().place();
+        if !place.is_empty() {
+            write!(f, "{place}: ")?;
         }
         if !path.is_empty() {
             write!(f, "{}: ", in_one_line(&path.to_string()))?;

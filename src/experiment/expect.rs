@@ -19,7 +19,7 @@ pub struct Expectation {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum What {
-    /// Every row's value, or a quantile of them.
+    /// Every row's value, or a quantile of them; with `within`, of their absolute values.
     Column { column: Column, quantile: Option<f64>, bounds: Bounds },
     /// Share of the rows.
     Fraction { of: Predicate, bounds: Bounds },
@@ -65,6 +65,7 @@ struct Expect {
     max: Option<f64>,
     above: Option<f64>,
     below: Option<f64>,
+    within: Option<f64>,
     quantile: Option<f64>,
     along: Option<String>,
     rising: Option<bool>,
@@ -81,14 +82,17 @@ struct Expect {
 
 /// Kinds of expectation, each with the keys that it may carry besides `where` and `why`.
 const KINDS: [(&str, &[&str]); 7] = [
-    ("column", &["min", "max", "above", "below", "between", "quantile"]),
+    ("column", &["min", "max", "above", "below", "between", "within", "quantile"]),
     ("fraction", &["min", "max", "above", "below", "between"]),
     ("trend", &["along", "rising", "falling", "p_max"]),
     ("order", &["against", "between", "min", "max", "above", "below"]),
     ("equal", &["across", "within_rel"]),
     ("ratio", &["of", "to", "min", "max", "above", "below", "between", "quantile"]),
-    ("difference", &["of", "to", "min", "max", "above", "below", "between", "quantile"]),
+    ("difference", &["of", "to", "min", "max", "above", "below", "between", "within", "quantile"]),
 ];
+
+/// Keys of bounds, of which a kind takes those that it lists.
+const BOUNDS: [&str; 6] = ["min", "max", "above", "below", "between", "within"];
 
 /// The expectations of the list that stands below `expect:`.
 ///
@@ -103,27 +107,35 @@ pub fn read(value: &Value) -> Result<Vec<Expectation>> {
 
 fn read_one(item: &Value, at: Path) -> Result<Expectation> {
     let text: Expect = from_value(item, &at.to_key_path())?;
-    let kind = kind(item, at)?;
+    let (kind, own) = kind(item, at)?;
     let rows = Filter::read(text.r#where.as_ref(), at.key("where"))?;
+    if own.contains(&"min") && !keys_of(item).any(|key| BOUNDS.contains(&key)) {
+        let known: Vec<&str> = BOUNDS.into_iter().filter(|key| own.contains(key)).collect();
+        return Err(ExperimentError::missing(at.to_key_path(), &format!("a bound ({})", known.join(", "))));
+    }
     Ok(Expectation { what: text.what(kind, at)?, rows, why: text.why })
 }
 
 /// The one key that says what is expected; every other key must belong to it.
-fn kind(item: &Value, at: Path) -> Result<&'static str> {
-    let keys: Vec<&str> = item.as_mapping().into_iter().flat_map(Mapping::keys).filter_map(Value::as_str).collect();
+fn kind(item: &Value, at: Path) -> Result<&'static (&'static str, &'static [&'static str])> {
+    let keys: Vec<&str> = keys_of(item).collect();
     let mut kinds = KINDS.iter().filter(|(kind, _)| keys.contains(kind));
-    let Some((kind, own)) = kinds.next() else {
+    let Some(found @ (kind, own)) = kinds.next() else {
         let what = "one of column, fraction, trend, order, equal, ratio, difference";
         return Err(ExperimentError::missing(at.to_key_path(), what));
     };
     let foreign = |key: &&str| key != kind && !["where", "why"].contains(key) && !own.contains(key);
     match keys.iter().copied().find(|key| foreign(key)) {
-        None => Ok(kind),
+        None => Ok(found),
         Some(key) => {
             let expected = format!("only keys of `{kind}` ({}, where, why)", own.join(", "));
             Err(ExperimentError::unexpected(at.key(key).to_key_path(), &expected, &format!("`{key}`")))
         }
     }
+}
+
+fn keys_of(item: &Value) -> impl Iterator<Item = &str> {
+    item.as_mapping().into_iter().flat_map(Mapping::keys).filter_map(Value::as_str)
 }
 
 impl Expect {
@@ -171,10 +183,12 @@ impl Expect {
 
     /// `between: [min, max]` is short for both.
     fn bounds(&self, at: Path) -> Result<Bounds> {
-        let mut bounds = Bounds { min: self.min, max: self.max, above: self.above, below: self.below };
+        let Expect { min, max, above, below, within, .. } = *self;
+        let mut bounds = Bounds { min, max, above, below, within };
         if let Some([low, high]) = self.between {
             if low > high || !bounds.is_none() {
-                let found = format!("[{}, {}]", number(low), number(high));
+                let others: String = bounds.given().map(|(key, _)| format!(" and `{key}`")).collect();
+                let found = format!("[{}, {}]{others}", number(low), number(high));
                 let expected = "[min, max], without other bounds beside it";
                 return Err(ExperimentError::unexpected(at.key("between").to_key_path(), expected, &found));
             }

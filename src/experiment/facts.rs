@@ -18,6 +18,9 @@ pub struct Facts {
     /// Whether the method tries others and takes one of them.
     pub chooses: bool,
     pub contact: ContactModel,
+    /// Whether the method goes on until the law of contact is met, exactly or to a tolerance: what it misses is a fault
+    /// of the run, and not of the method.
+    pub solves_contacts: bool,
     pub approach: Approach,
     /// Law of impact; None where the method has no choice of them.
     pub impact: Option<Impact>,

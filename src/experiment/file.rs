@@ -383,6 +383,11 @@ impl ExperimentFile {
     }
 
     /// The error at the origin of the value at its path: the last flag that touched it, else its line in its file.
+    /// Place at which a key stands, as messages begin with it: file and line, or the flag that it came from.
+    pub fn place(&self, key: KeyPath) -> String {
+        self.placed(ExperimentError::new(Kind::Unexpected, key, "")).details().place()
+    }
+
     pub(crate) fn placed(&self, error: ExperimentError) -> ExperimentError {
         let path = &error.details().path;
         match self.given.iter().rev().find(|given| path.starts_with(&given.at)) {

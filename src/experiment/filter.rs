@@ -167,5 +167,5 @@ pub fn shown_cell(cell: &Cell) -> String {
 }
 
 fn is_bounds(mapping: &Mapping) -> bool {
-    mapping.keys().any(|key| key.as_str().is_some_and(|key| ["min", "max", "above", "below"].contains(&key)))
+    mapping.keys().any(|key| key.as_str().is_some_and(|key| ["min", "max", "above", "below", "within"].contains(&key)))
 }

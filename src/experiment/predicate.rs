@@ -9,7 +9,7 @@ use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use serde_json::Value as Cell;
 use std::fmt;
 
-/// An interval; `min` and `max` belong to it, `above` and `below` do not.
+/// An interval; `min` and `max` belong to it, `above` and `below` do not, `within: x` is all that is no larger than x.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bounds {
@@ -17,6 +17,7 @@ pub struct Bounds {
     pub max: Option<f64>,
     pub above: Option<f64>,
     pub below: Option<f64>,
+    pub within: Option<f64>,
 }
 
 impl Bounds {
@@ -26,6 +27,7 @@ impl Bounds {
             && self.max.is_none_or(|max| x <= max)
             && self.above.is_none_or(|above| x > above)
             && self.below.is_none_or(|below| x < below)
+            && self.within.is_none_or(|within| x.abs() <= within)
             && !x.is_nan()
     }
 
@@ -33,13 +35,29 @@ impl Bounds {
         *self == Bounds::default()
     }
 
+    /// Whether all numbers on one side of the interval are in it, so that it says nothing of them.
+    pub fn is_one_sided(&self) -> bool {
+        let has_lower = self.min.or(self.above).is_some();
+        let has_upper = self.max.or(self.below).is_some();
+        self.within.is_none() && has_lower != has_upper
+    }
+
+    /// Bounds that are there, by their keys.
+    pub fn given(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let all = [("min", self.min), ("max", self.max), ("above", self.above), ("below", self.below)];
+        all.into_iter().chain([("within", self.within)]).filter_map(|(key, bound)| Some((key, bound?)))
+    }
+
     /// Checks that there is at least one bound, and a number that meets all of them.
     ///
     /// # Errors
-    /// No bound, or bounds that no number meets.
+    /// No bound, bounds that no number meets, or `within` that is no size or has another bound beside it.
     pub fn check(&self, at: Path) -> Result<()> {
         if self.is_none() {
-            return Err(ExperimentError::missing(at.to_key_path(), "a bound (min, max, above or below)"));
+            return Err(ExperimentError::missing(at.to_key_path(), "a bound (min, max, above, below or within)"));
+        }
+        if let Some(within) = self.within {
+            return self.check_within(within, at.key("within"));
         }
         let lower = [self.min, self.above].into_iter().flatten().fold(f64::NEG_INFINITY, f64::max);
         let upper = [self.max, self.below].into_iter().flatten().fold(f64::INFINITY, f64::min);
@@ -52,25 +70,39 @@ impl Bounds {
         Ok(())
     }
 
+    fn check_within(&self, within: f64, at: Path) -> Result<()> {
+        if let Some((other, _)) = self.given().find(|(key, _)| *key != "within") {
+            let found = format!("`within` and `{other}`");
+            return Err(ExperimentError::unexpected(
+                at.to_key_path(),
+                "`within` without other bounds beside it",
+                &found,
+            ));
+        }
+        if within.is_finite() && within >= 0.0 {
+            return Ok(());
+        }
+        Err(ExperimentError::unexpected(at.to_key_path(), "a finite number of at least 0", &number(within)))
+    }
+
     /// Checks the bounds of a share: some number from 0 to 1.
     ///
     /// # Errors
     /// As `check`, or a bound outside of 0 to 1.
     pub fn check_share(&self, at: Path) -> Result<()> {
         self.check(at)?;
-        let out = |x: &Option<f64>| x.is_some_and(|x| !(0.0..=1.0).contains(&x));
-        for (key, bound) in [("min", self.min), ("max", self.max), ("above", self.above), ("below", self.below)] {
-            if let Some(x) = bound.filter(|_| out(&bound)) {
-                return Err(ExperimentError::unexpected(at.key(key).to_key_path(), "a share from 0 to 1", &number(x)));
+        match self.given().find(|(_, x)| !(0.0..=1.0).contains(x)) {
+            None => Ok(()),
+            Some((key, x)) => {
+                Err(ExperimentError::unexpected(at.key(key).to_key_path(), "a share from 0 to 1", &number(x)))
             }
         }
-        Ok(())
     }
 }
 
 impl fmt::Display for Bounds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let bounds = [("≥", self.min), (">", self.above), ("≤", self.max), ("<", self.below)];
+        let bounds = [("≥", self.min), (">", self.above), ("≤", self.max), ("<", self.below), ("|…| ≤", self.within)];
         let parts = bounds.into_iter().filter_map(|(sign, bound)| Some(format!("{sign} {}", number(bound?))));
         f.write_str(&parts.collect::<Vec<_>>().join(", "))
     }
@@ -169,12 +201,13 @@ pub struct PredicateText {
     max: Option<f64>,
     above: Option<f64>,
     below: Option<f64>,
+    within: Option<f64>,
     fraction: Option<Box<PredicateText>>,
 }
 
 impl PredicateText {
     fn bounds(&self) -> Bounds {
-        Bounds { min: self.min, max: self.max, above: self.above, below: self.below }
+        Bounds { min: self.min, max: self.max, above: self.above, below: self.below, within: self.within }
     }
 
     /// The predicate that the keys say.
@@ -192,7 +225,7 @@ impl PredicateText {
             }
             (None, None, None, Some(inner)) if bounds.is_none() => inner.read(at.key("fraction")),
             _ => {
-                let what = "one of outcome, criterion, or column with min, max, above or below";
+                let what = "one of outcome, criterion, or column with min, max, above, below or within";
                 Err(ExperimentError::missing(at.to_key_path(), what))
             }
         }

@@ -236,14 +236,14 @@ fn said(header: &Header) -> BTreeMap<String, String> {
 
 /// Statements that the end adds.
 fn ended(name: &RecordingName, ending: &Ending) -> impl Iterator<Item = (String, String)> {
-    let criterion = ending.criterion.clone().map(|criterion| ("criterion", criterion));
+    let texts = ending.texts().map(|(field, text)| (field, text.to_owned()));
     let known = [
         ("name", name.ended(ending.outcome)),
         ("outcome", ending.outcome.name().to_owned()),
         ("end_time_s", ending.end_time_s.to_string()),
         ("steps", ending.steps.to_string()),
     ];
-    known.into_iter().chain(criterion).map(|(key, value)| (key.to_owned(), value))
+    known.into_iter().chain(texts).map(|(key, value)| (key.to_owned(), value))
 }
 
 /// Messages that are filled again for every sample; their memory and the bodies' names stay.

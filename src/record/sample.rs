@@ -227,6 +227,18 @@ pub struct Ending {
     pub criterion: Option<String>,
     pub end_time_s: f64,
     pub steps: u64,
+    /// What is in doubt about the run, of a method that claims to solve the law of contact.
+    pub warnings: Option<String>,
+    /// What is in doubt about the run, of another method.
+    pub notes: Option<String>,
+}
+
+impl Ending {
+    /// Texts that are there, by the names of their fields.
+    pub fn texts(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        let all = [("criterion", &self.criterion), ("warnings", &self.warnings), ("notes", &self.notes)];
+        all.into_iter().filter_map(|(field, text)| Some((field, text.as_deref()?)))
+    }
 }
 
 /// Something that happened at a time, in words: a divergence, the end of the run.

@@ -11,7 +11,8 @@ use crate::measure::deepest_m;
 use crate::measure::energy::Energy;
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::rows::{BodyRow, Measured};
+use crate::rows::doubts::doubt;
+use crate::rows::{BodyRow, Measured, cells};
 use crate::shown::ContactForce;
 use crate::state::State;
 
@@ -57,20 +58,31 @@ impl Sampler {
         self.writer.sample_done();
     }
 
-    /// Says how the run ended.
-    pub fn end(&mut self, state: &State, measured: &Measured) {
+    /// Says how the run ended, and what is in doubt about it: a warning of a method that solves the law of contact, a
+    /// note of another one.
+    pub fn end(&mut self, state: &State, measured: &Measured, solves_contacts: bool) {
         let (severity, text) = match (&measured.outcome, &measured.criterion) {
             (Outcome::Finished, _) => (Severity::Info, "finished".to_string()),
             (outcome, Some(criterion)) => (Severity::Warning, format!("{}: {criterion}", outcome.name())),
             (_, None) => (Severity::Warning, "ended early".to_string()),
         };
         let text = format!("{text} at t = {} s, step {}", state.time_s, state.step);
-        self.writer.event(Event { step: state.step, time_s: state.time_s, severity, text });
+        let mut say = |severity, text| {
+            self.writer.event(Event { step: state.step, time_s: state.time_s, severity, text });
+        };
+        say(severity, text);
+        let doubt = doubt(&[cells(measured)], 1).map(|doubt| doubt.said);
+        if let Some(said) = &doubt {
+            say(if solves_contacts { Severity::Warning } else { Severity::Info }, said.clone());
+        }
+        let (warnings, notes) = if solves_contacts { (doubt, None) } else { (None, doubt) };
         self.ending = Some(Ending {
             outcome: measured.outcome,
             criterion: measured.criterion.clone(),
             end_time_s: state.time_s,
             steps: measured.steps,
+            warnings,
+            notes,
         });
     }
 

@@ -108,6 +108,14 @@ pub fn names(headings: &[Heading]) -> Vec<String> {
 /// Kind of the cells of a column of every row, or of a search's. Axes, and columns that `measure:` adds, are not among
 /// them: their kind is that of their values.
 pub fn kind(name: &str) -> Option<CellKind> {
-    let known = of_every_row().into_iter().chain(SEARCH);
-    known.into_iter().find(|heading| heading.name == name).map(|heading| heading.kind)
+    known(name).map(|heading| heading.kind)
+}
+
+/// Whether a column of every row is relative and has a sign.
+pub fn is_signed(name: &str) -> bool {
+    known(name).is_some_and(|heading| heading.signed)
+}
+
+fn known(name: &str) -> Option<Heading> {
+    of_every_row().into_iter().chain(SEARCH).find(|heading| heading.name == name)
 }

@@ -34,6 +34,7 @@ columns! {
         pub energy_end_j: Option<f64>,
         /// Energy that was made (+) or lost (−) without a reason, of the energy scale: end − start − work of loads and
         /// driven bodies + what contacts may take. The column that a guard of accuracy looks at.
+        #[column(signed)]
         pub energy_drift_rel: Option<f64>,
         /// Largest energy, less the work done until then, over that at the start. Null where the start has none, or
         /// less than none.
@@ -43,6 +44,7 @@ columns! {
         pub energy_rise_max_rel: Option<f64>,
         /// The drift with all that contacts took, whether the law lets them or not: what is left is the error of the
         /// steps between contacts.
+        #[column(signed)]
         pub energy_balance_rel: Option<f64>,
         /// Change of linear momentum that gravity, loads and the contacts' impulses do not explain, of Σ m|v| at the
         /// start and the sizes of all those impulses. Null where a pin holds a body to the world.

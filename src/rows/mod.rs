@@ -2,6 +2,7 @@
 
 mod body_row;
 pub mod columns;
+pub mod doubts;
 mod measured;
 pub mod plan_file;
 mod row;

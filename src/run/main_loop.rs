@@ -62,7 +62,7 @@ pub fn run(
     }
     measured.more = more::cells(experiment, model, state, &judge.watched);
     if let Some(sampler) = sampler {
-        sampler.end(state, &measured);
+        sampler.end(state, &measured, experiment.method.facts().solves_contacts);
     }
     Ended { measured, forces: advance.forces(model), state: state.clone() }
 }

@@ -32,7 +32,7 @@ fn rows(text: &str, sets: &[&str]) -> Vec<Trial> {
     let file = yaml::file(text, sets);
     let bench = file.bench().unwrap();
     let trials = bench::plan(&file, bench).unwrap();
-    trials.iter().map(|trial| bench::run(trial, bench, "spin", None).unwrap()).collect()
+    trials.iter().map(|trial| bench::run(trial, bench, "spin", None).unwrap().row).collect()
 }
 
 #[test]

@@ -78,6 +78,49 @@ fn what_is_not_there_is_never_met() {
 }
 
 #[test]
+fn within_bounds_the_absolute_value() {
+    // -0.5, 0.5, -0.25, 0.25, -0.125, 0.125, of each twice.
+    let rows =
+        rows(|step, place, _| json!({ "energy_drift_rel": 5.0 * step * if place == "moon" { 1.0 } else { -1.0 } }));
+    check("{ column: energy_drift_rel, within: 0.5 }", &rows, true, "-0.5 … 0.5");
+    check("{ column: energy_drift_rel, within: 0.3 }", &rows, false, "-0.5 … 0.5; 4 of 12 rows outside");
+    check("{ column: energy_drift_rel, within: 0 }", &rows, false, "12 of 12 rows outside");
+    // A loss that `max` alone lets pass.
+    let losses = "where: { scene.gravity_m_s2: earth }";
+    check(&format!("{{ column: energy_drift_rel, max: 1e-3, {losses} }}"), &rows, true, "-0.5 … -0.125");
+    check(&format!("{{ column: energy_drift_rel, within: 1e-3, {losses} }}"), &rows, false, "6 of 6 rows outside");
+    // A quantile is one of absolute values.
+    check("{ column: energy_drift_rel, quantile: 0.5, within: 0.25 }", &rows, true, "0.25");
+    check("{ column: energy_drift_rel, quantile: 0, within: 0.1 }", &rows, false, "0.125");
+    check("{ fraction: { column: energy_drift_rel, within: 0.3 }, min: 0.6, max: 0.7 }", &rows, true, "8 of 12");
+    check("{ column: energy_drift_rel, max: 1, where: { energy_drift_rel: { within: 0.2 } } }", &rows, true, "0.125");
+    let cells = "of: { scene.gravity_m_s2: earth }, to: { scene.gravity_m_s2: moon }";
+    check(
+        &format!("{{ difference: energy_drift_rel, {cells}, within: 0.6 }}"),
+        &rows,
+        true,
+        "-0.5833 (-0.2917 − 0.2917)",
+    );
+    check(&format!("{{ difference: energy_drift_rel, {cells}, within: 0.5 }}"), &rows, false, "-0.5833");
+}
+
+#[test]
+fn within_is_said_in_words_and_never_met_by_nothing() {
+    let none = rows(|_, _, seed| json!({ "energy_drift_rel": if seed == 0 { json!(0.0) } else { Value::Null } }));
+    let verdict = judged("{ column: energy_drift_rel, within: 1e-9 }", &none);
+    assert_eq!((verdict.expectation.as_str(), verdict.bound.as_str()), ("energy_drift_rel", "|…| ≤ 1e-9"));
+    assert!(!verdict.met && verdict.measured.contains("is null"), "{}", verdict.measured);
+    let verdict = judged("{ column: energy_drift_rel, quantile: 0.9, within: 2 }", &none);
+    assert_eq!(
+        (verdict.expectation.as_str(), verdict.bound.as_str()),
+        ("0.9 quantile of |energy_drift_rel|", "|…| ≤ 2")
+    );
+    assert!(!verdict.met);
+    let quotient = rows(|_, _, _| json!({ "energy_drift_rel": 1.0, "energy_start_j": 0.0 }));
+    check("{ column: energy_drift_rel / energy_start_j, within: 1e300 }", &quotient, false, "is null");
+}
+
+#[test]
 fn a_filter_knows_values_labels_lists_and_inequalities() {
     let rows = rows(|_, _, seed| json!({ "energy_end_j": 1.0, "steps": 10 * seed }));
     for (filter, count) in [
@@ -87,6 +130,7 @@ fn a_filter_knows_values_labels_lists_and_inequalities() {
         ("{ time.step_s: '<= 0.05' }", 8),
         ("{ time.step_s: '< 0.05', seed: 1 }", 2),
         ("{ time.step_s: { min: 0.04, below: 0.1 } }", 4),
+        ("{ time.step_s: { within: 0.05 } }", 8),
         ("{ scene.gravity_m_s2: moon }", 6),
         ("{ scene.gravity_m_s2: '!= moon', steps: 10 }", 3),
         ("{ outcome: finished }", 12),

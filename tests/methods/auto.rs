@@ -104,8 +104,11 @@ fn a_bench_times_what_was_chosen() {
     let text = format!("{THROWN}bench: {{ methods: [auto], tolerances: [1e-6, 1e-9], repeats: 1 }}\n");
     let file = file(&text, &[]);
     let given = file.bench().unwrap();
-    let rows: Vec<_> =
-        bench::plan(&file, given).unwrap().iter().map(|trial| bench::run(trial, given, "a", None).unwrap()).collect();
+    let rows: Vec<_> = bench::plan(&file, given)
+        .unwrap()
+        .iter()
+        .map(|trial| bench::run(trial, given, "a", None).unwrap().row)
+        .collect();
     let shown: Vec<_> = rows.iter().map(|row| (row.method.as_str(), row.tolerance, row.outcome.as_str())).collect();
     assert_eq!(shown, [("auto", Some(1e-6), "finished"), ("auto", Some(1e-9), "finished")]);
     assert!(rows.iter().all(|row| row.error.unwrap() < 1e-12 && row.wall_s.unwrap() > 0.0));

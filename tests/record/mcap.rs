@@ -133,11 +133,18 @@ fn configuration_and_versions_are_attached() {
     for (key, value) in expected {
         assert_eq!((start.metadata[key].as_str(), end.metadata[key].as_str()), (value, value), "{key}");
     }
-    let expected =
-        [("name", s::NAME), ("outcome", "diverged"), ("criterion", "energy"), ("end_time_s", "0.25"), ("steps", "250")];
+    let expected = [
+        ("name", s::NAME),
+        ("outcome", "diverged"),
+        ("criterion", "energy"),
+        ("end_time_s", "0.25"),
+        ("steps", "250"),
+        ("warnings", s::WARNING),
+    ];
     for (key, value) in expected {
         assert_eq!((start.metadata.get(key), end.metadata[key].as_str()), (None, value), "{key}");
     }
+    assert!(!end.metadata.contains_key("notes"));
 }
 
 #[test]

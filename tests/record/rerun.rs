@@ -131,9 +131,11 @@ fn name_axes_and_outcome_are_properties() {
     let names = said("/__properties");
     assert!(names.contains(s::NAME) && !names.contains("0.5_fine.01234567"), "{names}");
     let run = said("/__properties/gotai");
-    for part in ["scene.friction", "method", "outcome", "diverged", "criterion", "energy", "end_time_s", "steps"] {
+    let expected = ["scene.friction", "method", "outcome", "diverged", "criterion", "energy", "end_time_s", "steps"];
+    for part in expected.into_iter().chain(["warnings", s::WARNING]) {
         assert!(run.contains(part), "{part}: {run}");
     }
+    assert!(!run.contains("notes"), "{run}");
 }
 
 #[test]

@@ -39,9 +39,18 @@ pub fn header(streams: Streams) -> Header {
     }
 }
 
+pub const WARNING: &str = "the run is not solved (residual_max 0.8)";
+
 /// A run that exploded.
 pub fn ending() -> Ending {
-    Ending { outcome: Outcome::Diverged, criterion: Some("energy".to_owned()), end_time_s: 0.25, steps: 250 }
+    Ending {
+        outcome: Outcome::Diverged,
+        criterion: Some("energy".to_owned()),
+        end_time_s: 0.25,
+        steps: 250,
+        warnings: Some(WARNING.to_owned()),
+        notes: None,
+    }
 }
 
 /// What `open` calls the files of such a run, without their endings.

@@ -69,10 +69,7 @@ pub fn ending(
         .with_component::<Text>("outcome", [ending.outcome.name()])
         .with_component::<Scalar>("end_time_s", [ending.end_time_s])
         .with_component::<Scalar>("steps", [ending.steps as f64]);
-    let run = match &ending.criterion {
-        Some(criterion) => run.with_component::<Text>("criterion", [criterion.as_str()]),
-        None => run,
-    };
+    let run = ending.texts().fold(run, |run, (field, text)| run.with_component::<Text>(field, [text]));
     stream.send_property(schema::METADATA, &run)?;
     // The recording is there already: what opens one is left out.
     Ok(memory.take().into_iter().filter(|message| matches!(message, LogMsg::ArrowMsg(..))))

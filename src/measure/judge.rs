@@ -2,6 +2,7 @@
 
 use super::divergence::Divergence;
 use super::energy::{Energy, EnergyLedger};
+use super::geometry::GeometryLedger;
 use super::loads;
 use super::momentum::MomentumLedger;
 use super::more::Watched;
@@ -25,8 +26,7 @@ pub struct Judge {
     pub energy: EnergyLedger,
     pub momentum: MomentumLedger,
     pub residual: ResidualLedger,
-    /// None: the method never looks for contacts.
-    pub penetration_max_m: Option<f64>,
+    pub geometry: GeometryLedger,
     pub contacts_max: u64,
     /// None: there is no pin.
     pub pin_gap_max_m: Option<f64>,
@@ -47,7 +47,7 @@ impl Judge {
             energy: EnergyLedger::new(energy),
             momentum: MomentumLedger::new(model, start),
             residual: ResidualLedger::new(plan.constraint, plan.newton, model),
-            penetration_max_m: plan.contact.then_some(0.0),
+            geometry: GeometryLedger::new(model, start, plan.contact),
             contacts_max: 0,
             pin_gap_max_m: model.pin_gap_m(&start.bodies),
             watched: Watched::default(),
@@ -65,7 +65,7 @@ impl Judge {
         }
         let Shown { before, after, .. } = *shown;
         let energy = Energy::of(model, after);
-        let depth_m = match shown.acted {
+        match shown.acted {
             Acted::Kick { kicked, contacts, step_s, approach } => {
                 self.observe_kick(model, [before, kicked, after], contacts, (approach, step_s), energy)
             }
@@ -73,12 +73,12 @@ impl Judge {
             Acted::Motion(way) => {
                 self.observe_motion(model, [before, after], &way.moments(model, [before, after]), energy)
             }
-        };
-        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
+        }
+        let depth_m = self.geometry.observe(model, shown);
         self.divergence.judge(model, after, &energy, depth_m)
     }
 
-    /// Impulses at the state `kicked`; the depth of the deepest contact.
+    /// Impulses at the state `kicked`.
     fn observe_kick(
         &mut self,
         model: &Model,
@@ -86,7 +86,7 @@ impl Judge {
         contacts: &[SolvedContact],
         (approach, step_s): (Approach, f64),
         energy: Energy,
-    ) -> f64 {
+    ) {
         self.gather_pushes(contacts);
         if !contacts.is_empty() {
             self.energy.observe_contacts(model, kicked, &self.pushes, step_s);
@@ -102,7 +102,7 @@ impl Judge {
         let pushes = (!contacts.is_empty()).then_some(&self.pushes[..]);
         self.momentum.observe(model, [before, kicked, after], pushes, &done, step_s);
         self.observe_pins(model, after);
-        self.observe_contacts(contacts)
+        self.observe_contacts(contacts);
     }
 
     /// An impact, which takes no time: `contacts` changed only the velocities.
@@ -112,7 +112,7 @@ impl Judge {
         [before, after]: [&State; 2],
         contacts: &[SolvedContact],
         energy: Energy,
-    ) -> f64 {
+    ) {
         self.gather_pushes(contacts);
         self.energy.observe_blow(model, [before, after], &self.pushes);
         self.watched.observe(before, contacts);
@@ -120,19 +120,12 @@ impl Judge {
         self.energy.observe(energy, 0.0);
         let done = loads::done(model, [before, after], &mut self.middle, |_| Vector3::zeros(), 0.0);
         self.momentum.observe(model, [before, before, after], Some(&self.pushes), &done, 0.0);
-        self.observe_contacts(contacts)
+        self.observe_contacts(contacts);
     }
 
     /// A smooth motion, of which `moments` show the forces of contact: their weights are those of a quadrature.
-    fn observe_motion(
-        &mut self,
-        model: &Model,
-        [before, after]: [&State; 2],
-        moments: &[Moment],
-        energy: Energy,
-    ) -> f64 {
+    fn observe_motion(&mut self, model: &Model, [before, after]: [&State; 2], moments: &[Moment], energy: Energy) {
         let span_s = after.time_s - before.time_s;
-        let mut depth_m = 0.0_f64;
         for Moment { state, contacts, weight_s } in moments.iter().filter(|moment| !moment.contacts.is_empty()) {
             let impulse =
                 |force: &ContactForce| SolvedContact { contact: force.contact, impulse_W: force.force_W * *weight_s };
@@ -146,7 +139,7 @@ impl Judge {
             let forces = contacts.iter().map(|s| SolvedContact { impulse_W: s.impulse_W * longer, ..*s });
             self.residual.observe(model, [state, state], &forces.collect::<Vec<_>>(), &self.pushes, AT_ONCE);
             self.watched.observe(state, &contacts);
-            depth_m = depth_m.max(self.observe_contacts(&contacts));
+            self.observe_contacts(&contacts);
         }
         if span_s > 0.0 {
             self.watched.observe_step(before, after, span_s);
@@ -162,7 +155,6 @@ impl Judge {
         self.energy.observe(energy, done.work_j);
         self.momentum.observe(model, [before, before, after], None, &done, span_s);
         self.observe_pins(model, after);
-        depth_m
     }
 
     fn observe_pins(&mut self, model: &Model, after: &State) {
@@ -170,18 +162,8 @@ impl Judge {
         self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
     }
 
-    /// Their number; the depth of the deepest.
-    fn observe_contacts(&mut self, contacts: &[SolvedContact]) -> f64 {
+    fn observe_contacts(&mut self, contacts: &[SolvedContact]) {
         self.contacts_max = self.contacts_max.max(contacts.len() as u64);
-        contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max)
-    }
-
-    /// Depth of the deepest point in the last state, which no step has looked at.
-    pub fn penetration_end_m(&mut self, model: &Model, end: &State) -> Option<f64> {
-        let max = self.penetration_max_m.as_mut()?;
-        let depth_m = deepest_m(model, end);
-        *max = max.max(depth_m);
-        Some(depth_m)
     }
 
     fn gather_pushes(&mut self, contacts: &[SolvedContact]) {

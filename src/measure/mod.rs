@@ -1,4 +1,4 @@
-//! The judges: energy, momentum, the law of contact, penetration, divergence, computed from states and contacts alone.
+//! The judges: energy, momentum, the law of contact, geometry, divergence, computed from states and contacts alone.
 //!
 //! Nothing here imports a method or takes a solver's word: what an impulse did to a body is worked out again from the
 //! impulse, the arm and the mass properties.
@@ -9,6 +9,7 @@ mod difference;
 pub mod divergence;
 pub mod energy;
 pub mod error;
+pub mod geometry;
 mod judge;
 mod kept;
 mod loads;

@@ -3,6 +3,7 @@
 mod contact_matrix;
 mod critical_step;
 mod inertia;
+mod overlap;
 mod sensitivity;
 
 use crate::yaml::experiment;

@@ -33,7 +33,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("solve", &["experiment", "model", "collide", "math", "state", "work"]),
     ("event", &["exact", "solve", "integrate", "collide", "model", "shape", "experiment", "math", "state", "work"]),
     // The judges know no method: neither what steps, nor what solves, nor a closed form.
-    ("measure", &["plan", "shown", "collide", "model", "experiment", "rows", "heading", "outcome", "state"]),
+    ("measure", &["plan", "shown", "collide", "model", "shape", "experiment", "rows", "heading", "outcome", "state"]),
     (
         "record",
         &[

@@ -8,8 +8,8 @@ use super::momentum::MomentumLedger;
 use super::more::Watched;
 use super::push::Push;
 use super::residual::ResidualLedger;
+use crate::collide::SolvedContact;
 use crate::collide::approach::Approach;
-use crate::collide::{self, SolvedContact};
 use crate::experiment::types::Diverge;
 use crate::model::Model;
 use crate::outcome::Criterion;
@@ -183,9 +183,4 @@ fn moment_s(model: &Model) -> f64 {
     let size_m = model.largest_radius_m();
     let g = model.gravity_m_s2.norm();
     if g > 0.0 { 0.01 * (size_m / g).sqrt() } else { 0.0 }
-}
-
-/// Largest depth of any point of any body in the container or in another body.
-pub fn deepest_m(model: &Model, state: &State) -> f64 {
-    collide::deepest(model, state).map_or(0.0, |contact| -contact.gap_m)
 }

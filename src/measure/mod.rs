@@ -19,5 +19,5 @@ mod push;
 pub mod reference;
 pub mod residual;
 
-pub use judge::{Judge, deepest_m};
+pub use judge::Judge;
 pub use push::Push;

@@ -1,6 +1,6 @@
 //! Two boxes: all fifteen axes that can part them (S. Gottschalk, M. C. Lin, D. Manocha, OBBTree, SIGGRAPH 1996).
 
-use super::overlap::Parting;
+use super::parting::Parting;
 use super::posed::Posed;
 use nalgebra::Vector3;
 

@@ -1,12 +1,12 @@
 //! How deep any two convex solids overlap: their Minkowski difference D is approached from inside by a polytope that
-//! grows where it is nearest to the origin (G. van den Bergen, Proximity Queries and Penetration Depth Computation on 3D
-//! Game Objects, GDC 2001; here from any first tetrahedron, with planes that may have the origin outside).
+//! grows where it is nearest to the origin (G. van den Bergen, Proximity Queries and Penetration Depth Computation on
+//! 3D Game Objects, GDC 2001; here from any first tetrahedron, with planes that may have the origin outside).
 //!
 //! Every direction asked is an upper bound of the depth, h(d); the nearest plane of the polytope is a lower one. They
 //! meet exactly at flat faces of D, and as the square of the size of the polytope's faces where D is curved. Where the
 //! solids are apart what is found is a direction that parts them.
 
-use super::overlap::Parting;
+use super::parting::Parting;
 use super::posed::Posed;
 use nalgebra::Vector3;
 

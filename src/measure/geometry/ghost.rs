@@ -5,11 +5,16 @@
 //!
 //! What is removed is a positive combination of contacts that were closed: at least one of them, weighted by its
 //! impulse, then goes inside, whatever the others do (p·A p > 0). An impulse without a contact has no such point.
+//!
+//! A step sees a body that turns move along tangents. What the tangents would have led inside and the turning itself
+//! does not is no ghost, but an error of the order of the step: as far as half the square of the angle, if the bodies
+//! come nearer to each other by what the impulse kept them apart.
 
 use super::expand::Expansion;
-use super::figure::{Figure, Stand};
+use super::figure::{Figure, Stand, posed};
 use super::leg::{Leg, most_m};
 use super::near::NearPair;
+use super::overlap::part;
 use super::passage::gap_m;
 use crate::collide::SolvedContact;
 use crate::model::Model;
@@ -30,6 +35,9 @@ const LOOKS: usize = 64;
 const AHEAD: f64 = 1e-6;
 /// Of the speed: a change of velocity that shows in the motion itself.
 const SHOWS: f64 = 1e-3;
+
+/// Of what an impulse should have kept two bodies apart by: they come nearer without it.
+const NEARER: f64 = 0.25;
 
 /// What the impulses of one pair along one normal did to its bodies.
 #[derive(Clone, Copy, Debug)]
@@ -92,16 +100,61 @@ impl Seance<'_> {
         if !self.moves(group, &gains, over_s) {
             return 0.0;
         }
-        let leg = |i: usize, gain: &Gain| {
+        let end = |i: usize, gain: &Gain| {
             let (from, to) = (&kicked.bodies[i], &after.bodies[i]);
-            let ends = Stand {
+            Stand {
                 p_WB: to.p_WB + to.v_WB * more_s - gain.v * over_s,
                 q_WB: turned_less(from, to, gain, over_s, more_s),
-            };
-            Leg::to(from.into(), &ends)
+            }
         };
-        let legs = [leg(group.bodies.0, &gains[0]), leg(group.bodies.1.unwrap_or(group.bodies.0), &gains[1])];
-        self.weigh(group, kicked, &legs, over_s)
+        let [a, b] = [group.bodies.0, group.bodies.1.unwrap_or(group.bodies.0)];
+        let without = [end(a, &gains[0]), end(b, &gains[1])];
+        // Most of them go inside, and no way has to be followed.
+        if self.are_inside(group, &without, self.closed_m(group, kicked)) {
+            return 0.0;
+        }
+        let legs =
+            |ends: &[Stand; 2]| [(a, &ends[0]), (b, &ends[1])].map(|(i, to)| Leg::to((&kicked.bodies[i]).into(), to));
+        let (with, without) = (legs(&[end(a, &Gain::NONE), end(b, &Gain::NONE)]), legs(&without));
+        let size_rel = self.weigh(group, kicked, &without, over_s);
+        if size_rel > 0.0 && self.is_early(group, &gains, [&with, &without], over_s) { 0.0 } else { size_rel }
+    }
+
+    /// Without the impulses the bodies come as much nearer as they should, up to what a step does not see of their
+    /// turning. `legs`: with the impulses and without.
+    fn is_early(&mut self, group: &Group, gains: &[Gain; 2], [with, without]: [&[Leg; 2]; 2], over_s: f64) -> bool {
+        let turning_m = |(leg, i): (&Leg, usize)| {
+            let body = &self.model.bodies[i];
+            if body.is_centred_ball() { 0.0 } else { 0.5 * leg.turned.norm_squared() * self.figures[i].radius_m }
+        };
+        let bodies = [Some(group.bodies.0), group.bodies.1];
+        let unseen_m: f64 = with.iter().zip(bodies.into_iter().flatten()).map(turning_m).sum();
+        if unseen_m == 0.0 {
+            return false;
+        }
+        let work =
+            |gain: &Gain, sign: f64, angular: &Vector3<f64>| group.impulse_W.dot(&gain.v) * sign + angular.dot(&gain.w);
+        let kept_m = over_s * (work(&gains[0], 1.0, &group.angular_W[0]) + work(&gains[1], -1.0, &group.angular_W[1]))
+            / group.impulse_W.norm();
+        let [gap_m, left_m] = [with, without].map(|legs| self.end_gap_m(group, legs));
+        left_m <= unseen_m && gap_m - left_m >= NEARER * kept_m
+    }
+
+    fn end_gap_m(&mut self, group: &Group, legs: &[Leg; 2]) -> f64 {
+        match group.bodies.1 {
+            Some(other) => {
+                let mut pair = NearPair { bodies: [group.bodies.0, other], axis: Vector3::zeros() };
+                gap_m(self.model, &mut pair, [&legs[0], &legs[1]], (1.0, f64::INFINITY), self.memory)
+            }
+            None => {
+                let (figure, body) = (&self.figures[group.bodies.0], &self.model.bodies[group.bodies.0]);
+                let faces = self.model.container.iter().flat_map(|container| &container.faces);
+                let along = faces.filter(|face| face.normal.dot(&group.normal) > 1.0 - PARALLEL);
+                let at = legs[0].at(1.0);
+                let depth_m = |face: &Face| figure.depth_m(body, &at, face, f64::NEG_INFINITY);
+                along.filter_map(depth_m).map(|depth_m| -depth_m).fold(f64::INFINITY, f64::min)
+            }
+        }
     }
 
     /// A blow, which changed velocities alone.
@@ -175,13 +228,19 @@ impl Seance<'_> {
         self.each(group, &[Gain::NONE; 2]).map(|(figure, _)| figure.radius_m).fold(f64::INFINITY, f64::min)
     }
 
+    /// What rounding may make of two bodies that touch.
+    fn closed_m(&self, group: &Group, at: &State) -> f64 {
+        let coordinates_m = at.bodies[group.bodies.0].p_WB.amax() + self.figures[group.bodies.0].radius_m;
+        OVERLAP * self.size_m(group) + ROUNDING * coordinates_m
+    }
+
     /// The size of the impulse, if the bodies nowhere overlap on these ways; else 0.
     fn weigh(&mut self, group: &Group, at: &State, legs: &[Leg; 2], over_s: f64) -> f64 {
-        let coordinates_m = legs[0].from.p_WB.amax() + self.figures[group.bodies.0].radius_m;
-        let closed_m = OVERLAP * self.size_m(group) + ROUNDING * coordinates_m;
+        let closed_m = self.closed_m(group, at);
+        // A half-space is entered deepest at an end.
         let overlaps = match group.bodies.1 {
             Some(other) => self.overlap(group.bodies.0, other, legs, closed_m),
-            None => self.is_in_container(group, legs, closed_m),
+            None => [1.0, 0.0].iter().any(|way| self.is_in_container(group, &legs[0].at(*way), closed_m)),
         };
         if overlaps {
             return 0.0;
@@ -222,25 +281,29 @@ impl Seance<'_> {
         false
     }
 
-    /// In the faces that have the group's normal, or in any if none has. A half-space is entered deepest at an end.
-    fn is_in_container(&self, group: &Group, legs: &[Leg; 2], closed_m: f64) -> bool {
+    /// Whether the two bodies overlap where they stand.
+    fn are_inside(&mut self, group: &Group, at: &[Stand; 2], closed_m: f64) -> bool {
+        let Some(other) = group.bodies.1 else { return self.is_in_container(group, &at[0], closed_m) };
+        let origin_W = at[1].p_WB;
+        let [a, b] = [(group.bodies.0, &at[0]), (other, &at[1])].map(|(i, at)| posed(self.model, i, at, &origin_W));
+        a.zip(b).is_some_and(|(a, b)| part(&a, &b, self.memory).gap_m < -closed_m)
+    }
+
+    /// In the faces that have the group's normal, or in any if none has.
+    fn is_in_container(&self, group: &Group, at: &Stand, closed_m: f64) -> bool {
         let Some(container) = &self.model.container else { return false };
-        let body = &self.model.bodies[group.bodies.0];
+        let (figure, body) = (&self.figures[group.bodies.0], &self.model.bodies[group.bodies.0]);
         let is_along = |face: &&Face| face.normal.dot(&group.normal) > 1.0 - PARALLEL;
         let any_is = container.faces.iter().any(|face| is_along(&face));
-        let figure = &self.figures[group.bodies.0];
-        let mut ends = [1.0, 0.0].into_iter().map(|way| legs[0].at(way));
-        ends.any(|at| {
-            let mut faces = container.faces.iter().filter(|face| !any_is || is_along(face));
-            faces.any(|face| figure.depth_m(body, &at, face, closed_m).is_some())
-        })
+        let mut faces = container.faces.iter().filter(|face| !any_is || is_along(face));
+        faces.any(|face| figure.depth_m(body, at, face, closed_m).is_some())
     }
 }
 
 /// The attitude at the end without a gain: the torque-free turning that is left is the same to first order.
 fn turned_less(from: &BodyState, to: &BodyState, gain: &Gain, over_s: f64, more_s: f64) -> UnitQuaternion<f64> {
     let turn = |w: Vector3<f64>, time_s: f64| UnitQuaternion::from_scaled_axis(w * time_s);
-    let end = turn(to.w_WB, more_s) * to.q_WB;
+    let end = if more_s == 0.0 { to.q_WB } else { turn(to.w_WB, more_s) * to.q_WB };
     if gain.w == Vector3::zeros() {
         return end;
     }

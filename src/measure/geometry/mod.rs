@@ -13,9 +13,11 @@ mod leg;
 mod near;
 mod nearest;
 mod overlap;
+mod parting;
 mod passage;
 mod posed;
 mod segments;
 
 pub use ledger::GeometryLedger;
-pub use overlap::{Parting, overlap};
+pub use overlap::overlap;
+pub use parting::Parting;

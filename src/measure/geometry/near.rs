@@ -7,7 +7,7 @@ use crate::state::State;
 use nalgebra::Vector3;
 
 /// Of a body's radius: as long as no body has moved by more, the pairs hold.
-const SKIN: f64 = 0.1;
+const SKIN: f64 = 0.2;
 
 /// Two bodies whose bounds meet, the first before the second.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +27,8 @@ pub struct NearPairs {
     /// Bodies with a solid; in the order of their lower bounds.
     solids: Vec<usize>,
     bounds: Vec<(Vector3<f64>, Vector3<f64>)>,
+    /// In that order, next to each other in memory.
+    sorted: Vec<(Vector3<f64>, Vector3<f64>, usize)>,
 }
 
 impl NearPairs {
@@ -39,6 +41,7 @@ impl NearPairs {
             last: Vec::with_capacity(room),
             seen_at: Vec::with_capacity(model.bodies.len()),
             bounds: Vec::with_capacity(model.bodies.len()),
+            sorted: Vec::with_capacity(solids.len()),
             solids,
         }
     }
@@ -78,12 +81,19 @@ impl NearPairs {
         let bounds = &self.bounds;
         let axis = spread(self.solids.iter().map(|&i| bounds[i].0)).imax();
         self.solids.sort_unstable_by(|&i, &j| bounds[i].0[axis].total_cmp(&bounds[j].0[axis]).then(i.cmp(&j)));
-        for (k, &i) in self.solids.iter().enumerate() {
-            let (low, high) = &bounds[i];
-            for &j in self.solids[k + 1..].iter().take_while(|&&j| bounds[j].0[axis] <= high[axis]) {
-                let meets = (0..3).all(|k| low[k] <= bounds[j].1[k] && bounds[j].0[k] <= high[k]);
-                let bodies = [i.min(j), i.max(j)];
-                if meets && !(figures[i].is_driven && figures[j].is_driven) && !model.are_pinned(bodies) {
+        self.sorted.clear();
+        self.sorted.extend(self.solids.iter().map(|&i| (bounds[i].0, bounds[i].1, i)));
+        for (k, (low, high, i)) in self.sorted.iter().enumerate() {
+            for (other_low, other_high, j) in &self.sorted[k + 1..] {
+                if other_low[axis] > high[axis] {
+                    break;
+                }
+                let meets = |k: usize| low[k] <= other_high[k] && other_low[k] <= high[k];
+                if !(meets(0) && meets(1) && meets(2)) || (figures[*i].is_driven && figures[*j].is_driven) {
+                    continue;
+                }
+                let bodies = [*i.min(j), *i.max(j)];
+                if !model.are_pinned(bodies) {
                     self.pairs.push(NearPair { bodies, axis: Vector3::zeros() });
                 }
             }

@@ -5,6 +5,9 @@ use crate::shape::hull::{Hull, Polygon};
 use crate::shape::solid::Solid;
 use nalgebra::Vector3;
 
+/// Of the coordinates: a point that is nearer is on the surface, and the vector to it no direction.
+const SURFACE: f64 = 1e-12;
+
 /// Distance of a point from a surface, negative inside, and the direction in which it grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
@@ -66,9 +69,9 @@ fn of_cylinder(radius_m: f64, half_height_m: f64, p: &Vector3<f64>) -> Level {
 }
 
 /// Of the nearest point x the normal is along xᵢ/aᵢ²: p − x = τ·(xᵢ/aᵢ²), xᵢ = aᵢ² pᵢ/(τ + aᵢ²), and τ is the largest
-/// root of Σ xᵢ²/aᵢ² = 1 (D. Eberly, Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid, 2013), here
-/// by bisection to the last bit. Inside, on the plane of the two longer axes, there may be none above −a², a the least
-/// axis: then the nearest points are above and below that plane.
+/// root of Σ xᵢ²/aᵢ² = 1 (D. Eberly, Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid, 2013),
+/// here by bisection to the last bit. Inside, on the plane of the two longer axes, there may be none above −a², a the
+/// least axis: then the nearest points are above and below that plane.
 fn of_ellipsoid(semi_axes_m: &Vector3<f64>, p: &Vector3<f64>) -> Level {
     let least = semi_axes_m.imin();
     let a = semi_axes_m[least];
@@ -111,7 +114,7 @@ fn of_hull(hull: &Hull, p: &Vector3<f64>) -> Level {
             }
         }
     }
-    outside.unwrap_or(inside)
+    outside.filter(|level| level.distance_m > SURFACE * p.amax()).unwrap_or(inside)
 }
 
 /// To a point above a face from the face's nearest.

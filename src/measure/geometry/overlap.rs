@@ -4,29 +4,14 @@
 use super::boxes::boxes;
 use super::expand::Expansion;
 use super::nearest::level;
-use super::posed::{Core, Posed, gap_along_m};
+use super::parting::{Parting, along_m, better};
+use super::posed::{Core, Posed};
 use super::segments::{along, between};
 use crate::shape::solid::{Pose, Solid};
-use nalgebra::Vector3;
 
 /// Lengths (m) that are no direction; and part of a solid's size, below which a vector between cores is no good one.
 const NO_WAY: f64 = 1e-300;
 const SURFACE: f64 = 1e-6;
-
-/// What parts two solids best.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parting {
-    /// Negative: the shortest translation that parts them. Positive: they are apart by at least as much.
-    pub gap_m: f64,
-    /// Unit, from b to a: a plane across it has the two on its sides, with that gap.
-    pub normal: Vector3<f64>,
-}
-
-impl Parting {
-    fn flipped(self) -> Self {
-        Parting { normal: -self.normal, ..self }
-    }
-}
 
 /// The parting of two solids.
 pub fn overlap(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose) -> Parting {
@@ -71,14 +56,6 @@ fn of_segment(capsule: &Posed, half_m: f64, b: &Posed, memory: &mut Expansion) -
     }
     let whole = memory.part(capsule, b, sizes_m);
     better(along_m(capsule, b, &(b.R * level.outward)), along_m(capsule, b, &whole.normal))
-}
-
-fn along_m(a: &Posed, b: &Posed, normal: &Vector3<f64>) -> Parting {
-    Parting { gap_m: gap_along_m(a, b, normal), normal: *normal }
-}
-
-fn better(one: Parting, other: Parting) -> Parting {
-    if other.gap_m > one.gap_m { other } else { one }
 }
 
 /// Of the smaller, and of both with what is between them.

@@ -6,7 +6,7 @@
 //! - `methods/`: each method against its own recurrence, the exact motion, its conserved quantities
 //! - `event/`: motion from event to event, against closed forms, itself and what mechanics keeps
 //! - `exact/`: closed forms against 40-digit references
-//! - `measure/`: columns that `measure:` adds, against another way to their numbers
+//! - `measure/`: the judges: columns against another way to their numbers, faults made by hand
 //! - `map_a`: the lecture's stability notes against the measured table
 //! - `sweep/`: resume, threads, panics, tables, recordings of a sweep
 //! - `record/`: recordings, read back from their files

@@ -4,14 +4,15 @@ use super::dissipation::{Dissipation, Law};
 use super::divergence::Divergence;
 use super::energy::EnergyLedger;
 use super::exchange::{Exchange, Over};
+use super::geometry::GeometryLedger;
 use super::momentum::MomentumLedger;
 use super::more::Watched;
 use super::pinned;
 use super::residual::ResidualLedger;
 use super::springs::Springs;
 use super::work::{self, Done};
+use crate::collide::SolvedContact;
 use crate::collide::approach::Approach;
-use crate::collide::{self, SolvedContact};
 use crate::experiment::types::Diverge;
 use crate::model::Model;
 use crate::outcome::Criterion;
@@ -27,8 +28,7 @@ pub struct Judge {
     pub energy: EnergyLedger,
     pub momentum: MomentumLedger,
     pub residual: ResidualLedger,
-    /// None: the method never looks for contacts.
-    pub penetration_max_m: Option<f64>,
+    pub geometry: GeometryLedger,
     pub contacts_max: u64,
     /// None: there is no pin.
     pub pin_gap_max_m: Option<f64>,
@@ -82,7 +82,7 @@ impl Judge {
             energy: EnergyLedger::new(model, start, stored_j),
             momentum: MomentumLedger::new(model, start),
             residual: ResidualLedger::new(plan.constraint, plan.newton, bodies),
-            penetration_max_m: plan.contact.then_some(0.0),
+            geometry: GeometryLedger::new(model, start, plan.contact),
             contacts_max: 0,
             pin_gap_max_m: model.pin_gap_m(&start.bodies),
             watched: Watched::default(),
@@ -107,7 +107,7 @@ impl Judge {
         if !matches!(shown.acted, Acted::Blow { .. }) {
             self.end_instant(model, before);
         }
-        let (done, depth_m) = match shown.acted {
+        let done = match shown.acted {
             Acted::Kick { kicked, contacts, step_s, approach } => {
                 self.observe_kick(model, [before, kicked, after], contacts, (approach, step_s))
             }
@@ -119,7 +119,7 @@ impl Judge {
         self.momentum.observe(model, after, &done, after.time_s - before.time_s);
         let gap_m = model.pin_gap_m(&after.bodies);
         self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
-        self.penetration_max_m = self.penetration_max_m.map(|max| max.max(depth_m));
+        let depth_m = self.geometry.observe(model, shown);
         self.divergence.judge(model, after, &self.energy, depth_m)
     }
 
@@ -130,7 +130,7 @@ impl Judge {
         [before, kicked, after]: [&State; 3],
         contacts: &[SolvedContact],
         (approach, step_s): (Approach, f64),
-    ) -> (Done, f64) {
+    ) -> Done {
         let mut done =
             work::done(model, [before, after], &mut self.middle, |state| self.momentum.pivot_m(model, state), step_s);
         if !contacts.is_empty() || self.driven_pins {
@@ -146,11 +146,12 @@ impl Judge {
         if step_s > 0.0 {
             self.watched.observe_step(before, after, step_s);
         }
-        (done, self.observe_contacts(contacts))
+        self.count(contacts.len());
+        done
     }
 
     /// An impact, which takes no time: `contacts` changed only the velocities.
-    fn observe_blow(&mut self, model: &Model, [before, after]: [&State; 2], contacts: &[SolvedContact]) -> (Done, f64) {
+    fn observe_blow(&mut self, model: &Model, [before, after]: [&State; 2], contacts: &[SolvedContact]) -> Done {
         self.exchange.look(model, [before, after], contacts, Over::Step(0.0));
         self.take(contacts, 0.0);
         let mut done = Done::NOTHING;
@@ -158,7 +159,8 @@ impl Judge {
         self.momentum.observe_pushes(model, before, &self.exchange.pushes, 1.0);
         self.watched.observe(before, contacts);
         self.impacts.add(before, contacts);
-        (done, self.observe_contacts(contacts))
+        self.count(contacts.len());
+        done
     }
 
     /// The impacts of an instant that is over.
@@ -171,9 +173,8 @@ impl Judge {
     }
 
     /// A smooth motion, of which `moments` show the forces of contact: their weights are those of a quadrature.
-    fn observe_motion(&mut self, model: &Model, [before, after]: [&State; 2], moments: &[Moment]) -> (Done, f64) {
+    fn observe_motion(&mut self, model: &Model, [before, after]: [&State; 2], moments: &[Moment]) -> Done {
         let mut done = Done::NOTHING;
-        let mut depth_m = 0.0_f64;
         for Moment { state, contacts, weight_s } in moments {
             if model.has_loads() {
                 done.add_node(model, state, *weight_s, self.momentum.pivot_m(model, state));
@@ -199,14 +200,14 @@ impl Judge {
             let contacts: Vec<_> = contacts.iter().map(|force| impulse(force, *weight_s)).collect();
             done.add_driven(model, state, &contacts);
             self.watched.observe(state, &contacts);
-            depth_m = depth_m.max(self.observe_contacts(&contacts));
+            self.count(contacts.len());
         }
         done.add_constant(model, [before, after]);
         let span_s = after.time_s - before.time_s;
         if span_s > 0.0 {
             self.watched.observe_step(before, after, span_s);
         }
-        (done, depth_m)
+        done
     }
 
     /// The work of driven bodies in the exchange looked at.
@@ -233,18 +234,8 @@ impl Judge {
         self.end_instant(model, end);
     }
 
-    /// Their number; the depth of the deepest.
-    fn observe_contacts(&mut self, contacts: &[SolvedContact]) -> f64 {
-        self.contacts_max = self.contacts_max.max(contacts.len() as u64);
-        contacts.iter().map(|s| -s.contact.gap_m).fold(0.0, f64::max)
-    }
-
-    /// Depth of the deepest point in the last state, which no step has looked at.
-    pub fn penetration_end_m(&mut self, model: &Model, end: &State) -> Option<f64> {
-        let max = self.penetration_max_m.as_mut()?;
-        let depth_m = deepest_m(model, end);
-        *max = max.max(depth_m);
-        Some(depth_m)
+    fn count(&mut self, contacts: usize) {
+        self.contacts_max = self.contacts_max.max(contacts as u64);
     }
 }
 
@@ -252,9 +243,4 @@ fn moment_s(model: &Model) -> f64 {
     let size_m = model.largest_radius_m();
     let g = model.gravity_m_s2.norm();
     if g > 0.0 { 0.01 * (size_m / g).sqrt() } else { 0.0 }
-}
-
-/// Largest depth of any point of any body in the container or in another body.
-pub fn deepest_m(model: &Model, state: &State) -> f64 {
-    collide::deepest(model, state).map_or(0.0, |contact| -contact.gap_m)
 }

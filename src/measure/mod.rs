@@ -1,4 +1,4 @@
-//! The judges: energy, momentum, the law of contact, penetration, divergence, computed from states and contacts alone.
+//! The judges: energy, momentum, the law of contact, geometry, divergence, computed from states and contacts alone.
 //!
 //! Nothing here imports a method or takes a solver's word: what an impulse did to a body is worked out again from the
 //! impulse, the arm and the mass properties.
@@ -11,6 +11,7 @@ pub mod divergence;
 pub mod energy;
 pub mod error;
 mod exchange;
+pub mod geometry;
 mod islands;
 mod judge;
 mod kept;
@@ -23,4 +24,4 @@ pub mod residual;
 mod springs;
 mod work;
 
-pub use judge::{Judge, deepest_m};
+pub use judge::Judge;

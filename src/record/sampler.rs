@@ -7,8 +7,8 @@ use super::sample::{ContactSample, Ending, EnergySample, Event, Severity, Stream
 use super::writer::Writer;
 use crate::clock::Clock;
 use crate::experiment::types::{Record, Stream};
-use crate::measure::deepest_m;
 use crate::measure::energy::Energy;
+use crate::measure::geometry::GeometryLedger;
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::rows::doubts::doubt;
@@ -23,11 +23,14 @@ pub struct Sampler {
     /// Number of steps from one sample to the next.
     every: u64,
     ending: Option<Ending>,
+    /// Of the stream of energies, which shows the deepest overlap.
+    geometry: Option<GeometryLedger>,
 }
 
 impl Sampler {
     pub fn new(writer: Writer, record: &Record, clock: &Clock) -> Self {
-        Sampler { writer, streams: streams(record), every: steps_between(record, clock), ending: None }
+        let every = steps_between(record, clock);
+        Sampler { writer, streams: streams(record), every, ending: None, geometry: None }
     }
 
     pub fn is_due(&self, step: u64) -> bool {
@@ -48,11 +51,12 @@ impl Sampler {
         }
         if self.streams.energy {
             let energy = Energy::of(model, state);
+            let geometry = self.geometry.get_or_insert_with(|| GeometryLedger::new(model, state, true));
             batch.energy.push(EnergySample {
                 kinetic_j: energy.kinetic_j,
                 potential_j: energy.potential_j,
                 total_j: energy.total_j(),
-                penetration_m: deepest_m(model, state),
+                penetration_m: geometry.penetration_m(model, state).unwrap_or(0.0),
             });
         }
         self.writer.sample_done();

@@ -73,7 +73,7 @@ fn summarize(model: &Model, advance: &Advance, judge: &mut Judge, diverged: Opti
     let stopped = diverged.or_else(|| advance.stopped().map(|criterion| (Outcome::Stalled, criterion)));
     let state = advance.state();
     judge.end(model, state);
-    let penetration_end_m = judge.penetration_end_m(model, state);
+    let penetration_end_m = judge.geometry.penetration_m(model, state);
     Measured {
         outcome: stopped.map_or(Outcome::Finished, |(outcome, _)| outcome),
         criterion: stopped.map(|(_, criterion)| criterion.name().to_string()),
@@ -88,8 +88,10 @@ fn summarize(model: &Model, advance: &Advance, judge: &mut Judge, diverged: Opti
         energy_balance_rel: finite(judge.energy.balance_rel()),
         linear_momentum_drift_rel: judge.momentum.linear_drift_rel(model, state).and_then(finite),
         angular_momentum_drift_rel: judge.momentum.angular_drift_rel(model, state).and_then(finite),
-        penetration_max_m: judge.penetration_max_m.and_then(finite),
+        penetration_max_m: judge.geometry.penetration_max_m.and_then(finite),
         penetration_end_m: penetration_end_m.and_then(finite),
+        passed_through: judge.geometry.passed_through,
+        ghost_impulse_max_rel: judge.geometry.ghost_impulse_max_rel.and_then(finite),
         pin_gap_max_m: judge.pin_gap_max_m.and_then(finite),
         residual_max: judge.residual.max.and_then(finite),
         contact_gain_max: judge.energy.contact_gain_max.and_then(finite),

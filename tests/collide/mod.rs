@@ -3,7 +3,7 @@
 mod broad;
 mod hulls;
 mod manifolds;
-mod oracle;
+pub mod oracle;
 mod pairs;
 mod planes;
 mod resting;

@@ -1,8 +1,11 @@
-//! Columns that `measure:` adds, each against another way to its number.
+//! Columns that `measure:` adds, each against another way to its number; the judge of geometry, against another library
+//! and faults made by hand.
 
 mod contact_matrix;
 mod critical_step;
+mod geometry;
 mod inertia;
+mod overlap;
 mod sensitivity;
 
 use crate::yaml::experiment;

@@ -136,7 +136,7 @@ fn an_overlap_that_is_allowed_is_simulated_and_the_default_changes_no_case_id() 
     let case = |last: &str| single_case(&file(CUBE_IN_BOX, &[&sunk[..], &[last]].concat()));
     assert!(case("scene.allow_overlap=false").is_err());
     let (model, start) = build(&case("scene.allow_overlap=true").unwrap().experiment).unwrap();
-    assert!((gotai::measure::deepest_m(&model, &start) - 0.2).abs() < 1e-15);
+    assert!((gotai::collide::deepest(&model, &start).unwrap().gap_m + 0.2).abs() < 1e-15);
     let id = |sets: &[&str]| single_case(&file(CUBE_IN_BOX, sets)).unwrap().id;
     assert_eq!(id(&[]), id(&["scene.allow_overlap=false", "scene.random.place=null"]));
     assert_ne!(id(&[]), id(&["scene.allow_overlap=true"]));

@@ -49,7 +49,10 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     // The judges know no method: neither what steps, nor what solves, nor a closed form.
-    ("measure", &["plan", "shown", "collide", "model", "experiment", "rows", "heading", "outcome", "state", "work"]),
+    (
+        "measure",
+        &["plan", "shown", "collide", "model", "shape", "experiment", "rows", "heading", "outcome", "state", "work"],
+    ),
     (
         "record",
         &[

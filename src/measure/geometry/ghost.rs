@@ -1,0 +1,312 @@
+//! Impulses that were there for a contact that was not.
+//!
+//! The impulses of one pair along one normal are taken away and all others kept. If the two bodies, moved through the
+//! step without them, nowhere overlap, nothing was there to be pushed by.
+//!
+//! What is removed is a positive combination of contacts that were closed: at least one of them, weighted by its
+//! impulse, then goes inside, whatever the others do (p·A p > 0). An impulse without a contact has no such point.
+//!
+//! A step sees a body that turns move along tangents. What the tangents would have led inside and the turning itself
+//! does not is no ghost, but an error of the order of the step: as far as half the square of the angle, if the bodies
+//! come nearer to each other by what the impulse kept them apart.
+
+use super::expand::Expansion;
+use super::figure::{Figure, Stand, posed};
+use super::leg::{Leg, most_m};
+use super::near::NearPair;
+use super::overlap::part;
+use super::passage::gap_m;
+use crate::collide::SolvedContact;
+use crate::model::Model;
+use crate::model::container::Face;
+use crate::state::{BodyState, State};
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// Sine of the angle of normals that are one.
+const PARALLEL: f64 = 1e-6;
+/// Of a body's size: it has been moved.
+const MOVED: f64 = 1e-9;
+/// Of the smaller body's size, and of the coordinates: an overlap that is no rounding.
+const OVERLAP: f64 = 1e-10;
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Looks on the way of two bodies that begin and end apart.
+const LOOKS: usize = 64;
+/// Of a body's size: how far two bodies are followed after a blow, or by a force.
+const AHEAD: f64 = 1e-6;
+/// Of the speed: a change of velocity that shows in the motion itself.
+const SHOWS: f64 = 1e-3;
+
+/// Of what an impulse should have kept two bodies apart by: they come nearer without it.
+const NEARER: f64 = 0.25;
+
+/// What the impulses of one pair along one normal did to its bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct Group {
+    pub bodies: (usize, Option<usize>),
+    normal: Vector3<f64>,
+    impulse_W: Vector3<f64>,
+    /// About the bodies' centres of mass.
+    angular_W: [Vector3<f64>; 2],
+}
+
+impl Group {
+    /// Of all impulses of one pair, those along the normal of the first; none: they have been seen before.
+    pub fn new(solved: &[SolvedContact], first: usize) -> Option<Self> {
+        let SolvedContact { contact: of, impulse_W } = &solved[first];
+        let is_along = |n: &Vector3<f64>| n.cross(&of.normal).norm() <= PARALLEL;
+        if *impulse_W == Vector3::zeros()
+            || solved[..first].iter().any(|s| is_along(&s.contact.normal) && s.impulse_W != Vector3::zeros())
+        {
+            return None;
+        }
+        let zero = Vector3::zeros();
+        let mut group = Group { bodies: (of.body, of.other), normal: of.normal, impulse_W: zero, angular_W: [zero; 2] };
+        for SolvedContact { contact, impulse_W } in solved[first..].iter().filter(|s| is_along(&s.contact.normal)) {
+            group.impulse_W += impulse_W;
+            group.angular_W[0] += contact.r_BC_W.cross(impulse_W);
+            group.angular_W[1] -= contact.r_OC_W.cross(impulse_W);
+        }
+        Some(group)
+    }
+}
+
+/// A change of velocities.
+#[derive(Clone, Copy, Debug)]
+struct Gain {
+    v: Vector3<f64>,
+    w: Vector3<f64>,
+}
+
+impl Gain {
+    const NONE: Gain = Gain { v: Vector3::new(0.0, 0.0, 0.0), w: Vector3::new(0.0, 0.0, 0.0) };
+
+    fn speed(&self, radius_m: f64) -> f64 {
+        self.v.norm() + self.w.norm() * radius_m
+    }
+}
+
+/// The judge of one step's impulses.
+pub struct Seance<'a> {
+    pub model: &'a Model,
+    pub figures: &'a [Figure],
+    pub memory: &'a mut Expansion,
+}
+
+impl Seance<'_> {
+    /// A kick at a state, after which the bodies move for a time `over_s` up to the next one; `after` is the state a
+    /// time `more_s` before that.
+    pub fn kicked(&mut self, group: &Group, [kicked, after]: [&State; 2], over_s: f64, more_s: f64) -> f64 {
+        let gains = self.gains(group, kicked);
+        if !self.moves(group, &gains, over_s) {
+            return 0.0;
+        }
+        let end = |i: usize, gain: &Gain| {
+            let (from, to) = (&kicked.bodies[i], &after.bodies[i]);
+            Stand {
+                p_WB: to.p_WB + to.v_WB * more_s - gain.v * over_s,
+                q_WB: turned_less(from, to, gain, over_s, more_s),
+            }
+        };
+        let [a, b] = [group.bodies.0, group.bodies.1.unwrap_or(group.bodies.0)];
+        let without = [end(a, &gains[0]), end(b, &gains[1])];
+        // Most of them go inside, and no way has to be followed.
+        if self.are_inside(group, &without, self.closed_m(group, kicked)) {
+            return 0.0;
+        }
+        let legs =
+            |ends: &[Stand; 2]| [(a, &ends[0]), (b, &ends[1])].map(|(i, to)| Leg::to((&kicked.bodies[i]).into(), to));
+        let (with, without) = (legs(&[end(a, &Gain::NONE), end(b, &Gain::NONE)]), legs(&without));
+        let size_rel = self.weigh(group, kicked, &without, over_s);
+        if size_rel > 0.0 && self.is_early(group, &gains, [&with, &without], over_s) { 0.0 } else { size_rel }
+    }
+
+    /// Without the impulses the bodies come as much nearer as they should, up to what a step does not see of their
+    /// turning. `legs`: with the impulses and without.
+    fn is_early(&mut self, group: &Group, gains: &[Gain; 2], [with, without]: [&[Leg; 2]; 2], over_s: f64) -> bool {
+        let turning_m = |(leg, i): (&Leg, usize)| {
+            let body = &self.model.bodies[i];
+            if body.is_centred_ball() { 0.0 } else { 0.5 * leg.turned.norm_squared() * self.figures[i].radius_m }
+        };
+        let bodies = [Some(group.bodies.0), group.bodies.1];
+        let unseen_m: f64 = with.iter().zip(bodies.into_iter().flatten()).map(turning_m).sum();
+        if unseen_m == 0.0 {
+            return false;
+        }
+        let work =
+            |gain: &Gain, sign: f64, angular: &Vector3<f64>| group.impulse_W.dot(&gain.v) * sign + angular.dot(&gain.w);
+        let kept_m = over_s * (work(&gains[0], 1.0, &group.angular_W[0]) + work(&gains[1], -1.0, &group.angular_W[1]))
+            / group.impulse_W.norm();
+        let [gap_m, left_m] = [with, without].map(|legs| self.end_gap_m(group, legs));
+        left_m <= unseen_m && gap_m - left_m >= NEARER * kept_m
+    }
+
+    fn end_gap_m(&mut self, group: &Group, legs: &[Leg; 2]) -> f64 {
+        match group.bodies.1 {
+            Some(other) => {
+                let mut pair = NearPair { bodies: [group.bodies.0, other], axis: Vector3::zeros() };
+                gap_m(self.model, &mut pair, [&legs[0], &legs[1]], (1.0, f64::INFINITY), self.memory)
+            }
+            None => {
+                let (figure, body) = (&self.figures[group.bodies.0], &self.model.bodies[group.bodies.0]);
+                let faces = self.model.container.iter().flat_map(|container| &container.faces);
+                let along = faces.filter(|face| face.normal.dot(&group.normal) > 1.0 - PARALLEL);
+                let at = legs[0].at(1.0);
+                let depth_m = |face: &Face| figure.depth_m(body, &at, face, f64::NEG_INFINITY);
+                along.filter_map(depth_m).map(|depth_m| -depth_m).fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    /// A blow, which changed velocities alone.
+    pub fn struck(&mut self, group: &Group, [before, after]: [&State; 2]) -> f64 {
+        let gains = self.gains(group, before);
+        let speed = |i: usize| {
+            let (at, was) = (&after.bodies[i], &before.bodies[i]);
+            let turning = at.w_WB.norm().max(was.w_WB.norm()) * self.figures[i].radius_m;
+            at.v_WB.norm().max(was.v_WB.norm()) + turning
+        };
+        let speed = speed(group.bodies.0) + group.bodies.1.map_or(0.0, speed);
+        let gained = self.largest(group, &gains);
+        if gained <= MOVED * speed {
+            return 0.0;
+        }
+        let shows = gained >= SHOWS * speed;
+        let time_s = AHEAD * self.size_m(group) / if shows { speed } else { gained };
+        let leg = |i: usize, gain: &Gain| {
+            let at = &after.bodies[i];
+            let (v, w) = if shows { (at.v_WB, at.w_WB) } else { (Vector3::zeros(), Vector3::zeros()) };
+            Leg { from: at.into(), moved: (v - gain.v) * time_s, turned: (w - gain.w) * time_s }
+        };
+        let legs = [leg(group.bodies.0, &gains[0]), leg(group.bodies.1.unwrap_or(group.bodies.0), &gains[1])];
+        self.weigh(group, before, &legs, 0.0)
+    }
+
+    /// Forces over a time, given as impulses, at a state in it.
+    pub fn pressed(&mut self, group: &Group, at: &State, over_s: f64) -> f64 {
+        let gains = self.gains(group, at);
+        if !self.moves(group, &gains, 0.5 * over_s) {
+            return 0.0;
+        }
+        let time_s = AHEAD * self.size_m(group) / self.largest(group, &gains);
+        let leg = |i: usize, gain: &Gain| Leg {
+            from: (&at.bodies[i]).into(),
+            moved: -gain.v * time_s,
+            turned: -gain.w * time_s,
+        };
+        let legs = [leg(group.bodies.0, &gains[0]), leg(group.bodies.1.unwrap_or(group.bodies.0), &gains[1])];
+        self.weigh(group, at, &legs, over_s)
+    }
+
+    /// M⁻¹ times the group's impulses.
+    fn gains(&self, group: &Group, at: &State) -> [Gain; 2] {
+        let gain = |i: usize, sign: f64, angular: &Vector3<f64>| {
+            let body = &self.model.bodies[i];
+            if body.driven {
+                return Gain::NONE;
+            }
+            Gain { v: group.impulse_W * (sign / body.mass_kg), w: body.I_W_inverse(&at.bodies[i]) * angular }
+        };
+        let other = group.bodies.1.map_or(Gain::NONE, |other| gain(other, -1.0, &group.angular_W[1]));
+        [gain(group.bodies.0, 1.0, &group.angular_W[0]), other]
+    }
+
+    fn each<'b>(&'b self, group: &Group, gains: &'b [Gain; 2]) -> impl Iterator<Item = (&'b Figure, &'b Gain)> {
+        let bodies = [Some(group.bodies.0), group.bodies.1];
+        bodies.into_iter().flatten().map(|i| &self.figures[i]).zip(gains)
+    }
+
+    fn moves(&self, group: &Group, gains: &[Gain; 2], time_s: f64) -> bool {
+        self.each(group, gains).any(|(figure, gain)| gain.speed(figure.radius_m) * time_s > MOVED * figure.radius_m)
+    }
+
+    fn largest(&self, group: &Group, gains: &[Gain; 2]) -> f64 {
+        self.each(group, gains).map(|(figure, gain)| gain.speed(figure.radius_m)).fold(0.0, f64::max)
+    }
+
+    /// Of the smaller body.
+    fn size_m(&self, group: &Group) -> f64 {
+        self.each(group, &[Gain::NONE; 2]).map(|(figure, _)| figure.radius_m).fold(f64::INFINITY, f64::min)
+    }
+
+    /// What rounding may make of two bodies that touch.
+    fn closed_m(&self, group: &Group, at: &State) -> f64 {
+        let coordinates_m = at.bodies[group.bodies.0].p_WB.amax() + self.figures[group.bodies.0].radius_m;
+        OVERLAP * self.size_m(group) + ROUNDING * coordinates_m
+    }
+
+    /// The size of the impulse, if the bodies nowhere overlap on these ways; else 0.
+    fn weigh(&mut self, group: &Group, at: &State, legs: &[Leg; 2], over_s: f64) -> f64 {
+        let closed_m = self.closed_m(group, at);
+        // A half-space is entered deepest at an end.
+        let overlaps = match group.bodies.1 {
+            Some(other) => self.overlap(group.bodies.0, other, legs, closed_m),
+            None => [1.0, 0.0].iter().any(|way| self.is_in_container(group, &legs[0].at(*way), closed_m)),
+        };
+        if overlaps {
+            return 0.0;
+        }
+        let bodies = [Some(group.bodies.0), group.bodies.1];
+        let moving = bodies.into_iter().flatten().filter(|i| !self.model.bodies[*i].driven);
+        let lighter =
+            moving.reduce(|a, b| if self.model.bodies[b].mass_kg < self.model.bodies[a].mass_kg { b } else { a });
+        let Some(i) = lighter else { return 0.0 };
+        let (v, _) = self.model.gained(i, at.time_s, &at.bodies[i], over_s);
+        let size = group.impulse_W.norm();
+        let momentum = self.model.bodies[i].mass_kg * (at.bodies[i].v_WB.norm() + v.norm());
+        // What rests without a force: as if it had come with a millionth of what it gets.
+        size / momentum.max(1e-6 * size)
+    }
+
+    fn overlap(&mut self, a: usize, b: usize, legs: &[Leg; 2], closed_m: f64) -> bool {
+        let mut pair = NearPair { bodies: [a, b], axis: Vector3::zeros() };
+        let legs = [&legs[0], &legs[1]];
+        let most_m = most_m(legs, [a, b].map(|i| self.figures[i].radius_m));
+        let mut gap_at = |way: f64| gap_m(self.model, &mut pair, legs, (way, most_m), self.memory);
+        let ends_m = [1.0, 0.0].map(&mut gap_at);
+        if ends_m.iter().any(|gap_m| *gap_m < -closed_m) {
+            return true;
+        }
+        let (mut way, last) = (ends_m[1] / most_m, 1.0 - ends_m[0] / most_m);
+        for _ in 0..LOOKS {
+            way = way.max(1.0 / LOOKS as f64);
+            if way >= last {
+                break;
+            }
+            let gap_m = gap_at(way);
+            if gap_m < -closed_m {
+                return true;
+            }
+            way += (gap_m / most_m).max(1.0 / LOOKS as f64);
+        }
+        false
+    }
+
+    /// Whether the two bodies overlap where they stand.
+    fn are_inside(&mut self, group: &Group, at: &[Stand; 2], closed_m: f64) -> bool {
+        let Some(other) = group.bodies.1 else { return self.is_in_container(group, &at[0], closed_m) };
+        let origin_W = at[1].p_WB;
+        let [a, b] = [(group.bodies.0, &at[0]), (other, &at[1])].map(|(i, at)| posed(self.model, i, at, &origin_W));
+        a.zip(b).is_some_and(|(a, b)| part(&a, &b, self.memory).gap_m < -closed_m)
+    }
+
+    /// In the faces that have the group's normal, or in any if none has.
+    fn is_in_container(&self, group: &Group, at: &Stand, closed_m: f64) -> bool {
+        let Some(container) = &self.model.container else { return false };
+        let (figure, body) = (&self.figures[group.bodies.0], &self.model.bodies[group.bodies.0]);
+        let is_along = |face: &&Face| face.normal.dot(&group.normal) > 1.0 - PARALLEL;
+        let any_is = container.faces.iter().any(|face| is_along(&face));
+        let mut faces = container.faces.iter().filter(|face| !any_is || is_along(face));
+        faces.any(|face| figure.depth_m(body, at, face, closed_m).is_some())
+    }
+}
+
+/// The attitude at the end without a gain: the torque-free turning that is left is the same to first order.
+fn turned_less(from: &BodyState, to: &BodyState, gain: &Gain, over_s: f64, more_s: f64) -> UnitQuaternion<f64> {
+    let turn = |w: Vector3<f64>, time_s: f64| UnitQuaternion::from_scaled_axis(w * time_s);
+    let end = if more_s == 0.0 { to.q_WB } else { turn(to.w_WB, more_s) * to.q_WB };
+    if gain.w == Vector3::zeros() {
+        return end;
+    }
+    let steady = turn(to.w_WB, over_s) * from.q_WB;
+    end * steady.inverse() * turn(to.w_WB - gain.w, over_s) * from.q_WB
+}

@@ -1,0 +1,234 @@
+//! The judge of geometry sees what a step did to bodies, whatever contacts the step has seen: faults made by hand, and
+//! runs that are either right or told of.
+
+use crate::yaml::{experiment, measured};
+use gotai::collide::approach::Approach;
+use gotai::collide::{Contact, SolvedContact};
+use gotai::measure::geometry::GeometryLedger;
+use gotai::model::Model;
+use gotai::scene::build;
+use gotai::shown::{Acted, Shown};
+use gotai::state::State;
+use nalgebra::{UnitQuaternion, Vector3};
+
+const H: f64 = 0.01;
+
+const BALL_ON_FLOOR: &str = "
+scene:
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies:
+    - { name: ball, shape: { sphere: { radius_m: 0.5 } }, mass_kg: 2, position_m: [0, 0.5, 0] }
+time: { step_s: 0.01, end_s: 1 }
+";
+
+const TWO_BOXES: &str = "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  bodies:
+    - { name: plate, shape: { box: { size_m: [0.02, 2, 2] } }, mass_kg: 1, fixed: true }
+    - { name: box, shape: { box: { size_m: [0.2, 0.2, 0.2] } }, mass_kg: 1, position_m: [0.5, 0, 0] }
+time: { step_s: 0.01, end_s: 1 }
+";
+
+/// What the judge says of one step: penetration, ghost, passages.
+fn judged(model: &Model, before: &State, after: &State, contacts: &[SolvedContact]) -> (f64, f64, u64) {
+    let mut ledger = GeometryLedger::new(model, before, true);
+    let acted = Acted::Kick { kicked: before, contacts, step_s: H, approach: Approach::Start };
+    ledger.observe(model, &Shown { before, after, acted, way: None, stalled: None, is_last: false });
+    let seen = (ledger.penetration_max_m, ledger.ghost_impulse_max_rel, ledger.passed_through);
+    (seen.0.unwrap(), seen.1.unwrap(), seen.2.unwrap())
+}
+
+fn scene(text: &str) -> (Model, State) {
+    build(&experiment(text, &[])).unwrap()
+}
+
+/// Of the ball's lowest point with the floor.
+fn on_floor(at: &State, impulse_n_s: f64) -> SolvedContact {
+    let p_WC = at.bodies[0].p_WB - Vector3::y() * 0.5;
+    let contact = Contact {
+        body: 0,
+        other: None,
+        feature: (0, 0),
+        r_BC_W: p_WC - at.bodies[0].p_WB,
+        r_OC_W: Vector3::zeros(),
+        p_WC,
+        normal: Vector3::y(),
+        gap_m: p_WC.y,
+        friction: 0.0,
+        restitution: 0.0,
+        tangential_restitution: 0.0,
+    };
+    SolvedContact { contact, impulse_W: Vector3::y() * impulse_n_s }
+}
+
+/// A step of the ball on the floor with an impulse along the normal: gravity and the impulse, then the way.
+fn kicked(model: &Model, before: &State, impulse_n_s: f64) -> State {
+    let mut after = before.clone();
+    let ball = &mut after.bodies[0];
+    ball.v_WB += model.gravity_m_s2 * H + Vector3::y() * (impulse_n_s / 2.0);
+    ball.p_WB += ball.v_WB * H;
+    after.time_s += H;
+    after
+}
+
+#[test]
+fn what_holds_a_resting_ball_is_no_ghost() {
+    let (model, start) = scene(BALL_ON_FLOOR);
+    let p = 2.0 * 9.8 * H;
+    let (depth_m, ghost, _) = judged(&model, &start, &kicked(&model, &start, p), &[on_floor(&start, p)]);
+    assert_eq!((depth_m, ghost), (0.0, 0.0));
+}
+
+#[test]
+fn an_impulse_at_a_distance_is_a_ghost() {
+    let (model, mut start) = scene(BALL_ON_FLOOR);
+    start.bodies[0].p_WB.y = 0.8;
+    start.bodies[0].v_WB.y = -1.0;
+    let (_, ghost, _) = judged(&model, &start, &kicked(&model, &start, 1.0), &[on_floor(&start, 1.0)]);
+    // Of m(v + g h).
+    assert!((ghost - 1.0 / (2.0 * (1.0 + 9.8 * H))).abs() < 1e-12, "{ghost}");
+}
+
+#[test]
+fn an_impulse_that_pulls_is_a_ghost() {
+    let (model, mut start) = scene(BALL_ON_FLOOR);
+    start.bodies[0].v_WB.y = 1.0;
+    let (_, ghost, _) = judged(&model, &start, &kicked(&model, &start, -0.5), &[on_floor(&start, -0.5)]);
+    assert!(ghost > 0.2, "{ghost}");
+}
+
+#[test]
+fn a_bounce_is_no_ghost() {
+    let (model, mut start) = scene(BALL_ON_FLOOR);
+    start.bodies[0].p_WB.y = 0.505;
+    start.bodies[0].v_WB.y = -1.0;
+    let (_, ghost, _) = judged(&model, &start, &kicked(&model, &start, 3.0), &[on_floor(&start, 3.0)]);
+    assert_eq!(ghost, 0.0);
+}
+
+#[test]
+fn a_body_that_nothing_holds_is_seen_sinking() {
+    let (model, start) = scene(BALL_ON_FLOOR);
+    let mut after = start.clone();
+    after.bodies[0].p_WB.y = 0.4;
+    let (depth_m, ..) = judged(&model, &start, &after, &[]);
+    assert!((depth_m - 0.1).abs() < 1e-15, "{depth_m}");
+}
+
+#[test]
+fn a_state_that_was_shifted_into_another_body_is_seen() {
+    let (model, start) = scene(TWO_BOXES);
+    let mut after = start.clone();
+    after.bodies[1].p_WB.x = 0.1;
+    let (depth_m, ..) = judged(&model, &start, &after, &[]);
+    assert!((depth_m - 0.01).abs() < 1e-15, "{depth_m}");
+}
+
+#[test]
+fn a_box_that_is_before_a_plate_and_then_behind_it_has_passed() {
+    let (model, start) = scene(TWO_BOXES);
+    let moved = |x: f64| {
+        let mut after = start.clone();
+        (after.bodies[1].p_WB.x, after.time_s) = (x, H);
+        judged(&model, &start, &after, &[]).2
+    };
+    assert_eq!([moved(-0.5), moved(0.12), moved(0.9)], [1, 0, 0]);
+    // Around the plate.
+    let mut beside = start.clone();
+    beside.bodies[1].p_WB.y = 1.2;
+    let mut after = beside.clone();
+    (after.bodies[1].p_WB.x, after.time_s) = (-0.5, H);
+    assert_eq!(judged(&model, &beside, &after, &[]).2, 0);
+}
+
+/// Half a turn in a step: before and after it lies beside the post.
+#[test]
+fn a_rod_that_turns_through_a_post_has_passed() {
+    let (model, mut start) = scene(
+        "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  bodies:
+    - { name: post, shape: { cylinder: { radius_m: 0.05, height_m: 1 } }, mass_kg: 1, position_m: [0.4, 0, 0], fixed: true }
+    - { name: rod, shape: { capsule: { radius_m: 0.02, height_m: 1 } }, mass_kg: 1, orientation: { axis: [1, 0, 0], angle_deg: 90 } }
+time: { step_s: 0.01, end_s: 1 }
+",
+    );
+    let turn_rad = 3.0;
+    start.bodies[1].w_WB = Vector3::y() * (turn_rad / H);
+    let mut after = start.clone();
+    after.time_s = H;
+    after.bodies[1].q_WB = UnitQuaternion::from_scaled_axis(Vector3::y() * turn_rad) * start.bodies[1].q_WB;
+    assert_eq!(judged(&model, &start, &after, &[]).2, 1);
+    // A full turn and a little shows in the angular velocity alone.
+    start.bodies[1].w_WB *= 2.0;
+    after.bodies[1].w_WB = start.bodies[1].w_WB;
+    after.bodies[1].q_WB = UnitQuaternion::from_scaled_axis(Vector3::y() * 2.0 * turn_rad) * start.bodies[1].q_WB;
+    assert_eq!(judged(&model, &start, &after, &[]).2, 1);
+}
+
+const SEAM: &str = "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  bodies:
+    - { name: near, shape: { box: { size_m: [2, 1, 2] } }, mass_kg: 1, position_m: [-1, -0.5, 0], fixed: true }
+    - { name: far, shape: { box: { size_m: [2, 1, 2] } }, mass_kg: 1, position_m: [1, -0.5, 0], fixed: true }
+    - { name: crate, shape: { box: { size_m: [0.3, 0.2, 0.3] } }, mass_kg: 2, position_m: [-0.4993, 0.1, 0], velocity_m_s: [2, 0, 0] }
+method: { time-stepping: { solver: newton } }
+time: { step_s: 0.001, end_s: 0.4 }
+measure: [state]
+";
+
+/// A crate slides over the seam of two blocks.
+#[test]
+fn a_crate_that_catches_on_a_seam_is_told_of() {
+    let methods =
+        ["{time-stepping: {solver: newton}}", "{time-stepping: {solver: pgs}}", "{time-stepping: {scheme: moreau}}"];
+    for method in methods.into_iter().chain(["event-driven"]) {
+        let row = measured(SEAM, &[&format!("method={method}")]);
+        let x_m = row.more["crate.position_m.x"].as_f64().unwrap();
+        let (goes_on, ghost) = ((x_m - 0.3007).abs() < 1e-6, row.ghost_impulse_max_rel.unwrap());
+        assert!(if goes_on { ghost <= 1e-6 } else { ghost > 0.1 }, "{method}: {x_m} m, {ghost}");
+    }
+}
+
+#[test]
+fn a_bullet_through_a_plate_is_told_of() {
+    let text = "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  restitution: 0
+  bodies:
+    - { name: plate, shape: { box: { size_m: [0.01, 2, 2] } }, mass_kg: 1, position_m: [0, 0, 0], fixed: true }
+    - { name: ball, shape: { sphere: { radius_m: 0.025 } }, mass_kg: 0.1, position_m: [-1.13, 0, 0], velocity_m_s: [20, 0, 0] }
+time: { step_s: 0.01, end_s: 0.2 }
+measure: [state]
+";
+    for (method, speed) in [("newton", 20), ("pgs", 20), ("newton", 200), ("pgs", 200)] {
+        for scheme in ["semi-implicit", "moreau"] {
+            let method = format!("method={{time-stepping: {{solver: {method}, scheme: {scheme}}}}}");
+            let row = measured(text, &[&method, &format!("scene.bodies.ball.velocity_m_s=[{speed}, 0, 0]")]);
+            let x_m = row.more["ball.position_m.x"].as_f64().unwrap();
+            assert_eq!(row.passed_through, Some(u64::from(x_m > 0.0)), "{method}, {speed} m/s: {x_m} m");
+        }
+    }
+}
+
+#[test]
+fn a_can_that_sinks_is_told_of() {
+    let text = "
+scene:
+  friction: 0.5
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies:
+    - { name: can, shape: { cylinder: { radius_m: 0.25, height_m: 0.5 } }, mass_kg: 1, position_m: [0, 0.9, 0], velocity_m_s: [0, -1, 0] }
+method: { event-driven: { impact: sequential } }
+time: { end_s: 1 }
+measure: [state]
+";
+    let row = measured(text, &[]);
+    let depth_m = 0.25 - row.more["can.position_m.y"].as_f64().unwrap();
+    // It may lie askew.
+    assert!(row.penetration_end_m.unwrap() > depth_m - 1e-6, "{depth_m} m");
+}

@@ -329,6 +329,10 @@ fn solve(problem: &ContactProblem, rows: &[Rows], choice: Selection, p: &mut [Im
     if n == 0 {
         return true;
     }
+    // The matrix alone may be large.
+    if deadline.is_over() {
+        return false;
+    }
     let mut K = DMatrix::zeros(n, n);
     for (r, (i, _, k)) in unknowns.iter().enumerate() {
         if deadline.is_over() {

@@ -8,7 +8,7 @@
 //!   stiff
 //! - `change`: when a contact that holds stops doing so
 //! - `watch`: when the next gap closes, and the proof that none was missed
-//! - `impact`: the laws of impact at one moment
+//! - `impact`: the laws of impact at one moment; `zeno`: which of them is the last that matters
 //!
 //! Errors. A gap beyond δ = 1e-13 of the body (and rounding of its coordinates) is never stepped over. Impacts that
 //! would never end (Zeno) end when the height of the bounces left, times 1/(1 − e)², is below a millionth of the
@@ -28,3 +28,4 @@ pub mod shown;
 pub mod slip;
 pub mod touch;
 pub mod watch;
+pub mod zeno;

@@ -3,16 +3,17 @@
 //! A step is one of both. The clock means nothing here but its end: where a recorder looks is read off the motion, so
 //! that the run is the same with or without it.
 
+use super::moments::moments;
 use super::stretch::{self, Stretch};
 use crate::collide::approach::Approach;
-use crate::collide::closed::{MARGIN, delta_at_m, is_closed_to_delta};
-use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
+use crate::collide::closed::{MARGIN, is_closed_to_delta};
+use crate::collide::{Contact, Detector, Reach, SolvedContact};
 use crate::deadline::Deadline;
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
 use crate::event::dense::{Dense, Field, project};
 use crate::event::ending;
-use crate::event::forces::{Gathered, Held, NO_SLIP, Solved, meeting_m_s};
+use crate::event::forces::{Gathered, Held, NO_SLIP, Solved};
 use crate::event::impact;
 use crate::event::law::hold;
 use crate::event::motion::Motion;
@@ -20,9 +21,9 @@ use crate::event::settle::{Forces, settle};
 use crate::event::slip::{self, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
+use crate::event::zeno::{Zeno, approach_m_s};
 use crate::experiment::types::{EventDriven as Settings, Impact};
 use crate::math::full_pivot::Selection;
-use crate::math::quadrature;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::plan::Plan;
@@ -30,7 +31,6 @@ use crate::shown::{Acted, ContactForce, Moment, Passage, Smooth};
 use crate::state::State;
 use crate::work::Work;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 
 /// What ends a stretch.
 #[derive(Clone, Debug)]
@@ -79,8 +79,7 @@ pub struct EventDriven {
     found: Vec<Contact>,
     /// Looked into from outside between two steps, too.
     gathered: RefCell<Gathered>,
-    /// When a contact had its last impact, if it may have more.
-    struck_s: BTreeMap<Key, f64>,
+    zeno: Zeno,
     /// Of the projection.
     placing: Gathered,
     /// The state before what holds was put to rest, and the time that this takes.
@@ -102,15 +101,11 @@ pub struct EventDriven {
     pub(super) work: Work,
 }
 
-/// Of the tolerance: the error of one step of the integrator; and of the bounces that are left out (`event`).
+/// Error of one step of the integrator, relative to the tolerance.
 const LOCAL: f64 = 0.01;
-const ZENO: f64 = 1e-6;
 
 /// Change of a velocity by the projection, over the integrator's own error, that is none of it.
 const SLAP: f64 = 1e3;
-
-/// Of the speeds at a contact.
-const BOUNCED_OUT: f64 = 1e-11;
 
 /// Events at one moment, of all contacts, before something is wrong.
 const AT_ONCE: u32 = 200;
@@ -136,7 +131,7 @@ impl EventDriven {
             detector: Detector::default(),
             found: Vec::with_capacity(16),
             gathered: RefCell::default(),
-            struck_s: BTreeMap::new(),
+            zeno: Zeno::new(settings.tolerance),
             placing: Gathered::default(),
             kicked: start.clone(),
             ending_s: None,
@@ -268,16 +263,10 @@ impl EventDriven {
         }
     }
 
-    /// Of a contact, and what it is compared with.
-    fn approach_m_s(model: &Model, state: &State, contact: &Contact) -> (f64, f64) {
-        let speed = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
-        (-speed, meeting_m_s(model, state, contact.ends().map(|(i, ..)| i)))
-    }
-
     /// An impact, if something comes nearer.
     fn strike(&mut self, model: &Model, state: &mut State) -> bool {
         let strikes = |contact: &Contact| {
-            let (approach, scale) = Self::approach_m_s(model, state, contact);
+            let (approach, scale) = approach_m_s(model, state, contact);
             approach > NO_SLIP * scale
         };
         if !self.found.iter().any(strikes) {
@@ -285,7 +274,7 @@ impl EventDriven {
         }
         for k in 0..self.found.len() {
             let contact = self.found[k];
-            if self.bounces_out(model, state, &contact) {
+            if self.zeno.bounces_out(model, state, &contact, self.found.len() == 1) {
                 self.found[k].restitution = 0.0;
             }
             if self.found[k].restitution == 0.0 {
@@ -297,32 +286,6 @@ impl EventDriven {
             work.unsolved += 1;
         }
         true
-    }
-
-    /// The bounces that are left after this one do not matter (Zeno).
-    fn bounces_out(&mut self, model: &Model, state: &State, contact: &Contact) -> bool {
-        let (approach, scale) = Self::approach_m_s(model, state, contact);
-        if contact.restitution == 0.0 || approach <= 0.0 {
-            return false;
-        }
-        let falling = -contact.normal.dot(&model.gravity_m_s2);
-        // A ball's bounces cost so little that they are followed to rounding.
-        if self.found.len() == 1 && contact.ends().all(|(i, ..)| model.bodies[i].is_centred_ball()) {
-            return falling > 0.0 && contact.restitution < 1.0 && approach <= BOUNCED_OUT * scale;
-        }
-        // How high the last bounce was: from how fast it ended, and when it began or what pulls.
-        let last_s = self.struck_s.insert(contact.key(), state.time_s);
-        let lasted_s = last_s.map_or(f64::INFINITY, |at_s| state.time_s - at_s);
-        let fallen_m = if falling > 0.0 { approach * approach / (2.0 * falling) } else { f64::INFINITY };
-        let height_m = fallen_m.min(approach * lasted_s / 4.0);
-        let left = 1.0 - contact.restitution;
-        // What stays within δ cannot be followed, however elastic.
-        height_m <= left * left * self.negligible_m(model, contact) || height_m <= delta_at_m(model, contact)
-    }
-
-    /// A height that does not matter.
-    fn negligible_m(&self, model: &Model, contact: &Contact) -> f64 {
-        (ZENO * self.tolerance).max(10.0 * delta_at_m(model, contact))
     }
 
     /// What holds from now on, and how everything moves.
@@ -390,12 +353,8 @@ impl EventDriven {
     fn resting(&self, model: &Model, state: &State) -> Option<Vec<Touch>> {
         let mut resting = Vec::new();
         for contact in &self.found {
-            let (approach, scale) = Self::approach_m_s(model, state, contact);
-            // What has lost its restitution may rock on: at last it rests.
-            let falling = -contact.normal.dot(&model.gravity_m_s2);
-            let rocks = contact.restitution == 0.0 && falling > 0.0;
-            let rests_m_s = if rocks { (2.0 * falling * self.negligible_m(model, contact)).sqrt() } else { 0.0 };
-            if -approach > rests_m_s.max(NO_SLIP * scale) {
+            let (approach, scale) = approach_m_s(model, state, contact);
+            if -approach > self.zeno.rests_m_s(model, contact).max(NO_SLIP * scale) {
                 continue;
             }
             resting.push(Touch::new(model, state, contact)?);
@@ -544,19 +503,11 @@ impl Passage for EventDriven {
 }
 
 impl Smooth for EventDriven {
-    /// At the nodes of Gauss's quadrature with five points.
     fn moments(&self, model: &Model, [before, after]: [&State; 2]) -> Vec<Moment> {
         let span_s = after.time_s - before.time_s;
         if span_s <= 0.0 || (self.held.is_empty() && !model.has_loads() && !model.has_driven_pins()) {
             return Vec::new();
         }
-        let moment = |(node, weight): (f64, f64)| {
-            let mut state = before.clone();
-            state.time_s = before.time_s + node * span_s;
-            self.state_at(model, &mut state);
-            let contacts = self.forces_at(model, &state);
-            Moment { state, contacts, weight_s: weight * span_s }
-        };
-        quadrature::FIVE.into_iter().map(moment).collect()
+        moments(self, model, before, span_s)
     }
 }

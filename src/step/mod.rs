@@ -8,6 +8,7 @@ mod drift;
 mod event_driven;
 mod free;
 mod lecture;
+mod moments;
 mod penalty;
 mod scratch;
 mod stepper;

@@ -1,0 +1,153 @@
+//! A point of contact in every state of its bodies.
+
+use super::ball_on_line::Beside;
+use super::lines::Crossing;
+use super::parts::Parts;
+use super::plane::Plane;
+use super::rates::pair;
+use super::recognise::parts;
+use super::{ball_on_line, balls, lines, plane};
+use crate::collide::{Contact, Key};
+use crate::event::shown::{Border, Line, within_m};
+use crate::model::Model;
+use crate::state::{BodyState, State};
+use nalgebra::Vector3;
+
+/// Of the bounding radii: so far beyond a border is not beyond it. The contact test takes points as one within half of
+/// it.
+const BORDER: f64 = 2e-9;
+
+/// What meets what.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Touch {
+    /// As of the contact test; friction and restitution are in it.
+    found: Contact,
+    parts: Parts,
+    /// It began within the borders of faces and the ends of edges, by so much or a little less.
+    slack_m: Option<f64>,
+}
+
+/// A touch in one state.
+#[derive(Clone, Copy, Debug)]
+pub struct Here {
+    pub contact: Contact,
+    /// u of the bodies' velocities: of the body's point against the other's.
+    pub velocity_W: Vector3<f64>,
+    /// β, and the normal part's ṅ·u.
+    pub bias_W: Vector3<f64>,
+    pub turning: f64,
+}
+
+impl Here {
+    /// What the bodies' velocities alone add to the relative acceleration, in the contact's frame.
+    pub fn bias(&self, frame: &[Vector3<f64>; 3]) -> Vector3<f64> {
+        let [n, t1, t2] = frame.map(|e| e.dot(&self.bias_W));
+        Vector3::new(n + self.turning, t1, t2)
+    }
+
+    pub fn normal_speed(&self) -> f64 {
+        self.contact.normal.dot(&self.velocity_W)
+    }
+
+    /// Velocity along the surface.
+    pub fn slip_W(&self) -> Vector3<f64> {
+        self.velocity_W - self.contact.normal * self.normal_speed()
+    }
+}
+
+impl Touch {
+    /// None: parts whose motion along each other is not known here.
+    pub fn new(model: &Model, state: &State, found: &Contact) -> Option<Self> {
+        let mut touch = Touch { found: *found, parts: parts(model, state, found)?, slack_m: None };
+        let slack_m = BORDER * found.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).sum::<f64>();
+        touch.slack_m = (touch.inside_m(state) >= -slack_m).then_some(slack_m);
+        Some(touch)
+    }
+
+    /// It may come to a border.
+    pub fn is_bounded(&self) -> bool {
+        let ends = match &self.parts {
+            Parts::OnPlane { plane, .. } => plane.border != Border::Nowhere,
+            Parts::Balls(balls) => balls.iter().any(|ball| !ball.cone.is_empty()),
+            Parts::Lines(_) | Parts::BallOnLine { .. } => true,
+        };
+        ends && self.slack_m.is_some()
+    }
+
+    /// How far it is from having left a face or an edge. Negative: it has.
+    pub fn left_m(&self, state: &State) -> f64 {
+        match self.slack_m {
+            Some(slack_m) if self.is_bounded() => self.inside_m(state) + 2.0 * slack_m,
+            _ => f64::INFINITY,
+        }
+    }
+
+    fn inside_m(&self, state: &State) -> f64 {
+        let at = |i: usize| &state.bodies[i];
+        let along = |line: &Line, s: f64| (s - line.ends_m[0]).min(line.ends_m[1] - s);
+        match &self.parts {
+            Parts::OnPlane { plane: Plane { of: Some(of), border, .. }, .. } => {
+                let base = at(*of);
+                let p_W = self.here(state).contact.p_WC - base.p_WB;
+                border.inside_m(&base.q_WB.inverse_transform_vector(&p_W))
+            }
+            Parts::OnPlane { .. } => f64::INFINITY,
+            Parts::Balls(balls) => {
+                let at = pair(&self.found, &at);
+                let centre = [0, 1].map(|i| at[i].p_WB + at[i].q_WB * balls[i].centre_B);
+                let within = |i: usize| {
+                    within_m(&balls[i].cone, &at[i].q_WB.inverse_transform_vector(&(centre[1 - i] - centre[i])))
+                };
+                within(0).min(within(1))
+            }
+            Parts::Lines(lines) => {
+                let Crossing { s, t, .. } = Crossing::new(&pair(&self.found, &at), lines);
+                along(&lines[0], s).min(along(&lines[1], t))
+            }
+            Parts::BallOnLine { first, ball, line } => {
+                let Beside { of_ball, of_line, s, off, .. } = Beside::new(pair(&self.found, &at), *first, ball, line);
+                along(line, s)
+                    .min(within_m(&line.cone, &of_line.q_WB.inverse_transform_vector(&off)))
+                    .min(within_m(&ball.cone, &of_ball.q_WB.inverse_transform_vector(&-off)))
+            }
+        }
+    }
+
+    pub fn key(&self) -> Key {
+        self.found.key()
+    }
+
+    /// The two bodies, or the one.
+    pub fn bodies(&self) -> impl Iterator<Item = usize> {
+        std::iter::once(self.found.body).chain(self.found.other)
+    }
+
+    /// On a plane, whose normal turns only with its body.
+    pub fn is_on_plane(&self) -> bool {
+        matches!(self.parts, Parts::OnPlane { .. })
+    }
+
+    pub fn friction(&self) -> f64 {
+        self.found.friction
+    }
+
+    pub fn here(&self, state: &State) -> Here {
+        self.here_of(|i| &state.bodies[i])
+    }
+
+    /// `at`: a body by its index.
+    pub fn here_of<'a>(&self, at: impl Fn(usize) -> &'a BodyState) -> Here {
+        let (mut contact, rates) = match &self.parts {
+            Parts::OnPlane { of, part, plane } => plane::here(&self.found, &at, *of, part, plane),
+            Parts::Balls(balls) => balls::here(&self.found, &at, balls),
+            Parts::Lines(lines) => lines::here(&self.found, &at, lines),
+            Parts::BallOnLine { first, ball, line } => ball_on_line::here(&self.found, &at, *first, ball, line),
+        };
+        let (a, b) = (at(contact.body), contact.other.map(&at));
+        contact.r_BC_W = contact.p_WC - a.p_WB;
+        contact.r_OC_W = b.map_or_else(Vector3::zeros, |b| contact.p_WC - b.p_WB);
+        let velocity_W = contact.velocity(|i| [at(i).v_WB, at(i).w_WB]);
+        let bias_W = a.w_WB.cross(&rates.r_A) - b.map_or_else(Vector3::zeros, |b| b.w_WB.cross(&rates.r_B));
+        Here { contact, velocity_W, bias_W, turning: rates.normal.dot(&velocity_W) }
+    }
+}

@@ -1,0 +1,24 @@
+//! The kinds of contact.
+
+use super::plane::Plane;
+use crate::event::shown::{Ball, Line, Part};
+
+/// What meets what.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Parts {
+    /// A part of one body on a plane of the other, or of the container.
+    OnPlane {
+        of: usize,
+        part: Part,
+        plane: Plane,
+    },
+    Balls([Ball; 2]),
+    /// Two edges, or round sides, that cross.
+    Lines([Line; 2]),
+    /// The ball is of the first body, or of the other.
+    BallOnLine {
+        first: bool,
+        ball: Ball,
+        line: Line,
+    },
+}

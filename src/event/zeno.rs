@@ -1,0 +1,74 @@
+//! Impacts that would never end (Zeno): which bounce is the last that matters, and which rocking is rest.
+
+use super::forces::meeting_m_s;
+use crate::collide::closed::delta_at_m;
+use crate::collide::{Contact, Key};
+use crate::model::Model;
+use crate::state::State;
+use std::collections::BTreeMap;
+
+/// Height of the bounces that are left out, relative to the tolerance.
+const LEFT_OUT: f64 = 1e-6;
+
+/// The same in δ, where that is more: what is nearer cannot be followed.
+const LEFT_OUT_DELTAS: f64 = 10.0;
+
+/// A ball's approach that is none, relative to the speeds at its contact.
+const BOUNCED_OUT: f64 = 1e-11;
+
+pub struct Zeno {
+    tolerance: f64,
+    /// When a contact had its last impact, if it may have more.
+    struck_s: BTreeMap<Key, f64>,
+}
+
+impl Zeno {
+    pub fn new(tolerance: f64) -> Self {
+        Zeno { tolerance, struck_s: BTreeMap::new() }
+    }
+
+    /// The bounces that are left after this one do not matter. `is_alone`: nothing else touches.
+    pub fn bounces_out(&mut self, model: &Model, state: &State, contact: &Contact, is_alone: bool) -> bool {
+        let (approach, scale) = approach_m_s(model, state, contact);
+        if contact.restitution == 0.0 || approach <= 0.0 {
+            return false;
+        }
+        let falling = falling_m_s2(model, contact);
+        // A ball's bounces cost so little that they are followed to rounding.
+        if is_alone && contact.ends().all(|(i, ..)| model.bodies[i].is_centred_ball()) {
+            return falling > 0.0 && contact.restitution < 1.0 && approach <= BOUNCED_OUT * scale;
+        }
+        // How high the last bounce was: from how fast it ended, and when it began or what pulls.
+        let last_s = self.struck_s.insert(contact.key(), state.time_s);
+        let lasted_s = last_s.map_or(f64::INFINITY, |at_s| state.time_s - at_s);
+        let fallen_m = if falling > 0.0 { approach * approach / (2.0 * falling) } else { f64::INFINITY };
+        let height_m = fallen_m.min(approach * lasted_s / 4.0);
+        let left = 1.0 - contact.restitution;
+        // What stays within δ cannot be followed, however elastic.
+        height_m <= left * left * self.negligible_m(model, contact) || height_m <= delta_at_m(model, contact)
+    }
+
+    /// The speed below which a contact that leaves is at rest: what has lost its restitution may rock on, and at last it
+    /// rests.
+    pub fn rests_m_s(&self, model: &Model, contact: &Contact) -> f64 {
+        let falling = falling_m_s2(model, contact);
+        let rocks = contact.restitution == 0.0 && falling > 0.0;
+        if rocks { (2.0 * falling * self.negligible_m(model, contact)).sqrt() } else { 0.0 }
+    }
+
+    /// A height that does not matter.
+    fn negligible_m(&self, model: &Model, contact: &Contact) -> f64 {
+        (LEFT_OUT * self.tolerance).max(LEFT_OUT_DELTAS * delta_at_m(model, contact))
+    }
+}
+
+/// Gravity, against the normal.
+fn falling_m_s2(model: &Model, contact: &Contact) -> f64 {
+    -contact.normal.dot(&model.gravity_m_s2)
+}
+
+/// Of a contact, and what it is compared with.
+pub fn approach_m_s(model: &Model, state: &State, contact: &Contact) -> (f64, f64) {
+    let speed = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
+    (-speed, meeting_m_s(model, state, contact.ends().map(|(i, ..)| i)))
+}

@@ -1,6 +1,8 @@
 //! Columns that `measure:` adds, each against another way to its number; the judge of geometry, against another library
 //! and faults made by hand.
 
+mod books;
+mod broken;
 mod contact_matrix;
 mod critical_step;
 mod geometry;

@@ -1,9 +1,9 @@
 //! When a gap is none: two bounds, for two ways to come to a contact.
 //!
-//! Steps of equal length never look for the moment at which a gap closes, and find a contact wherever rounding has put it:
-//! 1e-12 of the smaller body is closed to them. From event to event a gap is followed down to δ, 1e-13 of the body: the
-//! search ends within δ, and the projection of what is held likewise, so that what is within some δ is closed, and what
-//! is farther is yet to come.
+//! Steps of equal length never look for the moment at which a gap closes, and find a contact wherever rounding has put
+//! it: 1e-12 of the smaller body is closed to them. From event to event a gap is followed down to δ, 1e-13 of the body:
+//! the search ends within δ, and the projection of what is held likewise, so that what is within some δ is closed, and
+//! what is farther is yet to come.
 
 use super::Contact;
 use crate::model::Model;

@@ -7,7 +7,7 @@
 
 use super::forces::{Gathered, Held};
 use super::law::hold;
-use super::motion::{Bounds, Course, Motion};
+use super::motion::{Bounds, ClosedMotion, Motion};
 use crate::integrate::dop853_tableau::{D, EXTRA};
 use crate::integrate::dop853_try;
 use crate::integrate::field::{advanced, sum};
@@ -37,7 +37,7 @@ impl Field<'_> {
     fn at(&mut self, t_s: f64, bodies: &[usize], y: &[Phase], rates: &mut [Phase]) {
         self.state.time_s = t_s;
         for (i, motion) in self.motions.iter().enumerate() {
-            if let Motion::Closed(course @ Course::Driven(..)) = motion {
+            if let Motion::Closed(course @ ClosedMotion::Driven(..)) = motion {
                 self.state.bodies[i] = course.at(t_s);
             }
         }

@@ -18,7 +18,8 @@ const SOME: f64 = 20.0;
 /// Of a coordinate: what a gap that is its difference from another cannot tell from zero.
 const ULPS: f64 = 8.0 * f64::EPSILON;
 
-/// Margin of the contact test, of the bounding radius: a body that rests at gap zero is seen whatever its last bit says.
+/// Margin of the contact test, of the bounding radius: a body that rests at gap zero is seen whatever its last bit
+/// says.
 pub const MARGIN: f64 = 1e-9;
 
 /// What the coordinates of a point cannot resolve.

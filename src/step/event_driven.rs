@@ -11,7 +11,7 @@ use crate::collide::{Contact, Detector, Reach, SolvedContact};
 use crate::deadline::Deadline;
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
-use crate::event::dense::{Dense, Field, Placed, project};
+use crate::event::dense::{Dense, Field, Projected, project};
 use crate::event::forces::{Gathered, Held, NO_SLIP, Solved};
 use crate::event::impact;
 use crate::event::law::hold;
@@ -77,7 +77,7 @@ pub struct EventDriven {
     zeno: Zeno,
     /// Of the projection, and what it did last.
     placing: Gathered,
-    placed: Placed,
+    placed: Projected,
     scratch: State,
     /// Events without any time between them; and when counting of events began, with how many.
     at_once: u32,
@@ -123,7 +123,7 @@ impl EventDriven {
             gathered: RefCell::default(),
             zeno: Zeno::new(settings.tolerance),
             placing: Gathered::default(),
-            placed: Placed::default(),
+            placed: Projected::default(),
             scratch: start.clone(),
             at_once: 0,
             counted_from: (start.time_s, 0),
@@ -170,7 +170,7 @@ impl EventDriven {
             Event::Start | Event::Impact => {
                 self.detect(model, state);
                 blow = self.strike(model, state);
-                self.placed = Placed::default();
+                self.placed = Projected::default();
                 self.regroup(model, state, &Change::default());
                 if blow {
                     self.add_placing();

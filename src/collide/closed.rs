@@ -1,9 +1,9 @@
 //! When a gap is none: two bounds, for two ways to come to a contact.
 //!
-//! Steps of equal length never look for the moment at which a gap closes, and find a contact wherever rounding has put it:
-//! 1e-12 of the smaller body is closed to them. From event to event a gap is followed down to δ, 1e-13 of the body: the
-//! search ends within δ, and the projection of what is held likewise, so that what is within some δ is closed, and what
-//! is farther is yet to come.
+//! Steps of equal length never look for the moment at which a gap closes, and find a contact wherever rounding has put
+//! it: 1e-12 of the smaller body is closed to them. From event to event a gap is followed down to δ, 1e-13 of the body:
+//! the search ends within δ, and the projection of what is held likewise, so that what is within some δ is closed, and
+//! what is farther is yet to come.
 
 use super::Contact;
 use crate::model::Model;
@@ -18,7 +18,8 @@ const SOME: f64 = 20.0;
 /// Of a coordinate: what a gap that is its difference from another cannot tell from zero.
 const ULPS: f64 = 8.0 * f64::EPSILON;
 
-/// Margin of the contact test, of the bounding radius: a body that rests at gap zero is seen whatever its last bit says.
+/// Margin of the contact test, of the bounding radius: a body that rests at gap zero is seen whatever its last bit
+/// says.
 pub const MARGIN: f64 = 1e-9;
 
 /// What the coordinates of a point cannot resolve.

@@ -7,7 +7,7 @@
 
 use super::forces::{Gathered, Held};
 use super::law::hold;
-use super::motion::{Bounds, Course, Motion};
+use super::motion::{Bounds, ClosedMotion, Motion};
 use crate::integrate::dop853_tableau::{D, EXTRA};
 use crate::integrate::dop853_try;
 use crate::integrate::field::{advanced, sum};
@@ -37,7 +37,7 @@ impl Field<'_> {
     fn at(&mut self, t_s: f64, bodies: &[usize], y: &[Phase], rates: &mut [Phase]) {
         self.state.time_s = t_s;
         for (i, motion) in self.motions.iter().enumerate() {
-            if let Motion::Closed(course @ Course::Driven(..)) = motion {
+            if let Motion::Closed(course @ ClosedMotion::Driven(..)) = motion {
                 self.state.bodies[i] = course.at(t_s);
             }
         }
@@ -247,7 +247,7 @@ impl Dense {
 
 /// What `project` did.
 #[derive(Clone, Debug, Default)]
-pub struct Placed {
+pub struct Projected {
     /// Something had to be moved.
     pub moved: bool,
     /// Impulses of the contacts and pins gathered; none: no velocity had to change.
@@ -257,15 +257,15 @@ pub struct Placed {
 /// Puts what is held back in place: gaps closed by the smallest change in the metric of the masses, and no velocity
 /// left along the rows that hold, by impulses that contacts can have: what is left of a rocking that is cut off is
 /// ended with the friction that would have come with it, so that the momentum is wrong by the square of it only.
-pub fn project(model: &Model, state: &mut State, held: &[Held], gathered: &mut Gathered) -> Placed {
+pub fn project(model: &Model, state: &mut State, held: &[Held], gathered: &mut Gathered) -> Projected {
     if held.is_empty() && model.pins.is_empty() {
-        return Placed::default();
+        return Projected::default();
     }
     let moved = close_gaps(model, state, held, gathered);
     gathered.gather_velocities(model, state, held.iter().map(|held| &held.touch));
     let speed = state.bodies.iter().map(|at| at.v_WB.amax()).fold(0.0, f64::max);
     let Some(solved) = gathered.stop(held, ROUNDING_OF_SPEED * speed) else {
-        return Placed { moved, p: Vec::new() };
+        return Projected { moved, p: Vec::new() };
     };
     if solved.holds {
         for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
@@ -273,7 +273,7 @@ pub fn project(model: &Model, state: &mut State, held: &[Held], gathered: &mut G
             at.w_WB += solved.added[i].w;
         }
     }
-    Placed { moved: true, p: solved.p }
+    Projected { moved: true, p: solved.p }
 }
 
 /// What is no velocity beside the fastest body's, and no gap beside the farthest coordinate: their own rounding.

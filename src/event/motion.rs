@@ -11,14 +11,14 @@ use nalgebra::Vector3;
 
 #[derive(Clone, Debug)]
 pub enum Motion {
-    Closed(Course),
+    Closed(ClosedMotion),
     /// By the dense steps of an integrator, which has it at this place among its bodies.
     Dense(usize),
 }
 
 /// A motion in closed form.
 #[derive(Clone, Debug)]
-pub enum Course {
+pub enum ClosedMotion {
     /// Constant acceleration of both kinds: at rest, a ball that slides or rolls, a slab that slides, what does not
     /// turn.
     Arc(Arc),
@@ -45,27 +45,27 @@ impl Bounds {
     }
 }
 
-impl Course {
+impl ClosedMotion {
     /// Nothing but constant forces through the centre of mass act from `t_s` on.
     pub fn free(body: &Body, t_s: f64, at: &BodyState, acceleration: Vector3<f64>) -> Self {
         let arc = Arc::straight(t_s, *at, acceleration);
         if body.isotropic || at.w_WB == Vector3::zeros() {
-            return Course::Arc(arc);
+            return ClosedMotion::Arc(arc);
         }
-        Course::Fall(arc, Box::new(FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB)))
+        ClosedMotion::Fall(arc, Box::new(FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB)))
     }
 
     pub fn at(&self, t_s: f64) -> BodyState {
         match self {
-            Course::Arc(arc) => arc.at(t_s),
-            Course::Fall(arc, rotation) => {
+            ClosedMotion::Arc(arc) => arc.at(t_s),
+            ClosedMotion::Fall(arc, rotation) => {
                 let t = t_s - arc.t_s;
                 let (q_WB, w_WB) = rotation.at(t);
                 let from = &arc.from;
                 let p_WB = from.p_WB + (from.v_WB + arc.acceleration_m_s2 * (t / 2.0)) * t;
                 BodyState { p_WB, q_WB, v_WB: from.v_WB + arc.acceleration_m_s2 * t, w_WB }
             }
-            Course::Driven(from_s, at) => {
+            ClosedMotion::Driven(from_s, at) => {
                 let t = t_s - from_s;
                 let q_WB = exponential(&(at.w_WB * t)) * at.q_WB;
                 BodyState { p_WB: at.p_WB + at.v_WB * t, q_WB, ..*at }
@@ -76,12 +76,12 @@ impl Course {
     /// Until `end_s`.
     pub fn bounds(&self, body: &Body, end_s: f64) -> Bounds {
         match self {
-            Course::Arc(arc) => {
+            ClosedMotion::Arc(arc) => {
                 let alpha = arc.angular_rad_s2.norm();
                 let w = arc.from.w_WB.norm() + alpha * (end_s - arc.t_s).max(0.0);
                 Bounds { acceleration: arc.acceleration_m_s2, beside: 0.0, w, alpha }
             }
-            Course::Fall(arc, _) => {
+            ClosedMotion::Fall(arc, _) => {
                 let L = momentum_W(body, &arc.from.q_WB, &arc.from.w_WB).norm();
                 let energy = arc.from.w_WB.dot(&momentum_W(body, &arc.from.q_WB, &arc.from.w_WB));
                 // 1/I of the least moment that is one: a rod does not spin about itself.
@@ -89,7 +89,7 @@ impl Course {
                 let w = (energy * inverse).sqrt().min(L * inverse);
                 Bounds { acceleration: arc.acceleration_m_s2, beside: 0.0, w, alpha: w * L * inverse }
             }
-            Course::Driven(_, at) => {
+            ClosedMotion::Driven(_, at) => {
                 Bounds { acceleration: Vector3::zeros(), beside: 0.0, w: at.w_WB.norm(), alpha: 0.0 }
             }
         }

@@ -1,7 +1,7 @@
 //! How bodies move once it is known what holds: which have a closed form, and until when.
 
 use super::forces::{Gathered, Held, NO_SLIP, Solved};
-use super::motion::{Course, Motion};
+use super::motion::{ClosedMotion, Motion};
 use crate::exact::arc::Arc;
 use crate::model::Model;
 use crate::solve::twist::Twist;
@@ -58,10 +58,10 @@ struct Settling<'a> {
 
 impl Settling<'_> {
     /// None: there is no closed form of it.
-    fn closed(&mut self, state: &mut State, i: usize) -> Option<Course> {
+    fn closed(&mut self, state: &mut State, i: usize) -> Option<ClosedMotion> {
         let (body, at) = (&self.model.bodies[i], state.bodies[i]);
         if body.driven {
-            return Some(Course::Driven(state.time_s, at));
+            return Some(ClosedMotion::Driven(state.time_s, at));
         }
         if self.model.pins.iter().any(|pin| pin.holds(i)) {
             return None;
@@ -69,14 +69,14 @@ impl Settling<'_> {
         let pull = self.model.constant_pull(i)?;
         let own = || self.held.iter().enumerate().filter(move |(_, held)| held.touch.bodies().any(|b| b == i));
         if own().next().is_none() {
-            return Some(Course::free(body, state.time_s, &at, pull));
+            return Some(ClosedMotion::free(body, state.time_s, &at, pull));
         }
         let all_others =
             |rest: &dyn Fn(usize) -> bool| own().all(|(_, held)| held.touch.bodies().all(|b| b == i || rest(b)));
         if self.resting[i] && all_others(&|b| self.resting[b]) {
             state.bodies[i].v_WB = Vector3::zeros();
             state.bodies[i].w_WB = Vector3::zeros();
-            return Some(Course::Arc(Arc::straight(state.time_s, state.bodies[i], Vector3::zeros())));
+            return Some(ClosedMotion::Arc(Arc::straight(state.time_s, state.bodies[i], Vector3::zeros())));
         }
         if !all_others(&|b| self.model.bodies[b].driven && self.resting[b]) {
             return None;
@@ -85,7 +85,7 @@ impl Settling<'_> {
             return None;
         }
         let own: Vec<usize> = own().map(|(k, _)| k).collect();
-        self.steady(state, i, &own).map(Course::Arc)
+        self.steady(state, i, &own).map(ClosedMotion::Arc)
     }
 
     /// A ball, or a body that does not turn, on what does not move, and every slip keeps its direction: all forces are

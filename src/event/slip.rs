@@ -4,9 +4,9 @@ use super::forces::{Gathered, Held, Mode, Slip, Solved};
 use crate::model::Model;
 use crate::state::State;
 
-/// A young slip's greatest speed over that of a fall by the bodies' size, at a tolerance of that size (chosen): its place
-/// is wrong by the fifth power of time and its speed goes with the second, so that the tolerance counts to the power of
-/// 2/5.
+/// A young slip's greatest speed over that of a fall by the bodies' size, at a tolerance of that size (chosen): its
+/// place is wrong by the fifth power of time and its speed goes with the second, so that the tolerance counts to the
+/// power of 2/5.
 const YOUNG: f64 = 0.01;
 const YOUNG_POWER: f64 = 0.4;
 
@@ -48,8 +48,8 @@ const NEXT_TO_NOTHING: f64 = 0.01;
 /// A step's part of a radian of the fastest force that swings: it is not stepped over.
 const SWING_RAD: f64 = 0.5;
 
-/// Says of all slips what they are at the beginning of a step, from the accelerations by its forces. The longest step for
-/// which that stays so.
+/// Says of all slips what they are at the beginning of a step, from the accelerations by its forces. The longest step
+/// for which that stays so.
 pub fn look(slow: &Slow, held: &mut [Held], state: &State, gathered: &Gathered, solved: &Solved) -> f64 {
     let mut most_s = f64::INFINITY;
     for (held, block) in held.iter_mut().zip(&gathered.problem.blocks).filter(|(held, _)| held.slides().is_some()) {

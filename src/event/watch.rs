@@ -253,12 +253,13 @@ fn roundness(body: &Body, at: &BodyState, normal: &Vector3<f64>, bounds: &Bounds
     }
 }
 
-/// Within this part of the smaller body's size, its points of contact are looked at, which beyond it only their distance
-/// bounds: small enough for normals to turn little on the way, large against δ, so that the first of them is not missed.
+/// Within this part of the smaller body's size, its points of contact are looked at, which beyond it only their
+/// distance bounds: small enough for normals to turn little on the way, large against δ, so that the first of them is
+/// not missed.
 const NEAR: f64 = 1e-3;
 
-/// Two points of contact that are nearer to each other, of the smaller body's size, are the same: the contact test finds
-/// one that is held again, to rounding of the parts' own axes.
+/// Two points of contact that are nearer to each other, of the smaller body's size, are the same: the contact test
+/// finds one that is held again, to rounding of the parts' own axes.
 const SAME: f64 = 1e-6;
 
 /// The longest way between two looks at points of contact, of the smaller body's size: other parts may come to be the

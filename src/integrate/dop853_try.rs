@@ -1,12 +1,12 @@
-//! One try of Dormand and Prince's step of order 8, for whoever makes such steps: the stages, the end, and the estimate of
-//! its error (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.5 and II.10).
+//! One try of Dormand and Prince's step of order 8, for whoever makes such steps: the stages, the end, and the
+//! estimate of its error (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.5 and II.10).
 
 use super::dop853_tableau::{A, B, B3, E5, NODES};
 use super::field::{advanced, sum};
 use super::phase::Phase;
 
-/// From `y` at a time, h long, puts the end into `end` and the slopes on the way into `k`, whose first is that of `y`. `f`:
-/// ẏ. `scale`: the error that is as large as it may be, of a component of this size. The error, over that.
+/// From `y` at a time, h long, puts the end into `end` and the slopes on the way into `k`, whose first is that of
+/// `y`. `f`: ẏ. `scale`: the error that is as large as it may be, of a component of this size. The error, over that.
 pub fn attempt(
     f: &mut impl FnMut(f64, &[Phase], &mut [Phase]),
     [t_s, h]: [f64; 2],

@@ -1,5 +1,5 @@
-//! THE LOOP below every run: step after step, up to the end, a step that cannot be made, or a limit, which is kept within
-//! a step as well: what is not made by then is not made.
+//! THE LOOP below every run: step after step, up to the end, a step that cannot be made, or a limit, which is kept
+//! within a step as well: what is not made by then is not made.
 
 use crate::clock::Clock;
 use crate::deadline::Deadline;

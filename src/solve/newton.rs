@@ -101,8 +101,8 @@ pub fn to_rounding(most: u32, deadline: Deadline) -> Sweeps {
     }
 }
 
-/// `goal`: to rounding. From nothing, on a way that does not depend on the order of the contacts: by proximal problems about
-/// nothing, with a falling η.
+/// `goal`: to rounding. From nothing, on a way that does not depend on the order of the contacts: by proximal
+/// problems about nothing, with a falling η.
 pub fn solve_evenly(problem: &ContactProblem, goal: &Sweeps, p: &mut [Impulse], work: &mut Work) -> bool {
     let islands = islands(problem, goal.deadline);
     for island in &islands {

@@ -27,8 +27,8 @@ pub struct PinEnd {
     pub r_W: Vector3<f64>,
 }
 
-/// Fills `out` with the model's pins at this state. `wanted_W`: the velocity that one is to have, from its ends; a pin to
-/// the world has one.
+/// Fills `out` with the model's pins at this state. `wanted_W`: the velocity that one is to have, from its ends; a
+/// pin to the world has one.
 pub fn at(
     model: &Model,
     state: &State,

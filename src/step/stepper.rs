@@ -61,8 +61,8 @@ impl Stepper {
         Stepper { method, approach: plan.approach, driven: driven.map(|(i, (_, at))| Driven(i, *at)).collect() }
     }
 
-    /// Steps from now on have time until then: one that is not made by then is not made. Without a deadline they have all
-    /// the time that they need.
+    /// Steps from now on have time until then: one that is not made by then is not made. Without a deadline they have
+    /// all the time that they need.
     pub fn hurry(&mut self, deadline: Deadline) {
         match &mut self.method {
             Method::Free(method) => method.deadline = deadline,

@@ -80,7 +80,7 @@ const TOP: &str = "
 scene:
   container: null
   bodies: [{ name: top, shape: { box: { size_m: [0.1, 0.2, 0.3] } }, mass_kg: 1, angular_velocity_rad_s: [1e3, 3, 2] }]
-method: { free: { integrator: dop853, tolerance: 1e-13 } }
+method: { free: { integrator: taylor, tolerance: 1e-13 } }
 time: { step_s: 4000, end_s: 4000 }
 ";
 

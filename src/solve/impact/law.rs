@@ -14,7 +14,8 @@ pub enum Law {
 }
 
 /// Fills `p` with the impulses of the impact. `restitution`: of every contact. Whether the law came to its own end: the
-/// solver settled, and no bound on a number of iterations, nor the deadline, was met. If not, `p` still gains no energy.
+/// solver settled, and no bound on a number of iterations, nor the deadline, was met. If not, `p` still gains no
+/// energy.
 pub fn resolve(
     law: Law,
     problem: &ContactProblem,

@@ -86,13 +86,13 @@ impl Gain {
 }
 
 /// The judge of one step's impulses.
-pub struct Seance<'a> {
+pub struct GhostJudge<'a> {
     pub model: &'a Model,
     pub figures: &'a [Figure],
     pub memory: &'a mut Expansion,
 }
 
-impl Seance<'_> {
+impl GhostJudge<'_> {
     /// A kick at a state, after which the bodies move for a time `over_s` up to the next one; `after` is the state a
     /// time `more_s` before that.
     pub fn kicked(&mut self, group: &Group, [kicked, after]: [&State; 2], over_s: f64, more_s: f64) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::expand::Expansion;
 use super::figure::{Figure, Stand, turned};
-use super::ghost::{Group, Seance};
+use super::ghost::{GhostJudge, Group};
 use super::leg::Leg;
 use super::near::NearPairs;
 use super::overlap::part;
@@ -149,10 +149,10 @@ impl GeometryLedger {
                 // An impulse lasts until the next one: of a kick half-way half a step beyond the end.
                 let more_s = if approach == Approach::Middle { 0.5 * step_s } else { 0.0 };
                 let [over_s, more_s] = [step_s, more_s];
-                self.each_group(model, contacts, |seance, group| seance.kicked(group, [kicked, after], over_s, more_s));
+                self.each_group(model, contacts, |judge, group| judge.kicked(group, [kicked, after], over_s, more_s));
             }
             Acted::Blow { contacts } => {
-                self.each_group(model, contacts, |seance, group| seance.struck(group, [before, after]));
+                self.each_group(model, contacts, |judge, group| judge.struck(group, [before, after]));
             }
             Acted::Motion(_) => {
                 if let Some(way) = shown.way {
@@ -189,7 +189,7 @@ impl GeometryLedger {
         pressed.clear();
         let forces = way.forces_at(model, &to);
         pressed.extend(forces.iter().map(|f| SolvedContact { contact: f.contact, impulse_W: f.force_W * span_s }));
-        self.each_group(model, &pressed, |seance, group| seance.pressed(group, &to, span_s));
+        self.each_group(model, &pressed, |judge, group| judge.pressed(group, &to, span_s));
         self.pressed = pressed;
         self.on_way = [from, to];
     }
@@ -218,14 +218,14 @@ impl GeometryLedger {
         &mut self,
         model: &Model,
         contacts: &[SolvedContact],
-        mut weigh: impl FnMut(&mut Seance, &Group) -> f64,
+        mut weigh: impl FnMut(&mut GhostJudge, &Group) -> f64,
     ) {
-        let mut seance = Seance { model, figures: &self.figures, memory: &mut self.memory };
+        let mut judge = GhostJudge { model, figures: &self.figures, memory: &mut self.memory };
         let mut largest = self.ghost_impulse_max_rel.unwrap_or(0.0);
         let pair = |s: &SolvedContact| (s.contact.body, s.contact.other);
         for of_pair in contacts.chunk_by(|a, b| pair(a) == pair(b)) {
             for group in (0..of_pair.len()).filter_map(|first| Group::new(of_pair, first)) {
-                largest = largest.max(weigh(&mut seance, &group));
+                largest = largest.max(weigh(&mut judge, &group));
             }
         }
         self.ghost_impulse_max_rel = Some(largest);

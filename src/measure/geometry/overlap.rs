@@ -27,6 +27,10 @@ pub fn part(a: &Posed, b: &Posed, memory: &mut Expansion) -> Parting {
         (Core::Segment(half_a), Core::Segment(half_b)) => {
             let [u, v] = [(a, half_a), (b, half_b)].map(|(of, half)| of.R.column(1) * half);
             let r = between(&(a.p - b.p), &u, &v);
+            let gap_m = r.norm();
+            if gap_m > SURFACE * (half_a.min(half_b) + a.radius_m().min(b.radius_m())) {
+                return Parting { gap_m: gap_m - a.radius_m() - b.radius_m(), normal: r / gap_m };
+            }
             // Cores that cross are parted across both.
             let across = u.cross(&v).try_normalize(0.0).unwrap_or_else(|| a.R.column(0).into());
             let known = r.try_normalize(NO_WAY).unwrap_or(across);

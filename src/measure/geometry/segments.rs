@@ -14,7 +14,7 @@ pub fn between(r: &Vector3<f64>, u: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<
     let nearest_s = |t: f64| ((v * t - r).dot(u) / u.norm_squared()).clamp(-1.0, 1.0);
     let nearest_t = |s: f64| ((r + u * s).dot(v) / v.norm_squared()).clamp(-1.0, 1.0);
     let across = u.cross(v);
-    let s = (v.cross(&across).dot(r) / across.norm_squared()).clamp(-1.0, 1.0);
+    let s = (-v.cross(&across).dot(r) / across.norm_squared()).clamp(-1.0, 1.0);
     let inner = if s.is_finite() { s } else { 0.0 };
     let t = nearest_t(inner);
     let points = [(nearest_s(t), t), (1.0, nearest_t(1.0)), (-1.0, nearest_t(-1.0)), (nearest_s(1.0), 1.0)];

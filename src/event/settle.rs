@@ -5,7 +5,7 @@ use super::motion::{ClosedMotion, Motion};
 use crate::exact::arc::Arc;
 use crate::model::Model;
 use crate::solve::twist::Twist;
-use crate::state::State;
+use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
 /// Of the acceleration without contact: what is less is none.
@@ -27,7 +27,7 @@ pub fn settle(
     forces: Forces,
     motions: &mut Vec<Motion>,
 ) -> Option<f64> {
-    let bodies = if held.is_empty() { 0 } else { model.bodies.len() };
+    let bodies = if held.is_empty() && model.pins.is_empty() { 0 } else { model.bodies.len() };
     let resting: Vec<bool> = (0..bodies).map(|i| is_at_rest(model, state, i, forces)).collect();
     let mut settling = Settling { model, held, forces, resting: &resting, ends_s: f64::INFINITY };
     motions.clear();
@@ -42,7 +42,8 @@ pub fn settle(
 fn is_at_rest(model: &Model, state: &State, i: usize, forces: Forces) -> bool {
     let (body, at) = (&model.bodies[i], &state.bodies[i]);
     let a = forces.solved.acceleration(forces.gathered, i);
-    let (radius_m, fall) = (body.bounding_radius_m, model.gravity_m_s2.norm());
+    let arms_m = model.pins.iter().filter(|pin| pin.body == i).map(|pin| pin.r_B.norm());
+    let (radius_m, fall) = (arms_m.fold(body.bounding_radius_m, f64::max), model.gravity_m_s2.norm());
     let still = at.v_WB.norm() + radius_m * at.w_WB.norm() <= NO_SLIP * (fall * radius_m).sqrt();
     let stays = a.v.norm() + radius_m * a.w.norm() <= NONE * forces.gathered.free[i].v.norm();
     still && (body.driven || (stays && model.constant_pull(i).is_some()))
@@ -64,7 +65,9 @@ impl Settling<'_> {
             return Some(ClosedMotion::Driven(state.time_s, at));
         }
         if self.model.pins.iter().any(|pin| pin.holds(i)) {
-            return None;
+            return self
+                .rests_on_pins(i, &at)
+                .then(|| ClosedMotion::Arc(Arc::straight(state.time_s, at, Vector3::zeros())));
         }
         let pull = self.model.constant_pull(i)?;
         let own = || self.held.iter().enumerate().filter(move |(_, held)| held.touch.bodies().any(|b| b == i));
@@ -86,6 +89,17 @@ impl Settling<'_> {
         }
         let own: Vec<usize> = own().map(|(k, _)| k).collect();
         self.steady(state, i, &own).map(ClosedMotion::Arc)
+    }
+
+    /// Whether a body on pins is at rest to the last bit, and with it all that it touches and that pins join to it.
+    fn rests_on_pins(&self, i: usize, at: &BodyState) -> bool {
+        let is_still = at.v_WB == Vector3::zeros() && at.w_WB == Vector3::zeros();
+        let pins = || self.model.pins.iter().filter(|pin| pin.holds(i));
+        let turns = self.model.bodies[i].bounding_radius_m == 0.0 && pins().all(|pin| pin.r_B == Vector3::zeros());
+        let touched = self.held.iter().filter(|held| held.touch.bodies().any(|b| b == i));
+        let others = touched.flat_map(|held| held.touch.bodies());
+        let joined = pins().flat_map(|pin| (0..self.resting.len()).filter(|b| pin.holds(*b)));
+        is_still && !turns && others.chain(joined).all(|b| self.resting[b])
     }
 
     /// A ball, or a body that does not turn, on what does not move, and every slip keeps its direction: all forces are

@@ -65,8 +65,8 @@ impl Scratch {
     }
 }
 
-/// Takes an island over one step of the clock. False where no inner step reaches the tolerance, or time is up; the island
-/// is then left on the way.
+/// Takes an island over one step of the clock. False where no inner step reaches the tolerance, or time is up; the
+/// island is then left on the way.
 pub fn step(
     island: &mut Chain,
     model: &Model,

@@ -20,8 +20,7 @@ impl Divergence {
         if !state.bodies.iter().all(BodyState::is_finite) {
             return Some(Criterion::NotFinite);
         }
-        let exceeds = |factor: f64| energy.reference_j().is_some_and(|j| energy.without_work_j() > factor * j);
-        if energy_factor.is_some_and(exceeds) {
+        if energy_factor.is_some_and(|factor| energy.exceeds(factor)) {
             return Some(Criterion::Energy);
         }
         if escape && model.bodies.iter().zip(&state.bodies).any(|(body, at)| escaped(model, body, at)) {

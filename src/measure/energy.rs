@@ -59,8 +59,9 @@ pub struct EnergyLedger {
     start_j: Vec<f64>,
     fallen_j: Vec<f64>,
     work_j: f64,
-    /// Largest |W| so far.
+    /// Largest |W| and largest W so far.
     work_max_j: f64,
+    given_max_j: f64,
     /// Least and largest E − W so far, and the largest rise over an earlier value.
     lowest_j: f64,
     highest_j: f64,
@@ -87,6 +88,7 @@ impl EnergyLedger {
             fallen_j: vec![0.0; moving(model, state).count()],
             work_j: 0.0,
             work_max_j: 0.0,
+            given_max_j: 0.0,
             lowest_j: start.total_j(),
             highest_j: start.total_j(),
             rise_max_j: 0.0,
@@ -104,6 +106,7 @@ impl EnergyLedger {
     pub fn observe(&mut self, model: &Model, after: &State, stored_j: f64, done: &Done) {
         self.work_j += done.work_j;
         self.work_max_j = self.work_max_j.max(self.work_j.abs());
+        self.given_max_j = self.given_max_j.max(self.work_j);
         self.work_parts_j += done.parts_j;
         self.end_at(model, after, stored_j);
         let total_j = self.without_work_j();
@@ -147,15 +150,19 @@ impl EnergyLedger {
         self.taken.parts += taken.parts * times;
     }
 
-    /// E − W.
-    pub fn without_work_j(&self) -> f64 {
+    fn without_work_j(&self) -> f64 {
         self.end.total_j() - self.work_j
     }
 
-    /// E(0) + max|W|, unless that is rounding: what an energy that diverges is compared with.
-    pub fn reference_j(&self) -> Option<f64> {
-        let reference_j = self.start_j() + self.work_max_j;
-        (reference_j > NOTHING * self.fall_j).then_some(reference_j)
+    /// Whether there is so many times as much energy as can be explained: E − W against E(0) + max|W|, or E against E(0)
+    /// and the most that was given. (Work that takes energy away explains none: a body that the air throws about.) Not
+    /// while what explains it is rounding.
+    pub fn exceeds(&self, factor: f64) -> bool {
+        let exceeds = |energy_j: f64, given_j: f64| {
+            let explained_j = self.start_j() + given_j;
+            explained_j > NOTHING * self.fall_j && energy_j > factor * explained_j
+        };
+        exceeds(self.without_work_j(), self.work_max_j) || exceeds(self.end_j(), self.given_max_j)
     }
 
     pub fn start_j(&self) -> f64 {

@@ -47,6 +47,8 @@ impl Seen {
         let least = approach.least(model, contact, motion, step_s).unwrap_or(f64::NAN);
         let plastic = Contact { restitution: 0.0, ..*contact };
         let floor = approach.least(model, &plastic, motion, step_s).unwrap_or(f64::NAN);
+        // After an impact half-way the step's forces may take back what rebounds.
+        let floor = if approach == Approach::Middle { floor.min(motion[1]) } else { floor };
         Seen {
             met: *met,
             step_length: 1.0 / contact.ends().map(|(i, r, _)| moved[i].compliance(&r)).sum::<f64>(),

@@ -93,6 +93,21 @@ impl Turntable {
             let own = UnitQuaternion::from_scaled_axis((steady + turning - table_W) * t_s);
             return UnitQuaternion::from_scaled_axis(table_W * t_s) * own * self.start.q_WB;
         }
+        // ω comes back with every turn of the circle: whole turns are powers of one (G. Floquet 1883), whatever their number.
+        let turn_s = 2.0 * std::f64::consts::PI / rate.abs();
+        let turns = (t_s / turn_s).floor();
+        if turns <= 0.0 {
+            return self.followed(t_s);
+        }
+        let rest = self.followed(t_s - turns * turn_s);
+        let whole = self.followed(turn_s) * self.start.q_WB.inverse();
+        rest * self.start.q_WB.inverse() * whole.powf(turns) * self.start.q_WB
+    }
+
+    /// Attitude after a part of a turn.
+    fn followed(&self, t_s: f64) -> UnitQuaternion<f64> {
+        let (steady, turning, rate) = (self.steady_W, self.turning_W, self.rate_rad_s);
+        let table_W = self.normal * rate;
         let fastest = steady.norm() + turning.norm() + rate.abs();
         turned(&self.start.q_WB, t_s, fastest, |t_s| {
             let mut term = UnitQuaternion::from_scaled_axis(table_W * t_s) * turning;

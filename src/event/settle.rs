@@ -27,7 +27,7 @@ pub fn settle(
     forces: Forces,
     motions: &mut Vec<Motion>,
 ) -> Option<f64> {
-    let bodies = if held.is_empty() && model.pins.is_empty() { 0 } else { model.bodies.len() };
+    let bodies = if held.is_empty() { 0 } else { model.bodies.len() };
     let resting: Vec<bool> = (0..bodies).map(|i| is_at_rest(model, state, i, forces)).collect();
     let mut settling = Settling { model, held, forces, resting: &resting, ends_s: f64::INFINITY };
     motions.clear();
@@ -99,7 +99,7 @@ impl Settling<'_> {
         let touched = self.held.iter().filter(|held| held.touch.bodies().any(|b| b == i));
         let others = touched.flat_map(|held| held.touch.bodies());
         let joined = pins().flat_map(|pin| (0..self.resting.len()).filter(|b| pin.holds(*b)));
-        is_still && !turns && others.chain(joined).all(|b| self.resting[b])
+        is_still && !turns && !self.resting.is_empty() && others.chain(joined).all(|b| self.resting[b])
     }
 
     /// A ball, or a body that does not turn, on what does not move, and every slip keeps its direction: all forces are

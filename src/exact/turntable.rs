@@ -93,7 +93,7 @@ impl Turntable {
             let own = UnitQuaternion::from_scaled_axis((steady + turning - table_W) * t_s);
             return UnitQuaternion::from_scaled_axis(table_W * t_s) * own * self.start.q_WB;
         }
-        // ω comes back with every turn of the circle: whole turns are powers of one (G. Floquet 1883), whatever their number.
+        // ω comes back with every turn of the circle: whole turns are powers of one (G. Floquet 1883).
         let turn_s = 2.0 * std::f64::consts::PI / rate.abs();
         let turns = (t_s / turn_s).floor();
         if turns <= 0.0 {
@@ -101,7 +101,9 @@ impl Turntable {
         }
         let rest = self.followed(t_s - turns * turn_s);
         let whole = self.followed(turn_s) * self.start.q_WB.inverse();
-        rest * self.start.q_WB.inverse() * whole.powf(turns) * self.start.q_WB
+        rest * self.start.q_WB.inverse()
+            * UnitQuaternion::from_scaled_axis(whole.scaled_axis() * turns)
+            * self.start.q_WB
     }
 
     /// Attitude after a part of a turn.

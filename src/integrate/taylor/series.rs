@@ -29,7 +29,8 @@ impl Taylor {
         Taylor { tolerance, order, equations: Equations::new(island, model), reach_s: None }
     }
 
-    /// Takes an island over one step of the clock. False where no expansion reaches far enough to get on, or time is up.
+    /// Takes an island over one step of the clock. False where no expansion reaches far enough to get on, or time is
+    /// up.
     pub fn step(
         &mut self,
         island: &mut Chain,

@@ -10,8 +10,8 @@ use crate::model::Model;
 pub struct Plan {
     /// Whether some body can touch something, and the method looks.
     pub contact: bool,
-    /// Room for contacts: every point touching the three faces of a corner at once; beyond some thousand contacts what keeps
-    /// them grows when they come.
+    /// Room for contacts: every point touching the three faces of a corner at once; beyond some thousand contacts what
+    /// keeps them grows when they come.
     pub contacts: usize,
     /// Whether the method claims that its impulses obey the law of contact, and is held to it.
     pub constraint: bool,

@@ -154,9 +154,9 @@ impl EnergyLedger {
         self.end.total_j() - self.work_j
     }
 
-    /// Whether there is so many times as much energy as can be explained: E − W against E(0) + max|W|, or E against E(0)
-    /// and the most that was given. (Work that takes energy away explains none: a body that the air throws about.) Not
-    /// while what explains it is rounding.
+    /// Whether there is so many times as much energy as can be explained: E − W against E(0) + max|W|, or E against
+    /// E(0) and the most that was given. (Work that takes energy away explains none: a body that the air throws about.)
+    /// Not while what explains it is rounding.
     pub fn exceeds(&self, factor: f64) -> bool {
         let exceeds = |energy_j: f64, given_j: f64| {
             let explained_j = self.start_j() + given_j;

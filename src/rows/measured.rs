@@ -49,9 +49,9 @@ columns! {
         /// Change of linear momentum that gravity, loads and the contacts' impulses do not explain, of Σ m|v| at the
         /// start and the sizes of all those impulses. Null where a pin holds a body to the world.
         pub linear_momentum_drift_rel: Option<f64>,
-        /// Change of angular momentum about the centre of mass of all bodies that is not explained, of Σ(|Iω| + |r × mv|)
-        /// at the start and the sizes of all moments. Where a pin holds a body to the world, it is about the pin along
-        /// gravity.
+        /// Change of angular momentum about the centre of mass of all bodies that is not explained, of Σ(|Iω| + |r ×
+        /// mv|) at the start and the sizes of all moments. Where a pin holds a body to the world, it is about the pin
+        /// along gravity.
         pub angular_momentum_drift_rel: Option<f64>,
         /// Deepest overlap of two bodies, or of a body and the container, at the ends of all steps, whatever contacts
         /// the method has seen. Null where nothing can touch, or the method never looks for contacts.
@@ -69,8 +69,9 @@ columns! {
         /// Largest distance between the two points that a pin holds together. Null without pins.
         pub pin_gap_max_m: Option<f64>,
         /// Distance of the worst contact of the worst step from the law of contact that was asked for, relative to the
-        /// impulse that does to the lighter of its bodies what the step does to it. Rounding gives 1e-16 to 1e-13, times
-        /// the ratio of masses; a wrong impulse O(1). Null for `free` and `penalty`, and where nothing has touched.
+        /// impulse that does to the lighter of its bodies what the step does to it. Rounding gives 1e-16 to 1e-13,
+        /// times the ratio of masses; a wrong impulse O(1). Null for `free` and `penalty`, and where nothing has
+        /// touched.
         pub residual_max: Option<f64>,
         /// Largest kinetic energy after one contact solve over that before it. Above 1 contacts have made energy.
         pub contact_gain_max: Option<f64>,

@@ -186,6 +186,7 @@ method: { penalty: { stiffness_n_m: 1e4 } }
 time: { step_s: 1e-4, end_s: 2 }
 ";
     let said = measured(text, &[]);
-    // measured: 5.3e-4, and a rise by 0.019 where steps of 0.02 rad swing; without what springs hold both are of order 1
+    // measured: 5.3e-4, and a rise by 0.019 where steps of 0.02 rad swing; without what springs hold both are of order
+    // 1
     assert!(said.energy_drift_rel.unwrap().abs() < 1e-3 && largest(&said) < 0.05, "{said:?}");
 }

@@ -23,85 +23,91 @@ use nalgebra::Vector3;
 /// last digit. The rounding of velocities, 1e-15, is then 1e-10 of them.
 const SMALL: f64 = 1e-5;
 
-/// A contact as the law sees it.
-struct Seen {
-    met: Met,
+/// A contact as the law sees it, in a step that goes so through contacts and is so long.
+struct Seen<'a> {
+    model: &'a Model,
+    contact: &'a Contact,
+    met: &'a Met,
+    through: (Approach, f64),
+    /// Normal velocity before, and what the step's forces add to it.
+    motion: [f64; 2],
     /// ρ: one over the trace of its own block of A.
     step_length: f64,
-    /// The normal velocity that the law asks for at least: u_n ≥ least.
-    least: f64,
-    /// The same of a contact without restitution; and whether it strikes, so that restitution matters.
-    floor: f64,
-    strikes: bool,
+    /// What the residual is compared with: the least impulse that would do to one of its bodies, at the contact, what
+    /// the step does to it there.
+    scale: f64,
 }
 
-impl Seen {
+impl<'a> Seen<'a> {
     fn new(
-        model: &Model,
-        (contact, met): (&Contact, &Met),
+        model: &'a Model,
+        (contact, met): (&'a Contact, &'a Met),
         moved: &[Moved],
-        (approach, step_s): (Approach, f64),
+        through: (Approach, f64),
     ) -> Self {
+        let (mut trace, mut scale) = (0.0, f64::INFINITY);
+        for (i, r, _) in contact.ends() {
+            let (of, r_m, compliance) = (&moved[i], r.norm(), moved[i].compliance(&r));
+            trace += compliance;
+            // What is driven has no compliance: nothing moves it.
+            if compliance > 0.0 {
+                let speed = |motion: &Motion| motion.reach(r_m);
+                let changes = speed(&of.changed).max(speed(&of.gained)).max(SMALL * speed(&of.free));
+                scale = scale.min(changes / compliance);
+            }
+        }
         let before = contact.normal.dot(&met.before);
         let motion = [before, contact.normal.dot(&met.free) - before];
-        let least = approach.least(model, contact, motion, step_s).unwrap_or(f64::NAN);
-        let plastic = Contact { restitution: 0.0, ..*contact };
-        let floor = approach.least(model, &plastic, motion, step_s).unwrap_or(f64::NAN);
-        // After an impact half-way the step's forces may take back what rebounds.
-        let floor = if approach == Approach::Middle { floor.min(motion[1]) } else { floor };
-        Seen {
-            met: *met,
-            step_length: 1.0 / contact.ends().map(|(i, r, _)| moved[i].compliance(&r)).sum::<f64>(),
-            least,
-            floor,
-            strikes: approach.strikes(model, contact, motion, step_s),
-        }
+        Seen { model, contact, met, through, motion, step_length: 1.0 / trace, scale }
+    }
+
+    /// The normal velocity that the law asks for at least, u_n ≥ least. None: the contact is not there in this step.
+    fn least(&self, contact: &Contact) -> Option<f64> {
+        let (approach, step_s) = self.through;
+        approach.least(self.model, contact, self.motion, step_s)
+    }
+
+    /// Whether restitution matters.
+    fn strikes(&self) -> bool {
+        let (approach, step_s) = self.through;
+        approach.strikes(self.model, self.contact, self.motion, step_s)
     }
 
     /// Of an impact by another law than Newton's, in impulses: how far p is outside of the cone, and of what would stop
     /// the approach that is left.
-    fn missed_by_impact(&self, contact: &Contact, impulse_W: &Vector3<f64>) -> f64 {
-        let outside = (impulse_W - in_cone(impulse_W, &contact.normal, contact.friction)).norm();
-        let approach = self.floor - contact.normal.dot(&self.met.after);
-        outside.max(self.step_length * approach)
+    fn missed_by_impact(&self, impulse_W: &Vector3<f64>) -> f64 {
+        let Contact { normal, friction, .. } = self.contact;
+        let outside = (impulse_W - in_cone(impulse_W, normal, *friction)).norm();
+        let Some(floor) = self.least(&Contact { restitution: 0.0, ..*self.contact }) else { return impulse_W.norm() };
+        // After an impact half-way the step's forces may take back what rebounds.
+        let floor = if self.through.0 == Approach::Middle { floor.min(self.motion[1]) } else { floor };
+        outside.max(self.step_length * (floor - normal.dot(&self.met.after)))
     }
 
     /// Friction is against the velocity after; a kick half-way through the motion may put it against the mean instead.
-    fn missed(&self, contact: &Contact, impulse_W: &Vector3<f64>, approach: Approach) -> f64 {
-        let Met { before, after, .. } = &self.met;
-        let tangent = before - contact.normal * contact.normal.dot(before);
-        if self.strikes && contact.tangential_restitution > 0.0 {
-            return self.missed_at(&(after + tangent * contact.tangential_restitution), contact, impulse_W);
+    fn missed(&self, impulse_W: &Vector3<f64>) -> f64 {
+        let Contact { normal, tangential_restitution, .. } = self.contact;
+        let Met { before, after, .. } = self.met;
+        let Some(least) = self.least(self.contact) else { return impulse_W.norm() };
+        let tangent = before - normal * normal.dot(before);
+        if *tangential_restitution > 0.0 && self.strikes() {
+            return self.missed_at(&(after + tangent * *tangential_restitution), least, impulse_W);
         }
-        let missed = self.missed_at(after, contact, impulse_W);
-        if approach != Approach::Middle {
+        let missed = self.missed_at(after, least, impulse_W);
+        if self.through.0 != Approach::Middle {
             return missed;
         }
-        missed.min(self.missed_at(&(after + tangent), contact, impulse_W))
+        missed.min(self.missed_at(&(after + tangent), least, impulse_W))
     }
 
     /// |p − P_K(p − ρ ũ)|.
-    fn missed_at(&self, u: &Vector3<f64>, contact: &Contact, impulse_W: &Vector3<f64>) -> f64 {
-        let Contact { normal, friction, .. } = contact;
+    fn missed_at(&self, u: &Vector3<f64>, least: f64, impulse_W: &Vector3<f64>) -> f64 {
+        let Contact { normal, friction, .. } = self.contact;
         let slip = (u - normal * normal.dot(u)).norm();
-        let dual = u + normal * (friction * slip - self.least);
+        let dual = u + normal * (friction * slip - least);
         let wanted = in_cone(&(impulse_W - dual * self.step_length), normal, *friction);
         (impulse_W - wanted).norm()
     }
-}
-
-/// What the residual of a contact is compared with: the least impulse that would do to one of its bodies, at the
-/// contact, what the step does to it there.
-fn scale(contact: &Contact, moved: &[Moved]) -> f64 {
-    let of_body = |(i, r, _): (usize, Vector3<f64>, f64)| {
-        let (r_m, of) = (r.norm(), &moved[i]);
-        let speed = |motion: &Motion| motion.reach(r_m);
-        let changes = speed(&of.changed).max(speed(&of.gained)).max(SMALL * speed(&of.free));
-        changes / of.compliance(&r)
-    };
-    // What is driven has no compliance: nothing moves it.
-    let moving = contact.ends().filter(|(i, r, _)| moved[*i].compliance(r) > 0.0);
-    moving.map(of_body).fold(f64::INFINITY, f64::min)
 }
 
 /// The nearest point of Coulomb's cone.
@@ -139,28 +145,26 @@ impl ResidualLedger {
         model: &Model,
         contacts: &[SolvedContact],
         exchange: &Exchange,
-        (approach, step_s): (Approach, f64),
+        through: (Approach, f64),
     ) {
         if !self.judged || contacts.is_empty() {
             return;
         }
-        let seen = |of: (&Contact, &Met)| Seen::new(model, of, &exchange.moved, (approach, step_s));
+        let seen = |solved, met| Seen::new(model, (solved, met), &exchange.moved, through);
         self.struck.clear();
         self.struck.resize(exchange.moved.len(), false);
         if !self.newton {
-            for (SolvedContact { contact, .. }, met) in contacts.iter().zip(&exchange.met) {
-                self.struck[met.island] |= seen((contact, met)).strikes;
+            for (solved, met) in contacts.iter().zip(&exchange.met) {
+                self.struck[met.island] |= seen(&solved.contact, met).strikes();
             }
         }
-        let missed = |(SolvedContact { contact, impulse_W }, met): (&SolvedContact, &Met)| {
-            let missed = if self.struck[met.island] {
-                seen((contact, met)).missed_by_impact(contact, impulse_W)
-            } else {
-                seen((contact, met)).missed(contact, impulse_W, approach)
-            };
-            relative(missed, scale(contact, &exchange.moved))
-        };
-        let largest = contacts.iter().zip(&exchange.met).map(missed).fold(0.0, f64::max);
-        self.max = Some(self.max.map_or(largest, |max| max.max(largest)));
+        let mut largest = self.max.unwrap_or(0.0);
+        for (SolvedContact { contact, impulse_W }, met) in contacts.iter().zip(&exchange.met) {
+            let seen = seen(contact, met);
+            let missed =
+                if self.struck[met.island] { seen.missed_by_impact(impulse_W) } else { seen.missed(impulse_W) };
+            largest = largest.max(relative(missed, seen.scale));
+        }
+        self.max = Some(largest);
     }
 }

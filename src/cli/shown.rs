@@ -72,6 +72,7 @@ fn numbers(v: &Vector3<f64>) -> Value {
 pub(super) fn summary(id: &str, m: &Measured) -> String {
     let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.6}"));
     let relative = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.2e}"));
+    let count = |x: Option<u64>| x.map_or("-".to_string(), |x| x.to_string());
     let how = match (&m.outcome, &m.criterion) {
         (Outcome::Finished, _) => "finished".to_string(),
         (outcome, criterion) => {
@@ -86,6 +87,8 @@ pub(super) fn summary(id: &str, m: &Measured) -> String {
         ("momentum drift", relative(m.linear_momentum_drift_rel)),
         ("angular momentum drift", relative(m.angular_momentum_drift_rel)),
         ("penetration max, end", format!("{}, {} m", relative(m.penetration_max_m), relative(m.penetration_end_m))),
+        ("residual max", relative(m.residual_max)),
+        ("ghosts, passages", format!("{}, {}", relative(m.ghost_impulse_max_rel), count(m.passed_through))),
         ("contact gain max", number(m.contact_gain_max)),
         ("contacts max", m.contacts_max.to_string()),
         ("stepping", format!("{} s", number(m.wall_s))),

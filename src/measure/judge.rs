@@ -123,7 +123,7 @@ impl Judge {
         self.divergence.judge(model, after, &self.energy, depth_m)
     }
 
-    /// Impulses at the state `kicked`. What was done, and the depth of the deepest contact.
+    /// Impulses at the state `kicked`; what loads and driven bodies did.
     fn observe_kick(
         &mut self,
         model: &Model,

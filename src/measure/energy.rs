@@ -8,6 +8,7 @@
 use super::dissipation::Taken;
 use super::exchange::{Motion, Moved, kinetic_j};
 use super::work::Done;
+use crate::model::loads::AppliedForce;
 use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
 
@@ -70,6 +71,8 @@ pub struct EnergyLedger {
     /// Largest kinetic energy, largest Σ m|g·p|, and the sizes of the parts of W: what has rounding.
     kinetic_max_j: f64,
     height_max_j: f64,
+    /// Largest Σ|F|(|p| + R) of applied forces.
+    load_max_j: f64,
     work_parts_j: f64,
     /// Largest kinetic energy after / before one contact solve.
     pub contact_gain_max: Option<f64>,
@@ -95,6 +98,7 @@ impl EnergyLedger {
             taken: Taken::default(),
             kinetic_max_j: 0.0,
             height_max_j: 0.0,
+            load_max_j: 0.0,
             work_parts_j: 0.0,
             contact_gain_max: None,
         };
@@ -130,6 +134,11 @@ impl EnergyLedger {
         }
         self.kinetic_max_j = self.kinetic_max_j.max(end.kinetic_j);
         self.height_max_j = self.height_max_j.max(height_j);
+        if !model.forces.is_empty() {
+            let reach_m = |i: usize| state.bodies[i].p_WB.norm() + model.bodies[i].bounding_radius_m;
+            let load = |of: &AppliedForce| of.force_n.norm() * reach_m(of.body) + of.torque_n_m.norm();
+            self.load_max_j = self.load_max_j.max(model.forces.iter().map(load).sum());
+        }
         self.end = end;
     }
 
@@ -194,7 +203,12 @@ impl EnergyLedger {
     }
 
     fn part(&self, amount_j: f64) -> f64 {
-        let largest_j = self.kinetic_max_j + self.height_max_j + self.fall_j + self.work_parts_j + self.taken.parts;
+        let largest_j = self.kinetic_max_j
+            + self.height_max_j
+            + self.fall_j
+            + self.load_max_j
+            + self.work_parts_j
+            + self.taken.parts;
         if amount_j.abs() <= ROUNDING * largest_j {
             return 0.0;
         }

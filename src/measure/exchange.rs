@@ -35,12 +35,19 @@ pub(super) struct Moved {
     /// M⁻¹ F_E Δt, and M⁻¹ Jᵀ p of the contacts.
     pub gained: Motion,
     pub changed: Motion,
+    /// What of Σ|p|/m counts beside them where contacts cancel: all of an impact that goes through a body at rest, a
+    /// small part of what presses one without a force of its own.
+    pub pressed_m_s: f64,
     /// With the velocities `free` and `after`.
     pub kinetic_j: [f64; 2],
     /// Infinite, and 0, of a body that moves as it is told.
     mass_kg: f64,
     I_W_inverse: Matrix3<f64>,
 }
+
+/// Part of the impulses of a step that counts though they cancel. A light body under one that is up to 10⁴ times as
+/// heavy is judged by its own weight.
+const CANCELLING: f64 = 1e-4;
 
 /// How long it takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,13 +66,14 @@ impl Moved {
         let none = Motion { v: Vector3::zeros(), w: Vector3::zeros() };
         if body.driven {
             let I_W_inverse = Matrix3::zeros();
-            let (free, after, gained, changed) = (before, before, none, none);
+            let (free, after, gained, changed, pressed_m_s) = (before, before, none, none, 0.0);
             return Moved {
                 before,
                 free,
                 after,
                 gained,
                 changed,
+                pressed_m_s,
                 kinetic_j: [0.0; 2],
                 mass_kg: f64::INFINITY,
                 I_W_inverse,
@@ -88,7 +96,9 @@ impl Moved {
             }
         };
         let kinetic_j = [free, after].map(|motion| kinetic_j(body, at, &motion));
-        Moved { before, free, after, gained, changed, kinetic_j, mass_kg: body.mass_kg, I_W_inverse }
+        let part = if span_s == 0.0 { 1.0 } else { CANCELLING };
+        let pressed_m_s = part * push.linear_size / body.mass_kg;
+        Moved { before, free, after, gained, changed, pressed_m_s, kinetic_j, mass_kg: body.mass_kg, I_W_inverse }
     }
 
     /// Trace of E/m − [r] I⁻¹ [r].

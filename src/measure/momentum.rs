@@ -144,7 +144,8 @@ impl MomentumLedger {
         self.angular_given += loads.angular_impulse;
         self.linear_size += g.norm() * (self.mass_kg * step_s) + loads.impulse_size;
         self.angular_size += loads.angular_size;
-        if model.bodies.len() > 1 && step_s > 0.0 {
+        let is_own_pivot = model.bodies.len() == 1 && matches!(self.pivot, Pivot::Centre);
+        if !is_own_pivot && step_s > 0.0 {
             let pivot = self.pivot_m(model, after);
             let moment = |(body, at): (&Body, &BodyState)| (at.p_WB - pivot).cross(&g).norm() * body.mass_kg;
             self.angular_size += moving(model, after).map(moment).sum::<f64>() * step_s;

@@ -52,7 +52,8 @@ impl<'a> Seen<'a> {
             // What is driven has no compliance: nothing moves it.
             if compliance > 0.0 {
                 let speed = |motion: &Motion| motion.reach(r_m);
-                let changes = speed(&of.changed).max(speed(&of.gained)).max(SMALL * speed(&of.free));
+                let acted = speed(&of.changed).max(speed(&of.gained)).max(of.pressed_m_s);
+                let changes = acted.max(SMALL * speed(&of.free));
                 scale = scale.min(changes / compliance);
             }
         }

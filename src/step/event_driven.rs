@@ -30,6 +30,7 @@ use crate::plan::Plan;
 use crate::shown::{Acted, ContactForce, Moment, Passage, Smooth};
 use crate::state::State;
 use crate::work::Work;
+use nalgebra::Vector3;
 use std::cell::RefCell;
 
 /// What ends a stretch.
@@ -71,6 +72,8 @@ pub struct EventDriven {
     contact: bool,
     motions: Vec<Motion>,
     held: Vec<Held>,
+    /// Their forces, world axes, while no body needs the integrator: closed forms have constant ones.
+    steady_W: Vec<Vector3<f64>>,
     dense: Dense,
     /// Ends of slips that are known in closed form.
     ends_s: Option<f64>,
@@ -125,6 +128,7 @@ impl EventDriven {
             contact: plan.contact,
             motions: Vec::with_capacity(model.bodies.len()),
             held: Vec::new(),
+            steady_W: Vec::new(),
             dense: Dense::default(),
             ends_s: None,
             next: Event::Start,
@@ -324,6 +328,8 @@ impl EventDriven {
         if ending::changes(model, [&self.kicked, state], ending::NOTHING) {
             self.ending_s = Some(ending::lasts_s(model, (&self.placing, &placed.p), (gathered, &solved)));
         }
+        let in_world = gathered.problem.blocks.iter().zip(&solved.p).map(|(block, p)| block.in_world(p));
+        self.steady_W = in_world.take(self.held.len()).collect();
         self.settle(model, state, &solved);
     }
 
@@ -493,6 +499,13 @@ impl Passage for EventDriven {
         // What a step holds that was not made is not known.
         if self.held.is_empty() || self.stalled == Some(Criterion::Limit) {
             return Vec::new();
+        }
+        if self.dense.is_empty() && self.steady_W.len() == self.held.len() {
+            let force = |(held, force_W): (&Held, &Vector3<f64>)| ContactForce {
+                contact: held.touch.here(state).contact,
+                force_W: *force_W,
+            };
+            return self.held.iter().zip(&self.steady_W).map(force).collect();
         }
         let mut gathered = self.gathered.borrow_mut();
         let Margin { solved, .. } = margin(model, state, &self.held, &mut gathered, &mut Work::default());

@@ -16,6 +16,7 @@ use super::leg::{Leg, most_m};
 use super::near::NearPair;
 use super::overlap::part;
 use super::passage::gap_m;
+use super::posed::gap_along_m;
 use crate::collide::SolvedContact;
 use crate::model::Model;
 use crate::model::container::Face;
@@ -53,7 +54,7 @@ impl Group {
     /// Of all impulses of one pair, those along the normal of the first; none: they have been seen before.
     pub fn new(solved: &[SolvedContact], first: usize) -> Option<Self> {
         let SolvedContact { contact: of, impulse_W } = &solved[first];
-        let is_along = |n: &Vector3<f64>| n.cross(&of.normal).norm() <= PARALLEL;
+        let is_along = |n: &Vector3<f64>| n.dot(&of.normal) > 0.0 && n.cross(&of.normal).norm() <= PARALLEL;
         if *impulse_W == Vector3::zeros()
             || solved[..first].iter().any(|s| is_along(&s.contact.normal) && s.impulse_W != Vector3::zeros())
         {
@@ -110,7 +111,8 @@ impl GhostJudge<'_> {
         let [a, b] = [group.bodies.0, group.bodies.1.unwrap_or(group.bodies.0)];
         let without = [end(a, &gains[0]), end(b, &gains[1])];
         // Most of them go inside, and no way has to be followed.
-        if self.are_inside(group, &without, self.closed_m(group, kicked)) {
+        let closed_m = self.closed_m(group, kicked);
+        if self.are_inside(group, &without, closed_m) || self.just_meet(group, &without, closed_m) {
             return 0.0;
         }
         let legs =
@@ -171,7 +173,7 @@ impl GhostJudge<'_> {
             return 0.0;
         }
         let shows = gained >= SHOWS * speed;
-        let time_s = AHEAD * self.size_m(group) / if shows { speed } else { gained };
+        let time_s = AHEAD * self.size_m(group) / if shows { speed.max(gained) } else { gained };
         let leg = |i: usize, gain: &Gain| {
             let at = &after.bodies[i];
             let (v, w) = if shows { (at.v_WB, at.w_WB) } else { (Vector3::zeros(), Vector3::zeros()) };
@@ -266,6 +268,14 @@ impl GhostJudge<'_> {
         if ends_m.iter().any(|gap_m| *gap_m < -closed_m) {
             return true;
         }
+        // What is light and pushed by much flies far through what it touched at first.
+        let mut near = 4.0 * closed_m / most_m;
+        while near < 1.0 / LOOKS as f64 {
+            if gap_at(near) < -closed_m {
+                return true;
+            }
+            near *= 8.0;
+        }
         let (mut way, last) = (ends_m[1] / most_m, 1.0 - ends_m[0] / most_m);
         for _ in 0..LOOKS {
             way = way.max(1.0 / LOOKS as f64);
@@ -287,6 +297,14 @@ impl GhostJudge<'_> {
         let origin_W = at[1].p_WB;
         let [a, b] = [(group.bodies.0, &at[0]), (other, &at[1])].map(|(i, at)| posed(self.model, i, at, &origin_W));
         a.zip(b).is_some_and(|(a, b)| part(&a, &b, self.memory).gap_m < -closed_m)
+    }
+
+    /// Whether the two bodies touch where they stand, along the group's normal and along no other.
+    fn just_meet(&self, group: &Group, at: &[Stand; 2], closed_m: f64) -> bool {
+        let Some(other) = group.bodies.1 else { return false };
+        let origin_W = at[1].p_WB;
+        let [a, b] = [(group.bodies.0, &at[0]), (other, &at[1])].map(|(i, at)| posed(self.model, i, at, &origin_W));
+        a.zip(b).is_some_and(|(a, b)| gap_along_m(&a, &b, &group.normal).abs() <= closed_m)
     }
 
     /// In the faces that have the group's normal, or in any if none has.

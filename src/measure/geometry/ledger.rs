@@ -21,7 +21,9 @@ const EVERY: u64 = 8;
 /// Parts of a way that is known at every time, at least; and the most that a body may turn in one (rad), up to so many.
 const PARTS: f64 = 4.0;
 const TURN: f64 = 1.0;
-const MOST_PARTS: f64 = 64.0;
+const MOST_PARTS: f64 = 256.0;
+/// Of the least width: how far a straight part leaves a curved way.
+const ASIDE: f64 = 2e-3;
 
 /// What the columns of geometry are made of.
 pub struct GeometryLedger {
@@ -171,8 +173,7 @@ impl GeometryLedger {
         let nothing = || State { step: 0, time_s: 0.0, bodies: Vec::new() };
         let [mut from, mut to] = std::mem::replace(&mut self.on_way, [nothing(), nothing()]);
         if model.touching_pairs && !self.near.pairs.is_empty() {
-            let turning = before.bodies.iter().map(|at| at.w_WB.norm()).fold(0.0, f64::max) * span_s;
-            let parts = (turning / TURN).ceil().clamp(PARTS, MOST_PARTS);
+            let parts = self.parts([before, after]);
             from.copy_from(before);
             for part in 1..=parts as u32 {
                 to.copy_from(before);
@@ -192,6 +193,17 @@ impl GeometryLedger {
         self.each_group(model, &pressed, |judge, group| judge.pressed(group, &to, span_s));
         self.pressed = pressed;
         self.on_way = [from, to];
+    }
+
+    /// Number of straight parts of a smooth motion that leave it by less than what a passage is.
+    fn parts(&self, [before, after]: [&State; 2]) -> f64 {
+        let span_s = after.time_s - before.time_s;
+        let turning = before.bodies.iter().map(|at| at.w_WB.norm()).fold(0.0, f64::max) * span_s;
+        let bends = before.bodies.iter().zip(&after.bodies).map(|(a, b)| (b.v_WB - a.v_WB).norm());
+        let widths = self.near.pairs.iter().flat_map(|pair| pair.bodies).map(|i| self.figures[i].width_m);
+        let (bend, width_m) = (bends.fold(0.0, f64::max), widths.fold(f64::INFINITY, f64::min));
+        let of_bend = (bend * span_s / (8.0 * ASIDE * width_m)).sqrt();
+        (turning / TURN).max(of_bend).ceil().clamp(PARTS, MOST_PARTS)
     }
 
     /// Counts the pairs that pass between two states.

@@ -72,7 +72,8 @@ pub struct EventDriven {
     contact: bool,
     motions: Vec<Motion>,
     held: Vec<Held>,
-    /// Their forces, world axes, while no body needs the integrator: closed forms have constant ones.
+    /// Their forces, world axes, while no body needs the integrator: closed forms have constant ones. None where they
+    /// are shared so that some contact would pull: redundant ones move the same.
     steady_W: Vec<Vector3<f64>>,
     dense: Dense,
     /// Ends of slips that are known in closed form.
@@ -328,8 +329,7 @@ impl EventDriven {
         if ending::changes(model, [&self.kicked, state], ending::NOTHING) {
             self.ending_s = Some(ending::lasts_s(model, (&self.placing, &placed.p), (gathered, &solved)));
         }
-        let in_world = gathered.problem.blocks.iter().zip(&solved.p).map(|(block, p)| block.in_world(p));
-        self.steady_W = in_world.take(self.held.len()).collect();
+        self.steady_W = steady(gathered, &solved, self.held.len());
         self.settle(model, state, &solved);
     }
 
@@ -481,6 +481,15 @@ impl EventDriven {
             }
         }
     }
+}
+
+/// Forces of contacts, world axes; none if one of them pulls or is outside of its cone.
+fn steady(gathered: &Gathered, solved: &Solved, contacts: usize) -> Vec<Vector3<f64>> {
+    /// Beyond the edge of Coulomb's cone by this part of the force is rounding.
+    const OUTSIDE: f64 = 1e-9;
+    let blocks = || gathered.problem.blocks.iter().zip(&solved.p).take(contacts);
+    let is_lawful = blocks().all(|(block, p)| p.x >= 0.0 && p.yz().norm() <= block.friction * p.x + OUTSIDE * p.norm());
+    if is_lawful { blocks().map(|(block, p)| block.in_world(p)).collect() } else { Vec::new() }
 }
 
 impl Passage for EventDriven {

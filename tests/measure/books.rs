@@ -190,3 +190,60 @@ time: { step_s: 1e-4, end_s: 2 }
     // 1
     assert!(said.energy_drift_rel.unwrap().abs() < 1e-3 && largest(&said) < 0.05, "{said:?}");
 }
+
+/// Without gravity nothing but the force itself says how much a joule is.
+#[test]
+fn what_is_pressed_without_gravity_is_at_rest() {
+    let text = "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  friction: 0.5
+  container: { plane: { normal: [0, 1, 0] } }
+  forces: [{ body: upper, force_n: [0, -1, 0] }]
+  bodies:
+    - { name: lower, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, position_m: [0, 0.5, 0] }
+    - { name: upper, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, position_m: [0, 1.5, 0] }
+time: { step_s: 0.01, end_s: 10 }
+";
+    let newton = ["{time-stepping: {solver: newton}}", "{time-stepping: {solver: newton, scheme: moreau}}"];
+    for method in newton.into_iter().chain(["event-driven"]) {
+        let said = measured(text, &[&format!("method={method}")]);
+        // measured: 0, and 2.0e-10
+        assert!(largest(&said) <= 1e-9 && said.residual_max.unwrap() <= 1e-6, "{method}: {said:?}");
+    }
+}
+
+/// The moment of gravity about the pin is what there is to be wrong by.
+#[test]
+fn a_pendulum_from_rest_has_a_scale() {
+    let text = "
+scene:
+  bodies:
+    - { name: rod, shape: none, inertia_kg_m2: [0.1, 0.02, 0.1], mass_kg: 1, position_m: [0.5, 0, 0] }
+  pins: [{ body: rod, point_m: [-0.5, 0, 0] }]
+method: { free: { integrator: rk4 } }
+time: { step_s: 0.01, end_s: 2 }
+";
+    for method in ["{ free: { integrator: rk4 } }", "event-driven"] {
+        let said = measured(text, &[&format!("method={method}")]);
+        // measured: 5.5e-13
+        assert!(said.angular_momentum_drift_rel.unwrap() < 1e-9, "{method}: {said:?}");
+    }
+}
+
+/// The forces that are shown are those that make the motion, also where walls press as they please.
+#[test]
+fn friction_of_a_corridor_is_in_the_books() {
+    let text = "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  friction: 0.5
+  container: { box: { size_m: [1, 4, 40] } }
+  bodies: [{ name: box, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, position_m: [0, 0.5, 0], velocity_m_s: [0, 0, 3] }]
+method: event-driven
+time: { end_s: 1 }
+";
+    let said = measured(text, &[]);
+    // measured: 0
+    assert!(largest(&said) <= 1e-9, "{said:?}");
+}

@@ -232,3 +232,74 @@ measure: [state]
     // It may lie askew.
     assert!(row.penetration_end_m.unwrap() > depth_m - 1e-6, "{depth_m} m");
 }
+
+/// A cube dropped on a stack: the blow goes through bodies at rest, whose velocities it does not change.
+#[test]
+fn a_blow_that_goes_through_a_body_at_rest_is_no_ghost() {
+    let text = "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  friction: 0.5
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies:
+    - { name: lower, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, position_m: [0, 0.5, 0] }
+    - { name: upper, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, position_m: [0, 1.5, 0] }
+    - { name: dropped, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, position_m: [0, 3, 0] }
+time: { step_s: 0.01, end_s: 1 }
+";
+    for impact in ["newton", "poisson", "sequential"] {
+        let row = measured(text, &[&format!("method={{ event-driven: {{ impact: {impact} }} }}")]);
+        // measured: 0, and 2.5e-16
+        assert_eq!(row.ghost_impulse_max_rel, Some(0.0), "{impact}");
+        assert!(row.residual_max.unwrap() < 1e-9, "{impact}: {:?}", row.residual_max);
+    }
+}
+
+#[test]
+fn a_fall_past_an_edge_is_no_passage() {
+    let text = "
+scene:
+  friction: 0.5
+  bodies:
+    - { name: table, shape: { box: { size_m: [2, 0.1, 2] } }, mass_kg: 1, position_m: [0, -0.05, 0], fixed: true }
+    - { name: ball, shape: { sphere: { radius_m: 0.1 } }, mass_kg: 1, position_m: [0.5, 0.1, 0], velocity_m_s: [1.5, 0, 0], angular_velocity_rad_s: [0, 0, -15] }
+method: event-driven
+time: { end_s: 2 }
+";
+    for speed in [0.5, 1.5, 3.0] {
+        let sets = [
+            format!("scene.bodies.ball.velocity_m_s=[{speed}, 0, 0]"),
+            format!("scene.bodies.ball.angular_velocity_rad_s=[0, 0, {}]", -10.0 * speed),
+        ];
+        let row = measured(text, &[&sets[0], &sets[1]]);
+        assert_eq!((row.passed_through, row.ghost_impulse_max_rel), (Some(0), Some(0.0)), "{speed} m/s");
+    }
+}
+
+#[test]
+fn opposite_walls_and_heavy_loads_are_no_ghosts() {
+    let tight = "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  friction: 0.5
+  container: { box: { size_m: [1, 4, 4] } }
+  bodies: [{ name: box, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, position_m: [0, 0.5, 0] }]
+time: { step_s: 0.01, end_s: 1 }
+";
+    let loaded = "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  friction: 0.5
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies:
+    - { name: light, shape: { box: { size_m: [0.2, 0.2, 0.2] } }, mass_kg: 1, position_m: [0, 0.1, 0] }
+    - { name: heavy, shape: { box: { size_m: [0.2, 0.2, 0.2] } }, mass_kg: 1e4, position_m: [0, 0.3, 0] }
+time: { step_s: 0.016666666666666666, end_s: 1 }
+";
+    for (text, what) in [(tight, "tight"), (loaded, "loaded")] {
+        for method in ["event-driven", "{time-stepping: {solver: newton}}"] {
+            let row = measured(text, &[&format!("method={method}")]);
+            assert!(row.ghost_impulse_max_rel.unwrap() <= 1e-6, "{what}, {method}: {:?}", row.ghost_impulse_max_rel);
+        }
+    }
+}

@@ -24,6 +24,12 @@ const LONGEST: f64 = 1e-3;
 /// Beyond the edge of Coulomb's cone by this part of the impulse is rounding.
 const OUTSIDE: f64 = 1e-9;
 
+/// Whether an impulse (or a force), world axes, pushes along a unit normal and has its friction within Coulomb's cone.
+pub fn is_lawful(of_W: &Vector3<f64>, normal: &Vector3<f64>, friction: f64) -> bool {
+    let pushes = normal.dot(of_W);
+    pushes >= 0.0 && (of_W - normal * pushes).norm() <= friction * pushes + OUTSIDE * of_W.norm()
+}
+
 /// Time over which impulses that put to rest are lawful together with the forces that hold after them: 0 at once, or
 /// where there is none. Every contact pushes then, and has its friction within its cone.
 pub fn lasts_s(
@@ -40,12 +46,11 @@ pub fn lasts_s(
     if forces.len() < contacts.len() || g == 0.0 {
         return 0.0;
     }
-    let is_lawful = |over_s: f64| {
-        contacts.iter().zip(impulses.iter().zip(&forces)).all(|(contact, (p, f))| {
-            let all = p + f * over_s;
-            let normal = contact.normal.dot(&all);
-            normal >= 0.0 && (all - contact.normal * normal).norm() <= contact.friction * normal + OUTSIDE * all.norm()
-        })
+    let are_lawful = |over_s: f64| {
+        let of_contact = |(contact, (p, f)): (&Contact, (&Vector3<f64>, &Vector3<f64>))| {
+            is_lawful(&(p + f * over_s), &contact.normal, contact.friction)
+        };
+        contacts.iter().zip(impulses.iter().zip(&forces)).all(of_contact)
     };
     let pushes_after_s = |(contact, (p, f)): (&Contact, (&Vector3<f64>, &Vector3<f64>))| {
         let [p, f] = [p, f].map(|of| contact.normal.dot(of));
@@ -53,12 +58,12 @@ pub fn lasts_s(
     };
     let least_s = contacts.iter().zip(impulses.iter().zip(&forces)).map(pushes_after_s).fold(0.0, f64::max);
     let longest_s = LONGEST * (model.largest_radius_m() / g).sqrt();
-    if is_lawful(0.0) {
+    if are_lawful(0.0) {
         return 0.0;
     }
     // Well within the cones, not on their edge.
     let mut over_s = if least_s > 0.0 { 2.0 * least_s } else { longest_s * f64::EPSILON };
-    while !is_lawful(over_s) {
+    while !are_lawful(over_s) {
         over_s *= 2.0;
         if over_s > longest_s {
             return 0.0;

@@ -7,19 +7,18 @@
 
 use super::dissipation::Taken;
 use super::exchange::{Motion, Moved, kinetic_j};
+use super::moving::moving;
+use super::push::ROUNDING;
 use super::work::Done;
+use crate::model::Model;
 use crate::model::loads::AppliedForce;
-use crate::model::{Body, Model};
-use crate::state::{BodyState, State};
+use crate::state::State;
 
 /// Least scale, of a fall of all bodies by their size.
 const LEAST: f64 = 1e-2;
 
 /// Of the same fall: an energy at the start that is rounding.
 const NOTHING: f64 = 1e-9;
-
-/// Of the sizes that an amount is the difference of.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Kinetic (of the centre of mass and about it), potential, and stored in springs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,10 +42,6 @@ impl Energy {
     pub fn total_j(&self) -> f64 {
         self.kinetic_j + self.potential_j + self.stored_j
     }
-}
-
-fn moving<'a>(model: &'a Model, state: &'a State) -> impl Iterator<Item = (&'a Body, &'a BodyState)> {
-    model.bodies.iter().zip(&state.bodies).filter(|(body, _)| !body.driven)
 }
 
 /// What became of the energy.

@@ -17,6 +17,7 @@ mod judge;
 mod kept;
 pub mod momentum;
 pub mod more;
+mod moving;
 mod pinned;
 mod push;
 pub mod reference;

@@ -5,7 +5,8 @@
 //! A pin to the world takes momentum, and how much only the solver knows. What is left to judge is the angular momentum
 //! about the pin along gravity (a heavy top's L_z; without gravity all of it). Two such points leave nothing.
 
-use super::push::Push;
+use super::moving::moving;
+use super::push::{Push, ROUNDING};
 use super::work::Done;
 use crate::model::pins::Anchor;
 use crate::model::{Body, Model};
@@ -40,10 +41,6 @@ impl Momentum {
         }
         sum
     }
-}
-
-fn moving<'a>(model: &'a Model, state: &'a State) -> impl Iterator<Item = (&'a Body, &'a BodyState)> {
-    model.bodies.iter().zip(&state.bodies).filter(|(body, _)| !body.driven)
 }
 
 /// What angular momentum is about.
@@ -95,9 +92,6 @@ impl Origin {
         Origin { position, velocity }
     }
 }
-
-/// Of the sizes that an amount is the difference of.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Change of momentum over a run that nothing outside explains.
 #[derive(Clone, Copy, Debug)]

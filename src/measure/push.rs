@@ -22,6 +22,9 @@ impl Push {
     }
 }
 
+/// Rounding, of the sizes that an amount is the difference of.
+pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// Part of a scale; 0 of a scale that is 0 as well.
 pub(super) fn relative(amount: f64, scale: f64) -> f64 {
     if amount == 0.0 { 0.0 } else { amount / scale }

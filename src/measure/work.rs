@@ -6,8 +6,8 @@
 //! The work of a constant force of the world is F·Δ(its point), exactly.
 
 use crate::collide::SolvedContact;
+use crate::model::Model;
 use crate::model::loads::Wrench;
-use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -42,7 +42,7 @@ impl Done {
 
     /// Loads at one node of the quadrature.
     pub fn add_node(&mut self, model: &Model, state: &State, weight_s: f64, pivot: Vector3<f64>) {
-        for (i, (_, at)) in moving(model, state) {
+        for (i, at) in state.bodies.iter().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
             let Wrench { force, torque } = model.load(i, state.time_s, at);
             let moment = torque + (at.p_WB - pivot).cross(&force);
             self.impulse += force * weight_s;
@@ -112,10 +112,6 @@ pub fn done(
     }
     done.add_constant(model, [before, after]);
     done
-}
-
-fn moving<'a>(model: &'a Model, state: &'a State) -> impl Iterator<Item = (usize, (&'a Body, &'a BodyState))> {
-    model.bodies.iter().zip(&state.bodies).enumerate().filter(|(_, (body, _))| !body.driven)
 }
 
 /// F·v + τ·ω of all but the constant forces of the world.

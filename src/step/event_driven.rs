@@ -12,7 +12,7 @@ use crate::deadline::Deadline;
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
 use crate::event::dense::{Dense, Field, project};
-use crate::event::ending;
+use crate::event::ending::{self, is_lawful};
 use crate::event::forces::{Gathered, Held, NO_SLIP, Solved};
 use crate::event::impact;
 use crate::event::law::hold;
@@ -485,11 +485,9 @@ impl EventDriven {
 
 /// Forces of contacts, world axes; none if one of them pulls or is outside of its cone.
 fn steady(gathered: &Gathered, solved: &Solved, contacts: usize) -> Vec<Vector3<f64>> {
-    /// Beyond the edge of Coulomb's cone by this part of the force is rounding.
-    const OUTSIDE: f64 = 1e-9;
     let blocks = || gathered.problem.blocks.iter().zip(&solved.p).take(contacts);
-    let is_lawful = blocks().all(|(block, p)| p.x >= 0.0 && p.yz().norm() <= block.friction * p.x + OUTSIDE * p.norm());
-    if is_lawful { blocks().map(|(block, p)| block.in_world(p)).collect() } else { Vec::new() }
+    let are_lawful = blocks().all(|(block, p)| is_lawful(&block.in_world(p), &block.frame[0], block.friction));
+    if are_lawful { blocks().map(|(block, p)| block.in_world(p)).collect() } else { Vec::new() }
 }
 
 impl Passage for EventDriven {
@@ -530,6 +528,9 @@ impl Smooth for EventDriven {
         if span_s <= 0.0 || (self.held.is_empty() && !model.has_loads() && !model.has_driven_pins()) {
             return Vec::new();
         }
-        moments(self, model, before, span_s)
+        moments(before, span_s, |state| {
+            self.state_at(model, state);
+            self.forces_at(model, state)
+        })
     }
 }

@@ -1,16 +1,16 @@
 //! Motion without contact (L4, L5): every island of bodies that pins join on its own.
 
+use super::moments::moments;
 use crate::clock::Clock;
 use crate::deadline::Deadline;
+use crate::event::motion::ClosedMotion;
 use crate::exact::Closed;
 use crate::experiment::tolerances::DEFAULT_TOLERANCE;
 use crate::experiment::types::{Accuracy, Exact, Free as Settings, Integrator, Update};
 use crate::integrate::chain::Chain;
-use crate::integrate::rotation::exponential;
 use crate::integrate::{
     crank_nicolson, dop853, euler, implicit, implicit_midpoint, momentum, moser_veselov, rk4, taylor,
 };
-use crate::math::quadrature;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::shown::{Moment, Smooth};
@@ -79,17 +79,25 @@ impl Free {
 
     /// Moves a state on to a time, driven bodies too.
     fn follow(&mut self, model: &Model, state: &mut State, to_s: f64) {
-        let span_s = to_s - state.time_s;
-        self.step(model, state, &Clock { steps: u64::MAX, end_s: f64::INFINITY, step_s: span_s });
+        let from_s = state.time_s;
+        self.integrate(model, state, to_s - from_s);
         state.time_s = to_s;
         for (at, _) in state.bodies.iter_mut().zip(&model.bodies).filter(|(_, body)| body.driven) {
-            at.p_WB += at.v_WB * span_s;
-            at.q_WB = exponential(&(at.w_WB * span_s)) * at.q_WB;
+            *at = ClosedMotion::Driven(from_s, *at).at(to_s);
         }
     }
 
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
-        let (span, deadline) = ([state.time_s, clock.step_s], self.deadline);
+        self.integrate(model, state, clock.step_s);
+        clock.advance(state);
+        if let Some(motion) = &self.motion {
+            motion.write(state);
+        }
+    }
+
+    /// Moves the bodies on by a time, which is left to the caller to count.
+    fn integrate(&mut self, model: &Model, state: &mut State, step_s: f64) {
+        let (span, deadline) = ([state.time_s, step_s], self.deadline);
         for (island, method) in &mut self.islands {
             island.take(state);
             if !method.step(island, model, span, deadline, &mut self.work) {
@@ -98,10 +106,6 @@ impl Free {
             }
             island.hold(model, span[0] + span[1], &mut self.work);
             island.give(state);
-        }
-        clock.advance(state);
-        if let Some(motion) = &self.motion {
-            motion.write(state);
         }
     }
 }
@@ -116,14 +120,12 @@ impl Smooth for Free {
     fn moments(&self, model: &Model, [before, after]: [&State; 2]) -> Vec<Moment> {
         let mut follower = self.follower.borrow_mut();
         let follower = follower.get_or_insert_with(|| Box::new(Free::new(&self.settings, model, &self.start)));
-        let span_s = after.time_s - before.time_s;
-        let mut state = before.clone();
-        let moment = |(node, weight): (f64, f64)| {
-            let to_s = before.time_s + node * span_s;
-            follower.follow(model, &mut state, to_s);
-            Moment { state: state.clone(), contacts: Vec::new(), weight_s: weight * span_s }
-        };
-        quadrature::FIVE.into_iter().map(moment).collect()
+        let mut place = before.clone();
+        moments(before, after.time_s - before.time_s, |state| {
+            follower.follow(model, &mut place, state.time_s);
+            state.bodies.copy_from_slice(&place.bodies);
+            Vec::new()
+        })
     }
 }
 

@@ -125,8 +125,7 @@ impl GeometryLedger {
                 continue;
             };
             // Every axis bounds the depth, the last one most likely best.
-            let is_known = pair.axis.x != 0.0 || pair.axis.y != 0.0 || pair.axis.z != 0.0;
-            if is_known && gap_along_m(&a, &b, &pair.axis) >= -deepest_m {
+            if pair.has_axis() && gap_along_m(&a, &b, &pair.axis) >= -deepest_m {
                 continue;
             }
             let parting = part(&a, &b, &mut self.memory);
@@ -150,8 +149,7 @@ impl GeometryLedger {
                 }
                 // An impulse lasts until the next one: of a kick half-way half a step beyond the end.
                 let more_s = if approach == Approach::Middle { 0.5 * step_s } else { 0.0 };
-                let [over_s, more_s] = [step_s, more_s];
-                self.each_group(model, contacts, |judge, group| judge.kicked(group, [kicked, after], over_s, more_s));
+                self.each_group(model, contacts, |judge, group| judge.kicked(group, [kicked, after], step_s, more_s));
             }
             Acted::Blow { contacts } => {
                 self.each_group(model, contacts, |judge, group| judge.struck(group, [before, after]));

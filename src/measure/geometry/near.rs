@@ -17,6 +17,13 @@ pub struct NearPair {
     pub axis: Vector3<f64>,
 }
 
+impl NearPair {
+    /// Whether it has been compared in full.
+    pub fn has_axis(&self) -> bool {
+        self.axis.x != 0.0 || self.axis.y != 0.0 || self.axis.z != 0.0
+    }
+}
+
 /// All of them, sorted.
 #[derive(Clone, Debug, Default)]
 pub struct NearPairs {

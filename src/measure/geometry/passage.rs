@@ -28,7 +28,7 @@ pub fn gap_m(
     let origin_W = stands[1].p_WB;
     let [a, b] = [0, 1].map(|i| posed(model, pair.bodies[i], &stands[i], &origin_W));
     let (Some(a), Some(b)) = (a, b) else { return f64::INFINITY };
-    if pair.axis.x != 0.0 || pair.axis.y != 0.0 || pair.axis.z != 0.0 {
+    if pair.has_axis() {
         let gap_m = gap_along_m(&a, &b, &pair.axis);
         if gap_m >= enough_m {
             return gap_m;

@@ -4,8 +4,8 @@ use crate::math::quadrature;
 use crate::shown::{ContactForce, Moment};
 use crate::state::State;
 
-/// Moments at the nodes of Gauss's quadrature with five points, of so long a way from a state; `place` puts the bodies of
-/// a state where they are at its time, and tells the forces of their contacts.
+/// Moments at the nodes of Gauss's quadrature with five points, of so long a way from a state; `place` puts the bodies
+/// of a state where they are at its time, and tells the forces of their contacts.
 pub(super) fn moments(
     from: &State,
     span_s: f64,

@@ -8,32 +8,28 @@ pub use crate::experiment::types::Approach;
 use crate::model::Model;
 use nalgebra::Vector3;
 
-/// Leaves those contacts that may close in the step: of every body and face (or other body) none beyond twice the way
-/// that the fastest of them closes by itself, as one that touches may turn the body toward the others. `velocities`: of
-/// a body by its index, before the contacts.
+/// Says of contacts which may close in the step: of every body and face (or other body) none beyond twice the way that
+/// the fastest of them closes by itself, as one that touches may turn the body toward the others, nor beyond the way
+/// that the step's forces lead the bodies, as impulses that hold one corner let another one fall. What impulses of
+/// others close all the same is seen when they are known. `velocities`: of a body by its index, with the step's forces;
+/// `fall_m`: how far these lead it in the step.
 pub fn foresee(
     model: &Model,
-    contacts: &mut Vec<Contact>,
+    contacts: &[Contact],
     velocities: impl Fn(usize) -> [Vector3<f64>; 2],
+    fall_m: impl Fn(usize) -> f64,
     step_s: f64,
+    may_close: &mut Vec<bool>,
 ) {
+    may_close.clear();
     let closing_m = |contact: &Contact| -step_s * contact.normal.dot(&contact.velocity(&velocities));
     let with = |contact: &Contact| (contact.body, contact.other, contact.other.map_or(contact.feature.0, |_| 0));
-    let (mut kept, mut from) = (0, 0);
-    while from < contacts.len() {
-        let len = contacts[from..].iter().take_while(|contact| with(contact) == with(&contacts[from])).count();
-        let group = from..from + len;
+    for group in contacts.chunk_by(|a, b| with(a) == with(b)) {
         let closes_m = |contact: &Contact| if closing_m(contact) > contact.gap_m { closing_m(contact) } else { 0.0 };
-        let reach_m = 2.0 * contacts[group.clone()].iter().map(closes_m).fold(0.0, f64::max);
-        for i in group {
-            if contacts[i].gap_m <= reach_m.max(rounding_m(model, &contacts[i])) {
-                contacts.swap(kept, i);
-                kept += 1;
-            }
-        }
-        from += len;
+        let alone_m = 2.0 * group.iter().map(closes_m).fold(0.0, f64::max);
+        let reach_m = group[0].ends().map(|(i, ..)| fall_m(i)).fold(alone_m, f64::max);
+        may_close.extend(group.iter().map(|contact| contact.gap_m <= reach_m.max(rounding_m(model, contact))));
     }
-    contacts.truncate(kept);
 }
 
 impl Approach {

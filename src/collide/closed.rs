@@ -34,7 +34,12 @@ pub fn size_m(model: &Model, contact: &Contact) -> f64 {
 
 /// A gap that is none for steps of equal length.
 pub fn rounding_m(model: &Model, contact: &Contact) -> f64 {
-    CLOSED * size_m(model, contact) + unresolved_m(contact.p_WC.amax())
+    closed_m(size_m(model, contact), contact.p_WC.amax())
+}
+
+/// The same of a body of this size, at such a coordinate.
+pub fn closed_m(radius_m: f64, coordinate_m: f64) -> f64 {
+    CLOSED * radius_m + unresolved_m(coordinate_m)
 }
 
 /// As steps of equal length have it.

@@ -1,74 +1,64 @@
 //! The contact test of a whole state, with its memory.
 
+use super::ahead::Ahead;
 use super::broad::{Bounds, Broad};
 use super::closed::unresolved_m;
+use super::doubt::Doubts;
 use super::{Contact, faces};
 use crate::model::surface::Surface;
 use crate::model::{Body, Model};
-use crate::shape::pair::touches;
+use crate::shape::pair::{Apart, touches};
 use crate::shape::solid::{Meeting, Pose};
 use crate::state::{BodyState, State};
 use crate::work::Work;
 use nalgebra::Vector3;
 
-/// Largest gap of what still is a contact.
+/// Gap that still is a contact wherever bodies move, of the body's bounding radius: what touches with gap zero is one
+/// whatever its last bit says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// Gap that always counts as a contact, of the body's bounding radius: what touches with gap zero is one whatever
-    /// its last bit says.
     pub margin: f64,
-    /// Time ahead, in seconds: gaps that may close in it are contacts as well.
-    pub ahead_s: f64,
 }
-
-/// Largest gap that is looked at ahead, of the smaller body's bounding radius. The plane between two bodies stands for
-/// their surfaces only nearby; a container's faces are planes.
-const NEARBY: f64 = 0.3;
 
 impl Reach {
     /// Reach of what is inside.
-    pub const INSIDE: Reach = Reach { margin: 0.0, ahead_s: 0.0 };
+    pub const INSIDE: Reach = Reach { margin: 0.0 };
 
-    fn margin_m(&self, body: &Body, at: &BodyState) -> f64 {
+    /// Reach of one body, in metres.
+    pub(super) fn margin_m(&self, body: &Body, at: &BodyState) -> f64 {
         if self.margin == 0.0 { 0.0 } else { self.margin * body.bounding_radius_m + unresolved_m(at.p_WB.amax()) }
     }
+}
 
-    /// Length that gravity alone may close in the time, in metres.
-    fn fall_m(&self, model: &Model) -> f64 {
-        model.gravity_m_s2.norm() * self.ahead_s * self.ahead_s
+/// Gaps up to which a contact test looks, in metres.
+pub(super) trait Limits {
+    /// Of a body and a face with this normal.
+    fn face_m(&self, body: usize, normal: &Vector3<f64>) -> f64;
+    /// Of two bodies.
+    fn pair_m(&self, pair: [usize; 2]) -> f64;
+    /// Around a body, for the search of pairs: two of them cover `pair_m`.
+    fn around_m(&self, body: usize) -> f64;
+}
+
+/// A reach, of the bodies as they stand.
+struct Here<'a> {
+    reach: &'a Reach,
+    model: &'a Model,
+    state: &'a State,
+}
+
+impl Limits for Here<'_> {
+    fn face_m(&self, body: usize, _: &Vector3<f64>) -> f64 {
+        self.around_m(body)
     }
 
-    fn turning_m(&self, body: &Body, at: &BodyState) -> f64 {
-        at.w_WB.norm() * body.bounding_radius_m * self.ahead_s
+    fn pair_m(&self, pair: [usize; 2]) -> f64 {
+        let [a, b] = pair.map(|i| self.around_m(i));
+        a.max(b)
     }
 
-    fn face_reach_m(&self, model: &Model, body: &Body, at: &BodyState, normal: &Vector3<f64>) -> f64 {
-        let margin_m = self.margin_m(body, at);
-        if self.ahead_s == 0.0 {
-            return margin_m;
-        }
-        let closing_m = -normal.dot(&at.v_WB) * self.ahead_s;
-        margin_m + (closing_m + self.turning_m(body, at) + self.fall_m(model)).max(0.0)
-    }
-
-    fn body_reach_m(&self, model: &Model, bodies: [&Body; 2], at: [&BodyState; 2]) -> f64 {
-        let [a, b] = [0, 1].map(|i| self.margin_m(bodies[i], at[i]));
-        if self.ahead_s == 0.0 {
-            return a.max(b);
-        }
-        let turning_m: f64 = [0, 1].iter().map(|&i| self.turning_m(bodies[i], at[i])).sum();
-        let ahead_m = (at[0].v_WB - at[1].v_WB).norm() * self.ahead_s + turning_m + self.fall_m(model);
-        a.max(b) + ahead_m.min(NEARBY * bodies[0].bounding_radius_m.min(bodies[1].bounding_radius_m))
-    }
-
-    /// Reach around a body, for the search of pairs, in metres; two of them cover `body_reach_m`.
-    fn around_m(&self, model: &Model, body: &Body, at: &BodyState) -> f64 {
-        let margin_m = self.margin_m(body, at);
-        if self.ahead_s == 0.0 {
-            return margin_m;
-        }
-        let ahead_m = at.v_WB.norm() * self.ahead_s + self.turning_m(body, at) + self.fall_m(model);
-        margin_m + ahead_m.min(NEARBY * body.bounding_radius_m)
+    fn around_m(&self, body: usize) -> f64 {
+        self.reach.margin_m(&self.model.bodies[body], &self.state.bodies[body])
     }
 }
 
@@ -94,25 +84,57 @@ impl Detector {
         work: &mut Work,
     ) {
         contacts.clear();
-        with_container(model, state, reach, contacts, work);
-        if model.touching_pairs {
-            let found = contacts.len();
-            self.with_each_other(model, state, reach, contacts, work);
-            if contacts.len() > found {
-                contacts.sort_unstable_by_key(Contact::key);
-            }
+        let limits = Here { reach, model, state };
+        with_container(model, state, &limits, contacts, work);
+        let found = contacts.len();
+        self.each_pair(model, state, &limits, work, |pair, touches, _, _| {
+            contacts.extend(touches.iter().map(|touch| of_pair(model, state, pair, touch)));
+        });
+        if contacts.len() > found {
+            contacts.sort_unstable_by_key(Contact::key);
         }
     }
 
-    fn with_each_other(
+    /// Fills `contacts` with all points that the bodies may reach in a step, but for those of pairs in doubt
+    /// (`doubt.rs`), which go to `doubts`.
+    pub fn look_ahead(
         &mut self,
         model: &Model,
         state: &State,
-        reach: &Reach,
-        contacts: &mut Vec<Contact>,
+        ahead: &Ahead,
+        (contacts, doubts): (&mut Vec<Contact>, &mut Doubts),
         work: &mut Work,
     ) {
-        self.find_pairs(model, state, reach);
+        contacts.clear();
+        doubts.clear();
+        with_container(model, state, ahead, contacts, work);
+        let found = contacts.len();
+        self.each_pair(model, state, ahead, work, |pair, touches, apart, limit_m| {
+            if let Some(apart) = apart.filter(|apart| apart.gap_m < limit_m) {
+                let points = || touches.iter().map(|touch| of_pair(model, state, pair, touch));
+                if !doubts.take(model, (pair, &state.bodies[pair[0]], &apart), limit_m, points()) {
+                    contacts.extend(points());
+                }
+            }
+        });
+        if contacts.len() > found {
+            contacts.sort_unstable_by_key(Contact::key);
+        }
+    }
+
+    /// Calls `visit` with the bodies, their points within the limit, how far apart they are, and the limit.
+    fn each_pair(
+        &mut self,
+        model: &Model,
+        state: &State,
+        limits: &impl Limits,
+        work: &mut Work,
+        mut visit: impl FnMut([usize; 2], &[Meeting], Option<Apart>, f64),
+    ) {
+        if !model.touching_pairs {
+            return;
+        }
+        self.find_pairs(model, state, limits);
         for &(a, b) in &self.pairs {
             let pair = [self.solids[a as usize], self.solids[b as usize]];
             let bodies = pair.map(|i| &model.bodies[i]);
@@ -124,39 +146,45 @@ impl Detector {
             };
             work.contact_tests += 1;
             self.touches.clear();
-            let limit_m = reach.body_reach_m(model, bodies, at);
-            touches(solid_a, &pose(centre_a, at[0]), solid_b, &pose(centre_b, at[1]), limit_m, &mut self.touches);
-            let Surface { friction, restitution, tangential_restitution } = model.pair(pair[0], Some(pair[1]));
-            contacts.extend(self.touches.iter().map(|touch| Contact {
-                body: pair[0],
-                other: Some(pair[1]),
-                feature: touch.feature,
-                r_BC_W: touch.p_W - at[0].p_WB,
-                r_OC_W: touch.p_W - at[1].p_WB,
-                p_WC: touch.p_W,
-                normal: touch.normal,
-                gap_m: touch.gap_m,
-                friction,
-                restitution,
-                tangential_restitution,
-            }));
+            let limit_m = limits.pair_m(pair);
+            let (pose_a, pose_b) = (pose(centre_a, at[0]), pose(centre_b, at[1]));
+            let apart = touches(solid_a, &pose_a, solid_b, &pose_b, limit_m, &mut self.touches);
+            visit(pair, &self.touches, apart, limit_m);
         }
     }
 
-    fn find_pairs(&mut self, model: &Model, state: &State, reach: &Reach) {
+    fn find_pairs(&mut self, model: &Model, state: &State, limits: &impl Limits) {
         self.solids.clear();
         self.bounds.clear();
         for (i, (body, at)) in model.bodies.iter().zip(&state.bodies).enumerate() {
             if body.solid().is_some() {
                 self.solids.push(i);
-                self.bounds.push(Bounds::around(&at.p_WB, body.bounding_radius_m + reach.around_m(model, body, at)));
+                self.bounds.push(Bounds::around(&at.p_WB, body.bounding_radius_m + limits.around_m(i)));
             }
         }
         self.broad.pairs(&self.bounds, &mut self.pairs);
     }
 }
 
-fn with_container(model: &Model, state: &State, reach: &Reach, contacts: &mut Vec<Contact>, work: &mut Work) {
+/// A point of contact of two bodies as they stand.
+pub(super) fn of_pair(model: &Model, state: &State, pair: [usize; 2], touch: &Meeting) -> Contact {
+    let Surface { friction, restitution, tangential_restitution } = model.pair(pair[0], Some(pair[1]));
+    Contact {
+        body: pair[0],
+        other: Some(pair[1]),
+        feature: touch.feature,
+        r_BC_W: touch.p_W - state.bodies[pair[0]].p_WB,
+        r_OC_W: touch.p_W - state.bodies[pair[1]].p_WB,
+        p_WC: touch.p_W,
+        normal: touch.normal,
+        gap_m: touch.gap_m,
+        friction,
+        restitution,
+        tangential_restitution,
+    }
+}
+
+fn with_container(model: &Model, state: &State, limits: &impl Limits, contacts: &mut Vec<Contact>, work: &mut Work) {
     let Some(container) = &model.container else { return };
     for (index, (body, at)) in model.bodies.iter().zip(&state.bodies).enumerate() {
         if !body.feels_container() {
@@ -164,7 +192,7 @@ fn with_container(model: &Model, state: &State, reach: &Reach, contacts: &mut Ve
         }
         let Surface { friction, restitution, tangential_restitution } = model.pair(index, None);
         for (f, face) in container.faces.iter().enumerate() {
-            let limit_m = reach.face_reach_m(model, body, at, &face.normal);
+            let limit_m = limits.face_m(index, &face.normal);
             work.contact_tests += faces::each_near(body, at, face, limit_m, |node, r_BC_W, gap_m| {
                 contacts.push(Contact {
                     body: index,
@@ -184,7 +212,7 @@ fn with_container(model: &Model, state: &State, reach: &Reach, contacts: &mut Ve
     }
 }
 
-fn pose(centre: &Vector3<f64>, at: &BodyState) -> Pose {
+pub(super) fn pose(centre: &Vector3<f64>, at: &BodyState) -> Pose {
     Pose { p_W: at.p_WB + at.q_WB * centre, q_W: at.q_WB }
 }
 

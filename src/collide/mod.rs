@@ -5,13 +5,16 @@
 //! step: the law of contact then keeps it from closing further than to zero. Contacts come in a stable order: body,
 //! other body, feature.
 
+mod ahead;
 pub mod approach;
 pub mod broad;
 pub mod closed;
 mod contact;
 pub mod detector;
+pub mod doubt;
 pub mod faces;
 pub mod reduce;
 
+pub use ahead::Ahead;
 pub use contact::{Contact, Key, SolvedContact};
 pub use detector::{Detector, Reach, deepest};

@@ -39,27 +39,59 @@ pub fn separation(a: &Placed, b: &Placed, n: &Vector3<f64>) -> f64 {
     n.dot(&(a.support(&-n) - b.support(n)))
 }
 
-/// The axis and, where it belongs to a face, the best one that does not (should the faces not lie opposite each other).
-pub fn axis(a: &Placed, b: &Placed, size_m: f64) -> (Axis, Vector3<f64>) {
-    let flat = best_face(a, b, size_m);
+/// The largest separation along a direction that is not nearly an axis' own: another one that may part two bodies.
+struct Second {
+    best: (Vector3<f64>, f64),
+    pub gap_m: f64,
+}
+
+/// Cosine above which two directions are nearly one.
+const ONE_DIRECTION: f64 = 0.99;
+
+impl Second {
+    fn new() -> Self {
+        Second { best: (Vector3::zeros(), f64::NEG_INFINITY), gap_m: f64::NEG_INFINITY }
+    }
+
+    /// Takes note of a direction; if it is a new best one, what was best may be the second.
+    fn note(&mut self, normal: &Vector3<f64>, gap_m: f64) {
+        let is_other = self.best.0.dot(normal) < ONE_DIRECTION;
+        if gap_m > self.best.1 {
+            if is_other {
+                self.gap_m = self.best.1;
+            }
+            self.best = (*normal, gap_m);
+        } else if is_other && gap_m > self.gap_m {
+            self.gap_m = gap_m;
+        }
+    }
+}
+
+/// The axis; where it belongs to a face, the best one that does not (should the faces not lie opposite each other); and
+/// the largest separation along any other face's normal or across other edges.
+pub fn axis(a: &Placed, b: &Placed, size_m: f64) -> (Axis, Vector3<f64>, f64) {
+    let mut second = Second::new();
+    let flat = best_face(a, b, size_m, &mut second);
     let (normal, gap_m) = if a.is_polytope() && b.is_polytope() {
-        of_polytopes(a, b, &flat, size_m)
+        of_polytopes(a, b, &flat, size_m, &mut second)
     } else {
         of_curved(a, b, &flat, size_m)
     };
+    second.note(&normal, gap_m);
     match flat {
-        Some(flat) if flat.gap_m >= gap_m - EQUAL * size_m => (flat, normal),
-        _ => (Axis { normal, gap_m, face: None }, normal),
+        Some(flat) if flat.gap_m >= gap_m - EQUAL * size_m => (flat, normal, second.gap_m),
+        _ => (Axis { normal, gap_m, face: None }, normal, second.gap_m),
     }
 }
 
 /// The face with the largest separation; of equals a's.
-fn best_face(a: &Placed, b: &Placed, size_m: f64) -> Option<Axis> {
+fn best_face(a: &Placed, b: &Placed, size_m: f64, second: &mut Second) -> Option<Axis> {
     let mut best: Option<Axis> = None;
     let of_a = (0..a.faces()).map(|face| (-a.face_normal(face), Face::OfA(face), 0.0));
     let of_b = (0..b.faces()).map(|face| (b.face_normal(face), Face::OfB(face), EQUAL * size_m));
     for (normal, face, handicap_m) in of_a.chain(of_b) {
         let gap_m = separation(a, b, &normal);
+        second.note(&normal, gap_m);
         if best.as_ref().is_none_or(|best| gap_m > best.gap_m + handicap_m) {
             best = Some(Axis { normal, gap_m, face: Some(face) });
         }
@@ -67,7 +99,7 @@ fn best_face(a: &Placed, b: &Placed, size_m: f64) -> Option<Axis> {
     best
 }
 
-fn of_polytopes(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64) -> (Vector3<f64>, f64) {
+fn of_polytopes(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64, second: &mut Second) -> (Vector3<f64>, f64) {
     let mut best = flat.as_ref().map_or((Vector3::y(), f64::NEG_INFINITY), |flat| (flat.normal, flat.gap_m));
     for i in 0..a.lines() {
         for j in 0..b.lines() {
@@ -78,6 +110,7 @@ fn of_polytopes(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64) -> (Ve
             }
             for normal in [across / length, -across / length] {
                 let gap_m = separation(a, b, &normal);
+                second.note(&normal, gap_m);
                 if gap_m > best.1 + EQUAL * size_m {
                     best = (normal, gap_m);
                 }

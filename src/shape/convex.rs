@@ -24,6 +24,13 @@ pub(super) fn support(hull: &Hull, d: &Vector3<f64>) -> Vector3<f64> {
     farthest.1
 }
 
+/// Least width between two parallel planes of which one holds a face.
+pub fn least_width_m(hull: &Hull) -> f64 {
+    let width_m =
+        |face: &Polygon| face.normal.dot(&(hull.vertices[face.corners[0] as usize] - support(hull, &-face.normal)));
+    hull.faces.iter().map(width_m).fold(f64::INFINITY, f64::min)
+}
+
 /// Moments of its tets.
 pub fn moments(hull: &Hull) -> Moments {
     exact(&hull_mesh(hull))

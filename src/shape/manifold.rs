@@ -139,6 +139,15 @@ impl<'a> Side<'a> {
         (0..n).map(move |i| (i, (i + 1) % n)).chain(line)
     }
 
+    /// Straight pieces of the outline, or the one point that it is.
+    fn pieces(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.edges().chain(matches!(self, Side::Point(_)).then_some((0, 0)))
+    }
+
+    fn piece_feature(&self, (i, j): (usize, usize)) -> u32 {
+        if i == j { self.corner_feature(i) } else { self.edge_feature((i, j)) }
+    }
+
     fn edge_feature(&self, (i, j): (usize, usize)) -> u32 {
         feature::edge(self.number(i), self.number(j))
     }
@@ -169,16 +178,41 @@ fn projected(p: &Vector3<f64>, n: &Vector3<f64>, normal: &Vector3<f64>, on: &Vec
     (along.abs() > 1e-6).then(|| p + n * (normal.dot(&(on - p)) / along))
 }
 
+/// Sides that face each other along the axis of a face.
+fn facing_sides<'a>(a: &'a Placed, b: &'a Placed, axis: &Axis) -> Option<[Side<'a>; 2]> {
+    let (face_a, face_b) = match axis.face? {
+        Face::OfA(face) => (Some(face), None),
+        Face::OfB(face) => (None, Some(face)),
+    };
+    Some([Side::facing(a, &-axis.normal, face_a), Side::facing(b, &axis.normal, face_b)])
+}
+
+/// Calls `visit` for the point where the outlines of two facing sides are nearest to each other, which do not lie
+/// opposite; not for round ones.
+pub fn of_nearest_edges(a: &Placed, b: &Placed, axis: &Axis, visit: &mut impl FnMut(Opposite)) {
+    let Some([side_a, side_b]) = facing_sides(a, b, axis) else { return };
+    let mut nearest: Option<(f64, Opposite)> = None;
+    for edge_a in side_a.pieces() {
+        let (p, u) = (side_a.corner(edge_a.0), side_a.corner(edge_a.1) - side_a.corner(edge_a.0));
+        for edge_b in side_b.pieces() {
+            let (q, v) = (side_b.corner(edge_b.0), side_b.corner(edge_b.1) - side_b.corner(edge_b.0));
+            let (s, t) = closest_parts(&p, &u, &q, &v);
+            let (on_a, on_b) = (p + u * s, q + v * t);
+            let distance_m = (on_a - on_b).norm();
+            if nearest.as_ref().is_none_or(|(least_m, _)| distance_m < *least_m) {
+                let feature = (side_a.piece_feature(edge_a), side_b.piece_feature(edge_b));
+                nearest = Some((distance_m, Opposite { on_a, on_b, feature }));
+            }
+        }
+    }
+    nearest.into_iter().for_each(|(_, at)| visit(at));
+}
+
 /// Calls `visit` for the points where a face of one of the two lies opposite a side of the other.
 pub fn of_face(a: &Placed, b: &Placed, axis: &Axis, size_m: f64, visit: &mut impl FnMut(Opposite)) {
-    let (face_a, face_b) = match axis.face {
-        Some(Face::OfA(face)) => (Some(face), None),
-        Some(Face::OfB(face)) => (None, Some(face)),
-        None => return,
-    };
+    let Some([side_a, side_b]) = facing_sides(a, b, axis) else { return };
     let n = axis.normal;
     let slack_m = ONE_POINT * size_m;
-    let (side_a, side_b) = (Side::facing(a, &-n, face_a), Side::facing(b, &n, face_b));
     corners(&side_a, &side_b, &n, slack_m, visit);
     for edge_a in side_a.edges() {
         for edge_b in side_b.edges() {

@@ -3,34 +3,90 @@
 //! Spheres by the nearest point of the other surface, capsules among themselves by their segments; everything else by
 //! the axis between the cores (`axis.rs`), then the corners of what lies opposite along it (`manifold.rs`).
 
-use super::axis::{Axis, Face, axis};
-use super::manifold::{Opposite, closest_parts, of_face, of_lines};
+use super::axis::{Axis, Face, axis, separation};
+use super::manifold::{Opposite, closest_parts, of_face, of_lines, of_nearest_edges};
 use super::placed::Placed;
 use super::solid::{Meeting, Pose, Solid};
 use nalgebra::Vector3;
 
+/// How far apart two solids are, and along which axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Apart {
+    /// Unit axis of the largest separation, from b to a.
+    pub normal: Vector3<f64>,
+    /// The largest separation, in metres; of what overlaps minus the depth.
+    pub gap_m: f64,
+    /// The largest separation along another direction that may part them: a face's normal, or across edges.
+    pub second_m: f64,
+    /// Both have corners and edges alone, and the axis is a face's: it stays so as they move along it.
+    pub is_flat: bool,
+}
+
 /// Adds all points of two solids whose gap is below the margin. Solids that are apart by less than the margin touch in
-/// one point at least.
-pub fn touches(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose, margin_m: f64, out: &mut Vec<Meeting>) {
+/// one point at least; how far apart they are is said if their bounding spheres are within the margin.
+pub fn touches(
+    a: &Solid,
+    pose_a: &Pose,
+    b: &Solid,
+    pose_b: &Pose,
+    margin_m: f64,
+    out: &mut Vec<Meeting>,
+) -> Option<Apart> {
     let reach_m = a.bounding_radius_m() + b.bounding_radius_m();
     if (pose_a.p_W - pose_b.p_W).norm_squared() >= (reach_m + margin_m.max(0.0)) * (reach_m + margin_m.max(0.0)) {
-        return;
+        return None;
     }
-    match (a, b) {
-        (Solid::Sphere { radius_m }, _) => out.extend(of_sphere(*radius_m, pose_a, b, pose_b, 1.0, margin_m)),
-        (_, Solid::Sphere { radius_m }) => out.extend(of_sphere(*radius_m, pose_b, a, pose_a, -1.0, margin_m)),
-        _ => {
-            let origin_W = pose_b.p_W;
-            let placed = [Placed::new(a, pose_a, &origin_W), Placed::new(b, pose_b, &origin_W)];
-            let is_capsules = matches!((a, b), (Solid::Capsule { .. }, Solid::Capsule { .. }));
-            let (axis, otherwise) =
-                if is_capsules { of_capsules(&placed[0], &placed[1]) } else { axis(&placed[0], &placed[1], reach_m) };
-            let mut collect = Collect { placed: &placed, origin_W, margin_m, visited: false, out };
-            if axis.gap_m - collect.radii_m() < margin_m {
-                collect.all(&axis, &otherwise, reach_m);
-            }
-        }
+    if let Some((apart, meeting)) = of_any_sphere(a, pose_a, b, pose_b) {
+        out.extend((apart.gap_m < margin_m).then_some(meeting));
+        return Some(apart);
     }
+    let origin_W = pose_b.p_W;
+    let placed = [Placed::new(a, pose_a, &origin_W), Placed::new(b, pose_b, &origin_W)];
+    let (axis, otherwise, apart) = of_cores(&placed, reach_m);
+    let mut collect = Collect { placed: &placed, origin_W, margin_m, visited: false, out };
+    if apart.gap_m < margin_m {
+        collect.all(&axis, &otherwise, reach_m);
+    }
+    Some(apart)
+}
+
+/// How far apart two solids are, wherever they are.
+pub fn apart(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose) -> Apart {
+    if let Some((apart, _)) = of_any_sphere(a, pose_a, b, pose_b) {
+        return apart;
+    }
+    let origin_W = pose_b.p_W;
+    let placed = [Placed::new(a, pose_a, &origin_W), Placed::new(b, pose_b, &origin_W)];
+    of_cores(&placed, a.bounding_radius_m() + b.bounding_radius_m()).2
+}
+
+/// Separation of two solids along a unit direction from b to a, in metres.
+pub fn along(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose, normal: &Vector3<f64>) -> f64 {
+    let origin_W = pose_b.p_W;
+    let [a, b] = [Placed::new(a, pose_a, &origin_W), Placed::new(b, pose_b, &origin_W)];
+    separation(&a, &b, normal) - a.radius_m() - b.radius_m()
+}
+
+/// The axis between two cores, what else it may be where no face lies opposite (`axis::axis`), and the solids' distance.
+fn of_cores(placed: &[Placed; 2], reach_m: f64) -> (Axis, Vector3<f64>, Apart) {
+    let [a, b] = placed;
+    let is_capsules = matches!((a.solid, b.solid), (Solid::Capsule { .. }, Solid::Capsule { .. }));
+    let (axis, otherwise, second_m) = if is_capsules { of_capsules(a, b) } else { axis(a, b, reach_m) };
+    let radii_m = a.radius_m() + b.radius_m();
+    let is_flat = axis.face.is_some() && a.is_polytope() && b.is_polytope() && radii_m == 0.0;
+    let (normal, gap_m) = (axis.normal, axis.gap_m - radii_m);
+    (axis, otherwise, Apart { normal, gap_m, second_m: second_m - radii_m, is_flat })
+}
+
+/// If one of the two is a sphere: how far apart they are, and their point of contact.
+fn of_any_sphere(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose) -> Option<(Apart, Meeting)> {
+    let meeting = match (a, b) {
+        (Solid::Sphere { radius_m }, _) => of_sphere(*radius_m, pose_a, b, pose_b, 1.0),
+        (_, Solid::Sphere { radius_m }) => of_sphere(*radius_m, pose_b, a, pose_a, -1.0),
+        _ => return None,
+    };
+    let Meeting { normal, gap_m, .. } = meeting;
+    Some((Apart { normal, gap_m, second_m: f64::NEG_INFINITY, is_flat: false }, meeting))
 }
 
 struct Collect<'a> {
@@ -50,9 +106,13 @@ impl Collect<'_> {
     fn all(&mut self, axis: &Axis, otherwise: &Vector3<f64>, size_m: f64) {
         let [a, b] = self.placed;
         let face = axis.face.or_else(|| nearly_facing(a, b, &axis.normal));
-        of_face(a, b, &Axis { face, ..*axis }, size_m, &mut |at| self.add(&axis.normal, at));
+        let facing = Axis { face, ..*axis };
+        of_face(a, b, &facing, size_m, &mut |at| self.add(&axis.normal, at));
+        let normal = if axis.face.is_some() { otherwise } else { &axis.normal };
+        if !self.visited && axis.normal.cross(normal).norm() <= BESIDE {
+            of_nearest_edges(a, b, &facing, &mut |at| self.add(normal, at));
+        }
         if !self.visited {
-            let normal = if axis.face.is_some() { otherwise } else { &axis.normal };
             of_lines(a, b, normal, size_m, &mut |at| self.add(normal, at));
         }
     }
@@ -73,39 +133,35 @@ impl Collect<'_> {
 /// edge would twist.
 const NEARLY: f64 = 0.95;
 
-/// The face of either that is nearest to facing along the axis, if it nearly does.
+/// Sine of the angle from a face's normal at which bodies touch that just do not lie over each other: which edges meet
+/// there the axis does not tell.
+const BESIDE: f64 = 0.1;
+
+/// The same where one of the two is round: straight lines on it lie along the face, as far as rounding tells.
+const NEARLY_ROUND: f64 = 1.0 - 1e-12;
+
+/// The face of either that is nearest to facing along the axis, if it nearly does; of polyhedra.
 fn nearly_facing(a: &Placed, b: &Placed, normal: &Vector3<f64>) -> Option<Face> {
-    let is_polyhedron = |of: &Placed| of.is_polytope() && of.faces() > 0;
-    if !is_polyhedron(a) || !is_polyhedron(b) {
-        return None;
-    }
-    let of_a = (0..a.faces()).map(|face| (-a.face_normal(face).dot(normal), Face::OfA(face)));
-    let of_b = (0..b.faces()).map(|face| (b.face_normal(face).dot(normal), Face::OfB(face)));
+    let [of_a, of_b] = [a, b].map(|of| if of.is_polytope() { of.faces() } else { 0 });
+    let least = if of_a > 0 && of_b > 0 { NEARLY } else { NEARLY_ROUND };
+    let of_a = (0..of_a).map(|face| (-a.face_normal(face).dot(normal), Face::OfA(face)));
+    let of_b = (0..of_b).map(|face| (b.face_normal(face).dot(normal), Face::OfB(face)));
     let best = of_a.chain(of_b).reduce(|best, next| if next.0 > best.0 { next } else { best });
-    best.filter(|(along, _)| *along > NEARLY).map(|(_, face)| face)
+    best.filter(|(along, _)| *along > least).map(|(_, face)| face)
 }
 
-/// Point of contact of a sphere, if there is one; `toward` is 1 if the sphere is a, −1 if it is b.
-fn of_sphere(
-    radius_m: f64,
-    pose: &Pose,
-    other: &Solid,
-    pose_other: &Pose,
-    toward: f64,
-    margin_m: f64,
-) -> Option<Meeting> {
+/// Point of contact of a sphere. `toward` is 1 if the sphere is a, −1 if it is b.
+fn of_sphere(radius_m: f64, pose: &Pose, other: &Solid, pose_other: &Pose, toward: f64) -> Meeting {
     let centre = pose_other.q_W.inverse_transform_vector(&(pose.p_W - pose_other.p_W));
     let nearest = other.closest(&centre);
     let gap_m = nearest.distance_m - radius_m;
-    (gap_m < margin_m).then(|| {
-        let out = pose_other.q_W * nearest.normal;
-        let p_W = pose.p_W - out * (radius_m + 0.5 * gap_m);
-        Meeting { p_W, normal: out * toward, gap_m, feature: (0, 0) }
-    })
+    let out = pose_other.q_W * nearest.normal;
+    let p_W = pose.p_W - out * (radius_m + 0.5 * gap_m);
+    Meeting { p_W, normal: out * toward, gap_m, feature: (0, 0) }
 }
 
 /// Segments that cross have no direction between them but the one across both, or any across one of them.
-fn of_capsules(a: &Placed, b: &Placed) -> (Axis, Vector3<f64>) {
+fn of_capsules(a: &Placed, b: &Placed) -> (Axis, Vector3<f64>, f64) {
     let (p, q) = (a.vertex(0), b.vertex(0));
     let (u, v) = (a.vertex(1) - p, b.vertex(1) - q);
     let (s, t) = closest_parts(&p, &u, &q, &v);
@@ -120,5 +176,5 @@ fn of_capsules(a: &Placed, b: &Placed) -> (Axis, Vector3<f64>) {
     } else {
         Vector3::ith(u.iamin(), 1.0).cross(&a.axis()).normalize()
     };
-    (Axis { normal, gap_m, face: None }, normal)
+    (Axis { normal, gap_m, face: None }, normal, f64::NEG_INFINITY)
 }

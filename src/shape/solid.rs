@@ -93,6 +93,17 @@ impl Solid {
         }
     }
 
+    /// Width across its thinnest, in metres; of a hull between two parallel planes of which one holds a face.
+    pub fn least_width_m(&self) -> f64 {
+        match self {
+            Solid::Sphere { radius_m } | Solid::Capsule { radius_m, .. } => 2.0 * radius_m,
+            Solid::Box { half_m } => 2.0 * half_m.min(),
+            Solid::Cylinder { radius_m, half_height_m } => 2.0 * radius_m.min(*half_height_m),
+            Solid::Ellipsoid { semi_axes_m } => 2.0 * semi_axes_m.min(),
+            Solid::Convex(hull) => convex::least_width_m(hull),
+        }
+    }
+
     /// Moments about its centre: closed forms, and the tets of a hull.
     pub fn moments(&self) -> Moments {
         match self {

@@ -57,6 +57,11 @@ impl End {
         }
     }
 
+    /// The body's velocities without an impulse that is in them.
+    pub fn take_off(&self, p: &Impulse, velocities: &mut Twist) {
+        self.rows.iter().zip(p.iter()).for_each(|(row, p)| velocities.add_scaled(&row.response, -p));
+    }
+
     /// J M⁻¹ Jᵀ of two contacts, if it is the same body's.
     pub(super) fn coupling(&self, other: &End) -> Option<Matrix3<f64>> {
         let (rows, others) = (&self.rows, &other.rows);

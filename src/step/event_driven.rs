@@ -257,13 +257,7 @@ impl EventDriven {
     fn detect(&mut self, model: &Model, state: &State) {
         self.found.clear();
         if self.contact {
-            self.detector.detect(
-                model,
-                state,
-                &Reach { margin: MARGIN, ahead_s: 0.0 },
-                &mut self.found,
-                &mut self.work,
-            );
+            self.detector.detect(model, state, &Reach { margin: MARGIN }, &mut self.found, &mut self.work);
             self.found.retain(|contact| is_closed_to_delta(model, contact));
         }
     }

@@ -10,12 +10,12 @@
 
 use super::blow::Blow;
 use super::drift::drift;
+use super::foreseen::Foreseen;
 use super::scratch::Scratch;
 use crate::clock::Clock;
-use crate::collide::approach::{Approach, foresee};
-use crate::collide::closed::MARGIN;
+use crate::collide::approach::Approach;
 use crate::collide::reduce::Reduction;
-use crate::collide::{Contact, Key, Reach, SolvedContact};
+use crate::collide::{Contact, Key, SolvedContact};
 use crate::deadline::Deadline;
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
 use crate::integrate::rotation::{exponential, w_from_momentum};
@@ -43,6 +43,9 @@ pub struct TimeStepping {
     position_correction: PositionCorrection,
     /// Which contact had which impulse in the last step, in the order of contacts.
     last: Vec<(Key, Impulse)>,
+    /// The same of this step, as far as it is solved.
+    solved: Vec<(Key, Impulse)>,
+    foreseen: Foreseen,
     pins: Vec<Pin>,
     last_pins: Vec<Impulse>,
     push: Push,
@@ -73,6 +76,8 @@ impl TimeStepping {
             reduction: settings.contacts_per_face.map(|most| Reduction::new(most, scratch.contacts())),
             position_correction: settings.position_correction,
             last: Vec::with_capacity(scratch.contacts()),
+            solved: Vec::with_capacity(scratch.contacts()),
+            foreseen: Foreseen::default(),
             pins: Vec::new(),
             last_pins: Vec::new(),
             push: Push::new(sweeps.tolerance, scratch.contacts(), scratch.free.capacity()),
@@ -96,15 +101,10 @@ impl TimeStepping {
             kicked.copy_from(state);
         }
         // 1. Contact test.
-        self.scratch.detect(model, state, &Reach { margin: MARGIN, ahead_s: clock.step_s });
         self.scratch.free_velocities(model, state, clock.step_s);
-        let free = &self.scratch.free;
-        foresee(model, &mut self.scratch.found, |i| [free[i].v, free[i].w], clock.step_s);
-        if let Some(reduction) = &mut self.reduction {
-            reduction.apply(&mut self.scratch.found);
-        }
-        // 2. Contact impulses; displacements that remove penetration.
-        self.solve_contacts(model, state, clock.step_s);
+        self.foreseen.look(model, state, &mut self.scratch, &self.last, clock.step_s);
+        // 2. Contact impulses, until they ask for no other contacts; displacements that remove penetration.
+        self.solve_rounds(model, state, clock.step_s);
         let pushed = self.push_out(model, state, clock.step_s);
         // 3. Velocities. 4. Position and attitude.
         let s = &mut self.scratch;
@@ -127,8 +127,32 @@ impl TimeStepping {
         clock.advance(state);
     }
 
+    fn solve_rounds(&mut self, model: &Model, state: &State, step_s: f64) {
+        let unsolved = self.scratch.work.unsolved;
+        self.solved.clear();
+        self.solve_contacts(model, state, step_s);
+        while !self.is_cut && self.foreseen.revise(model, state, &mut self.scratch, (self.approach, step_s)) {
+            self.scratch.work.unsolved = unsolved;
+            self.solve_contacts(model, state, step_s);
+        }
+        if self.foreseen.is_given_up {
+            self.scratch.work.unsolved = unsolved + 1;
+        }
+        std::mem::swap(&mut self.last, &mut self.solved);
+        self.last_pins.clear();
+        self.last_pins.extend_from_slice(&self.scratch.impulses[self.scratch.found.len()..]);
+        self.scratch.take_solution();
+        if let Some(reduction) = &self.reduction {
+            show(&reduction.left_out, &mut self.scratch.solved);
+        }
+    }
+
+    /// The impulses of the contacts that are asked for. `solved`: of this step's round before, if there was one.
     fn solve_contacts(&mut self, model: &Model, state: &State, step_s: f64) {
         let s = &mut self.scratch;
+        if let Some(reduction) = &mut self.reduction {
+            reduction.apply(&mut s.found);
+        }
         s.problem.gather(model, state, &s.free, &mut s.found, (self.approach, step_s));
         if !model.pins.is_empty() {
             // The velocity that closes what gap there is until the next step.
@@ -150,6 +174,9 @@ impl TimeStepping {
         if self.approach == Approach::Middle && struck.is_none() {
             hold_half_way(&mut s.problem, &s.impulses);
         }
+        if !self.solved.is_empty() {
+            warm_start(&s.found, &self.solved, &mut s.impulses);
+        }
         s.impulses.extend(&self.last_pins);
         s.impulses.resize(s.problem.blocks.len(), Impulse::zeros());
         s.problem.response(&s.impulses, &mut s.response);
@@ -167,14 +194,9 @@ impl TimeStepping {
             s.problem.take_off(&blow.response);
             s.impulses.iter_mut().zip(&blow.impulses).for_each(|(p, blow)| *p += blow);
         }
-        self.last.clear();
-        self.last.extend(s.found.iter().zip(&s.impulses).map(|(c, p)| (c.key(), *p)));
-        self.last_pins.clear();
-        self.last_pins.extend_from_slice(&s.impulses[s.found.len()..]);
-        s.take_solution();
-        if let Some(reduction) = &self.reduction {
-            show(&reduction.left_out, &mut s.solved);
-        }
+        self.solved.clear();
+        self.solved.extend(s.found.iter().zip(&s.impulses).map(|(c, p)| (c.key(), *p)));
+        s.problem.response(&s.impulses, &mut s.response);
     }
 
     fn push_out(&mut self, model: &Model, state: &State, step_s: f64) -> bool {

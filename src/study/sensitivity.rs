@@ -93,7 +93,7 @@ fn closed(model: &Model, start: &State, size_m: f64) -> Vec<Contact> {
     let radii = model.bodies.iter().map(|body| body.bounding_radius_m).filter(|radius| *radius > 0.0);
     let margin = 4.0 * size_m / radii.fold(f64::INFINITY, f64::min);
     let mut contacts = Vec::new();
-    Detector::default().detect(model, start, &Reach { margin, ahead_s: 0.0 }, &mut contacts, &mut Work::default());
+    Detector::default().detect(model, start, &Reach { margin }, &mut contacts, &mut Work::default());
     contacts
 }
 

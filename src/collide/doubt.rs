@@ -1,0 +1,277 @@
+//! Pairs in doubt: whether two bodies touch in a step, and along which axis, if more than one may part them.
+//!
+//! Two convex bodies are apart as long as one axis separates them: what is kept is s = max s_n ≥ 0 over all axes n, an
+//! "or". A step that asks for s_n ≥ 0 along the axis that separates them at its start asks for too much where another
+//! axis may take over (a crate that slides flush from one block to the next, a body that passes an edge), and a plane
+//! at a distance is not a round body. Such a pair is pushed only if its bodies, moved through the step with all its
+//! impulses but this pair's, would overlap; the axis is that of s where it reaches zero on that way, and the gap is
+//! what has to be left at the end of the step.
+//!
+//! The way is searched by conservative advancement (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems,
+//! Berkeley 1996, 2.3): no gap closes faster than points of the bodies move.
+
+use super::Contact;
+use super::closed::{closed_m, unresolved_m};
+use super::detector::{of_pair, pose};
+use crate::model::{Body, Model};
+use crate::shape::pair::{Apart, along, apart, touches};
+use crate::shape::solid::{Meeting, Pose, Solid};
+use crate::state::{BodyState, State};
+use crate::work::Work;
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// Band of separations that count alike, of the smaller body's bounding radius: what overlaps by less is apart.
+const BAND: f64 = 1e-9;
+/// Shortest advance, of the thinner body's least width: what overlaps for a shorter way does not meet.
+const LEAST: f64 = 0.02;
+/// Of that width: how deep a motion along an arc may lead beside its chord.
+const SAG: f64 = 0.005;
+/// Advances on one way.
+const MOST: usize = 10_000;
+/// Halvings of the time at which two bodies meet.
+const HALVINGS: usize = 60;
+/// Of that width: a way inside that leads through.
+const THROUGH: f64 = 0.3;
+
+/// A pair in doubt in this step.
+#[derive(Clone, Debug)]
+pub struct Doubt {
+    pub pair: [usize; 2],
+    /// Whether its points are asked to stay apart.
+    pub is_imposed: bool,
+    pub points: Vec<Contact>,
+}
+
+impl Doubt {
+    /// Axis of the points.
+    pub fn normal(&self) -> Vector3<f64> {
+        self.points.first().map_or_else(Vector3::zeros, |point| point.normal)
+    }
+}
+
+/// All pairs in doubt, in the order of their bodies; what was allocated is kept.
+#[derive(Clone, Debug, Default)]
+pub struct Doubts {
+    all: Vec<Doubt>,
+    used: usize,
+}
+
+impl Doubts {
+    pub fn clear(&mut self) {
+        self.used = 0;
+    }
+
+    pub fn list(&self) -> &[Doubt] {
+        &self.all[..self.used]
+    }
+
+    pub fn list_mut(&mut self) -> &mut [Doubt] {
+        &mut self.all[..self.used]
+    }
+
+    /// Takes in a pair with its points, if it is in doubt: another axis may part the two before this one closes, or a
+    /// round surface come between. A pair that touches along one axis alone is asked to stay apart at first.
+    pub(super) fn take(
+        &mut self,
+        model: &Model,
+        (pair, at, apart): ([usize; 2], &BodyState, &Apart),
+        limit_m: f64,
+        points: impl Iterator<Item = Contact>,
+    ) -> bool {
+        let rounding_m = closed_m(smaller_m(model, pair), at.p_WB.amax() + model.bodies[pair[0]].bounding_radius_m);
+        let touches = apart.gap_m <= rounding_m;
+        if apart.second_m < -limit_m && (apart.is_flat || touches) {
+            return false;
+        }
+
+        if self.used == self.all.len() {
+            self.all.push(Doubt { pair, is_imposed: false, points: Vec::new() });
+        }
+        let doubt = &mut self.all[self.used];
+        self.used += 1;
+        doubt.pair = pair;
+        doubt.points.clear();
+        doubt.points.extend(points);
+        doubt.is_imposed = touches && apart.second_m < -band_m(model, pair, at);
+        true
+    }
+}
+
+fn smaller_m(model: &Model, pair: [usize; 2]) -> f64 {
+    pair.map(|i| model.bodies[i].bounding_radius_m).into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// Overlap up to which two bodies are apart.
+pub fn band_m(model: &Model, pair: [usize; 2], at: &BodyState) -> f64 {
+    BAND * smaller_m(model, pair) + unresolved_m(at.p_WB.amax() + model.bodies[pair[0]].bounding_radius_m)
+}
+
+/// Two bodies on their way through a step, straight on and turning steadily.
+pub struct Way<'a> {
+    model: &'a Model,
+    state: &'a State,
+    pair: [usize; 2],
+    solids: [(&'a Solid, &'a Vector3<f64>); 2],
+    /// Velocity and angular velocity of each.
+    moving: [[Vector3<f64>; 2]; 2],
+    step_s: f64,
+    /// The most that the gap can change in a second.
+    speed: f64,
+}
+
+impl<'a> Way<'a> {
+    /// None: one of them has nothing to touch.
+    pub fn new(
+        model: &'a Model,
+        state: &'a State,
+        pair: [usize; 2],
+        moving: [[Vector3<f64>; 2]; 2],
+        step_s: f64,
+    ) -> Option<Self> {
+        let [Some(solid_a), Some(solid_b)] = pair.map(|i| model.bodies[i].solid()) else { return None };
+        let turning = |k: usize| {
+            let body: &Body = &model.bodies[pair[k]];
+            if body.is_centred_ball() { 0.0 } else { moving[k][1].norm() * body.bounding_radius_m }
+        };
+        let speed = (moving[0][0] - moving[1][0]).norm() + turning(0) + turning(1);
+        Some(Way { model, state, pair, solids: [solid_a, solid_b], moving, step_s, speed })
+    }
+
+    /// The most that a gap can change on the way.
+    pub fn most_m(&self) -> f64 {
+        self.speed * self.step_s
+    }
+
+    fn at(&self, k: usize, time_s: f64) -> BodyState {
+        let (at, [v, w]) = (&self.state.bodies[self.pair[k]], self.moving[k]);
+        let q_WB = UnitQuaternion::from_scaled_axis(w * time_s) * at.q_WB;
+        BodyState { p_WB: at.p_WB + v * time_s, q_WB, ..*at }
+    }
+
+    fn poses(&self, time_s: f64) -> [Pose; 2] {
+        [0, 1].map(|k| pose(self.solids[k].1, &self.at(k, time_s)))
+    }
+
+    fn apart(&self, time_s: f64, work: &mut Work) -> Apart {
+        work.contact_tests += 1;
+        let [pose_a, pose_b] = self.poses(time_s);
+        apart(self.solids[0].0, &pose_a, self.solids[1].0, &pose_b)
+    }
+
+    /// Not more than the gap, and the gap itself where the bodies are near each other.
+    fn gap_m(&self, time_s: f64, work: &mut Work) -> f64 {
+        let [pose_a, pose_b] = self.poses(time_s);
+        let radii_m = self.solids[0].0.bounding_radius_m() + self.solids[1].0.bounding_radius_m();
+        let between_m = (pose_a.p_W - pose_b.p_W).norm() - radii_m;
+        if between_m > radii_m { between_m } else { self.apart(time_s, work).gap_m }
+    }
+
+    /// The time up to which the bodies are apart, but for the band, if they do not stay so.
+    pub fn meet_s(&self, band_m: f64, work: &mut Work) -> Option<f64> {
+        if self.spheres_pass() {
+            return None;
+        }
+        let [start_m, end_m] = [0.0, self.step_s].map(|time_s| self.gap_m(time_s, work));
+        if start_m < -band_m {
+            return Some(0.0);
+        }
+        if self.speed == 0.0 || (end_m >= -band_m && !self.may_pass([start_m, end_m], band_m, work)) {
+            return None;
+        }
+        let least_m = LEAST * self.width_m();
+        let (mut from_s, mut gap_m) = (0.0, start_m);
+        for _ in 0..MOST {
+            let to_s: f64 = from_s + (gap_m + band_m).max(least_m) / self.speed;
+            let to_s = to_s.min(self.step_s);
+            gap_m = if to_s == self.step_s { end_m } else { self.gap_m(to_s, work) };
+            if gap_m < -band_m {
+                return Some(self.last_apart([from_s, to_s], band_m, work));
+            }
+            if to_s == self.step_s {
+                return None;
+            }
+            from_s = to_s;
+        }
+        None
+    }
+
+    /// Whether the way that is left after they meet leads them through each other, or deep inside.
+    pub fn is_through(&self, meet_s: f64) -> bool {
+        self.speed * (self.step_s - meet_s) > THROUGH * self.width_m()
+    }
+
+    /// Between a time at which they are apart and one at which they overlap, as far as the band tells.
+    fn last_apart(&self, [mut from_s, mut to_s]: [f64; 2], band_m: f64, work: &mut Work) -> f64 {
+        for _ in 0..HALVINGS {
+            let middle_s = 0.5 * (from_s + to_s);
+            if (to_s - from_s) * self.speed <= 0.5 * band_m || middle_s <= from_s || middle_s >= to_s {
+                break;
+            }
+            if self.gap_m(middle_s, work) < -band_m {
+                to_s = middle_s;
+            } else {
+                from_s = middle_s;
+            }
+        }
+        from_s
+    }
+
+    /// Least width of the thinner one.
+    fn width_m(&self) -> f64 {
+        self.solids.map(|(solid, _)| solid.least_width_m()).into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether bodies that are apart at both ends may overlap between them: not if they cannot come so far, nor if one
+    /// axis parts them all the time.
+    fn may_pass(&self, ends_m: [f64; 2], band_m: f64, work: &mut Work) -> bool {
+        if 0.5 * (self.most_m() - ends_m[0] - ends_m[1]) <= band_m {
+            return false;
+        }
+        let angle = |k: usize| self.moving[k][1].norm() * self.step_s;
+        let arc = |k: usize| angle(k) * angle(k) / 8.0 * self.model.bodies[self.pair[k]].bounding_radius_m;
+        if arc(0) + arc(1) > SAG * self.width_m() {
+            return true;
+        }
+        let times = [0.0, self.step_s];
+        let is_kept = |of: usize, work: &mut Work| {
+            let axis = self.apart(times[of], work).normal;
+            let [pose_a, pose_b] = self.poses(times[1 - of]);
+            along(self.solids[0].0, &pose_a, self.solids[1].0, &pose_b, &axis) >= -band_m
+        };
+        !is_kept(0, work) && !is_kept(1, work)
+    }
+
+    /// Whether the balls around two bodies stay apart.
+    fn spheres_pass(&self) -> bool {
+        let r = self.state.bodies[self.pair[0]].p_WB - self.state.bodies[self.pair[1]].p_WB;
+        let v = self.moving[0][0] - self.moving[1][0];
+        let reach_m: f64 = self.pair.map(|i| self.model.bodies[i].bounding_radius_m).iter().sum();
+        let square = v.norm_squared();
+        let time_s = if square > 0.0 { (-r.dot(&v) / square).clamp(0.0, self.step_s) } else { 0.0 };
+        (r + v * time_s).norm_squared() > reach_m * reach_m
+    }
+
+    /// Fills `points` with the contacts of the two as they meet: arms from one point as the step begins, so that
+    /// momentum is kept, the lighter body's as it will be; gaps such that at the end of the step none is left below
+    /// zero.
+    pub fn points(&self, meet_s: f64, found: &mut Vec<Meeting>, points: &mut Vec<Contact>) {
+        let [pose_a, pose_b] = self.poses(meet_s);
+        let left_m = self.speed * (self.step_s - meet_s) + band_m(self.model, self.pair, &self.at(0, meet_s));
+        found.clear();
+        touches(self.solids[0].0, &pose_a, self.solids[1].0, &pose_b, left_m, found);
+        let moved = [0, 1].map(|k| self.moving[k][0] * meet_s);
+        let lightness = |k: usize| {
+            let body = &self.model.bodies[self.pair[k]];
+            if body.driven { 0.0 } else { 1.0 / body.mass_kg }
+        };
+        let [a, b] = [lightness(0), lightness(1)];
+        let back = (moved[0] * a + moved[1] * b) / (a + b);
+        points.clear();
+        points.extend(found.iter().map(|touch| {
+            let arms = [0, 1].map(|k| touch.p_W - self.at(k, meet_s).p_WB);
+            let rate = |k: usize| self.moving[k][0] + self.moving[k][1].cross(&arms[k]);
+            let gap_m = touch.gap_m - meet_s * touch.normal.dot(&(rate(0) - rate(1)));
+            of_pair(self.model, self.state, self.pair, &Meeting { p_W: touch.p_W - back, gap_m, ..*touch })
+        }));
+    }
+}

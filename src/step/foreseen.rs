@@ -1,0 +1,277 @@
+//! Contacts of a step before its impulses are known, and what these show: which have to be asked for, and which not.
+//!
+//! A step asks of every contact that may close that it stays open; then its impulses say what they close or hold up
+//! besides. Contacts that were left out and would close are asked for as well, pairs in doubt (`collide::doubt`) are
+//! judged with the impulses of all others, and bodies that impulses lead farther than they were looked at are looked
+//! at again. That is repeated until nothing changes; where nothing is in doubt, once is enough.
+
+use super::scratch::Scratch;
+use crate::collide::approach::{Approach, foresee};
+use crate::collide::closed::rounding_m;
+use crate::collide::doubt::{Doubts, Way, band_m};
+use crate::collide::{Ahead, Contact, Key};
+use crate::model::Model;
+use crate::shape::solid::Meeting;
+use crate::solve::Impulse;
+use crate::solve::twist::Twist;
+use crate::state::State;
+
+/// Sine of the angle by which an axis may turn that stays the same.
+const SAME_AXIS: f64 = 1e-3;
+/// A slack to begin with, in ways that the step's forces lead a body: impulses hold it against them, with some to
+/// spare. What impulses lead farther is looked at again.
+const SLACK: f64 = 3.0;
+/// Rounds after which what is asked for stays so, and rounds in all.
+const SETTLING: u32 = 8;
+const MOST: u32 = 16;
+/// Of a slack: a lead beyond it that is rounding.
+const LED: f64 = 1.0 + 1e-6;
+/// Of an overlap that others leave: what may come of it at another place of the same bodies.
+const AS_DEEP: f64 = 2.0;
+
+/// How deep a body is in what it touches, or will be at the end of the step: the most, the pair that is, and the most
+/// of any other pair.
+#[derive(Clone, Copy, Debug, Default)]
+struct Depth {
+    most_m: f64,
+    with: Option<usize>,
+    next_m: f64,
+}
+
+impl Depth {
+    fn note(&mut self, with: Option<usize>, depth_m: f64) {
+        if self.with == with && self.most_m > 0.0 {
+            self.most_m = self.most_m.max(depth_m);
+        } else if depth_m > self.most_m {
+            *self = Depth { most_m: depth_m, with, next_m: self.most_m };
+        } else {
+            self.next_m = self.next_m.max(depth_m);
+        }
+    }
+
+    fn beside(&self, pair: Option<usize>) -> f64 {
+        if self.with == pair { self.next_m } else { self.most_m }
+    }
+}
+
+/// Contacts of a step as far as they are known.
+#[derive(Debug, Default)]
+pub(super) struct Foreseen {
+    /// Those of which one axis may close, and whether they are asked for.
+    contacts: Vec<Contact>,
+    may_close: Vec<bool>,
+    doubts: Doubts,
+    /// What was asked for when bodies are looked at again.
+    earlier: Doubts,
+    /// Keys of what is asked for, sorted.
+    asked: Vec<Key>,
+    /// How far the step's forces lead every body, and how far it was looked ahead for what impulses do.
+    fall_m: Vec<f64>,
+    slack_m: Vec<f64>,
+    depths: Vec<Depth>,
+    meetings: Vec<Meeting>,
+    points: Vec<Contact>,
+    round: u32,
+    /// The last impulses ask for other contacts still.
+    pub(super) is_given_up: bool,
+}
+
+impl Foreseen {
+    /// Looks at what may come in the step. `last`: impulses of the step before, in the order of contacts.
+    pub(super) fn look(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scratch: &mut Scratch,
+        last: &[(Key, Impulse)],
+        step_s: f64,
+    ) {
+        (self.round, self.is_given_up) = (0, false);
+        self.fall_m.clear();
+        let bodies = model.bodies.iter().zip(&state.bodies).zip(&scratch.free);
+        self.fall_m.extend(bodies.map(|((body, at), free)| {
+            step_s * ((free.v - at.v_WB).norm() + body.bounding_radius_m * (free.w - at.w_WB).norm())
+        }));
+        self.slack_m.clear();
+        self.slack_m.extend(self.fall_m.iter().map(|fall_m| SLACK * fall_m));
+        self.see(model, state, scratch, step_s);
+        // What pushed in the last step mostly pushes on.
+        for doubt in self.doubts.list_mut() {
+            let [a, b] = doubt.pair;
+            let first = last.partition_point(|(key, _)| (key.0, key.1) < (a, Some(b)));
+            let own = last[first..].iter().take_while(|(key, _)| (key.0, key.1) == (a, Some(b)));
+            doubt.is_imposed |= own.fold(false, |pushed, (_, p)| pushed || *p != Impulse::zeros());
+        }
+        self.ask(&mut scratch.found);
+    }
+
+    /// Fills `contacts` and `doubts`.
+    fn see(&mut self, model: &Model, state: &State, scratch: &mut Scratch, step_s: f64) {
+        let Scratch { detector, free, work, .. } = scratch;
+        let free = |i: usize| [free[i].v, free[i].w];
+        let ahead = Ahead { model, state, free: &free, slack_m: &self.slack_m, step_s };
+        detector.look_ahead(model, state, &ahead, (&mut self.contacts, &mut self.doubts), work);
+        foresee(model, &self.contacts, free, |i| self.fall_m[i], step_s, &mut self.may_close);
+    }
+
+    /// Fills `found` with what is asked for, in the order of contacts.
+    fn ask(&mut self, found: &mut Vec<Contact>) {
+        found.clear();
+        let asked = self.contacts.iter().zip(&self.may_close).filter(|(_, may_close)| **may_close);
+        found.extend(asked.map(|(contact, _)| *contact));
+        let simple = found.len();
+        found.extend(self.doubts.list().iter().filter(|doubt| doubt.is_imposed).flat_map(|doubt| &doubt.points));
+        if found.len() > simple {
+            found.sort_unstable_by_key(Contact::key);
+        }
+        self.asked.clear();
+        self.asked.extend(found.iter().map(Contact::key));
+    }
+
+    /// Whether the impulses in `scratch` ask for other contacts than those that they are of, which then are in
+    /// `scratch.found`.
+    pub(super) fn revise(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scratch: &mut Scratch,
+        (approach, step_s): (Approach, f64),
+    ) -> bool {
+        self.round += 1;
+        self.look_farther(model, state, scratch, step_s);
+        let mut changed = self.ask_what_closes(model, scratch, step_s);
+        if !self.doubts.list().is_empty() {
+            self.measure_depths(model, scratch, step_s);
+            changed |= self.judge(model, state, scratch, (approach, step_s));
+        }
+        self.is_given_up = changed && self.round == MOST;
+        if changed && !self.is_given_up {
+            self.ask(&mut scratch.found);
+            return true;
+        }
+        false
+    }
+
+    /// Looks again where impulses lead bodies farther than they were looked at.
+    fn look_farther(&mut self, model: &Model, state: &State, scratch: &mut Scratch, step_s: f64) {
+        let mut farther = false;
+        for ((slack_m, body), u) in self.slack_m.iter_mut().zip(&model.bodies).zip(&scratch.response) {
+            let led_m = step_s * (u.v.norm() + u.w.norm() * body.bounding_radius_m);
+            if led_m > *slack_m * LED && body.solid().is_some() {
+                *slack_m = led_m;
+                farther = true;
+            }
+        }
+        if !farther {
+            return;
+        }
+        std::mem::swap(&mut self.doubts, &mut self.earlier);
+        self.see(model, state, scratch, step_s);
+        for (contact, may_close) in self.contacts.iter().zip(&mut self.may_close) {
+            *may_close |= self.asked.binary_search(&contact.key()).is_ok();
+        }
+        for doubt in self.doubts.list_mut() {
+            let same = self.earlier.list().binary_search_by_key(&doubt.pair, |earlier| earlier.pair);
+            if let Ok(at) = same {
+                let earlier = &self.earlier.list()[at];
+                doubt.is_imposed = earlier.is_imposed;
+                doubt.points.clone_from(&earlier.points);
+            }
+        }
+    }
+
+    /// Contacts that were left out and close by what the others do.
+    fn ask_what_closes(&mut self, model: &Model, scratch: &Scratch, step_s: f64) -> bool {
+        let velocity = |i: usize| {
+            let (free, u) = (&scratch.free[i], &scratch.response[i]);
+            [free.v + u.v, free.w + u.w]
+        };
+        let mut changed = false;
+        for (contact, may_close) in self.contacts.iter().zip(&mut self.may_close).filter(|(_, may_close)| !**may_close)
+        {
+            let end_m = contact.gap_m + step_s * contact.normal.dot(&contact.velocity(velocity));
+            if end_m < -rounding_m(model, contact) {
+                *may_close = true;
+                changed = true;
+            }
+        }
+        changed
+    }
+
+    /// How deep bodies are inside others that they touch, before the step or after it: what a solver leaves.
+    fn measure_depths(&mut self, model: &Model, scratch: &Scratch, step_s: f64) {
+        self.depths.clear();
+        self.depths.resize(model.bodies.len(), Depth::default());
+        let velocity = |i: usize| {
+            let (free, u) = (&scratch.free[i], &scratch.response[i]);
+            [free.v + u.v, free.w + u.w]
+        };
+        for contact in &scratch.found {
+            let moved_m = step_s * contact.normal.dot(&contact.velocity(velocity));
+            let depth_m = -(contact.gap_m + moved_m.min(0.0));
+            if depth_m > 0.0 {
+                let other = contact.other;
+                self.depths[contact.body].note(other, depth_m);
+                if let Some(other) = other {
+                    self.depths[other].note(Some(contact.body), depth_m);
+                }
+            }
+        }
+    }
+
+    /// Pairs in doubt, each with the impulses of all others.
+    fn judge(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scratch: &mut Scratch,
+        (approach, step_s): (Approach, f64),
+    ) -> bool {
+        let Foreseen { doubts, depths, meetings, points, .. } = self;
+        let Scratch { free, response, problem, found, impulses, work, .. } = scratch;
+        let mut changed = false;
+        for doubt in doubts.list_mut() {
+            let [a, b] = doubt.pair;
+            let first = found.partition_point(|c| (c.body, c.other) < (a, Some(b)));
+            let own = found[first..].iter().take_while(|c| (c.body, c.other) == (a, Some(b))).count();
+            let mut without = [a, b].map(|i| Twist { v: free[i].v + response[i].v, w: free[i].w + response[i].w });
+            let mut pushed = false;
+            for (block, p) in problem.blocks[first..first + own].iter().zip(&impulses[first..first + own]) {
+                pushed |= *p != Impulse::zeros();
+                for (without, end) in without.iter_mut().zip(block.ends()) {
+                    end.take_off(p, without);
+                }
+            }
+            if doubt.is_imposed && !pushed {
+                continue;
+            }
+            let moving = without.map(|u| [u.v, u.w]);
+            let Some(way) = Way::new(model, state, doubt.pair, moving, step_s) else { continue };
+            let beside_m = depths[a].beside(Some(b)).max(depths[b].beside(Some(a)));
+            let band_m = band_m(model, doubt.pair, &state.bodies[a]).max(AS_DEEP * beside_m);
+            let Some(meet_s) = way.meet_s(band_m, work) else {
+                if doubt.is_imposed && self.round < SETTLING {
+                    doubt.is_imposed = false;
+                    changed = true;
+                }
+                continue;
+            };
+            way.points(meet_s, meetings, points);
+            if points.is_empty() {
+                continue;
+            }
+            let is_same = doubt.is_imposed && doubt.normal().cross(&points[0].normal).norm() <= SAME_AXIS;
+            if is_same || (doubt.is_imposed && self.round >= SETTLING) {
+                continue;
+            }
+            // What bounces at the middle of a step waits until it is inside: not if it would be through by then.
+            if approach == Approach::Middle && way.is_through(meet_s) {
+                points.iter_mut().filter(|point| point.restitution > 0.0).for_each(|point| point.gap_m = 0.0);
+            }
+            doubt.points.clone_from(points);
+            doubt.is_imposed = true;
+            changed = true;
+        }
+        changed
+    }
+}

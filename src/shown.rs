@@ -30,6 +30,11 @@ impl<'a> Shown<'a> {
             Acted::Motion(_) => &[],
         }
     }
+
+    /// Whether it is the beginning of a step of the clock, of which more is to come.
+    pub fn is_part(&self) -> bool {
+        self.after.step == self.before.step && self.after.time_s > self.before.time_s
+    }
 }
 
 /// What contacts did in a step.

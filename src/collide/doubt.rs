@@ -30,6 +30,11 @@ const SAG: f64 = 0.005;
 const MOST: usize = 10_000;
 /// Halvings of the time at which two bodies meet.
 const HALVINGS: usize = 60;
+/// Turn in radians up to which a body that nothing turns is taken to turn steadily.
+const STEADY: f64 = 0.5;
+/// Of that width: how far away what hits is, and how deep inside what has turned through.
+const AFAR: f64 = 1e-3;
+const DEEP: f64 = 0.005;
 /// Of that width: a way inside that leads through.
 const THROUGH: f64 = 0.3;
 
@@ -80,7 +85,8 @@ impl Doubts {
     ) -> bool {
         let rounding_m = closed_m(smaller_m(model, pair), at.p_WB.amax() + model.bodies[pair[0]].bounding_radius_m);
         let touches = apart.gap_m <= rounding_m;
-        if apart.second_m < -limit_m && (apart.is_flat || touches) {
+        let stays = apart.is_flat || (touches && limit_m < smaller_m(model, pair));
+        if apart.second_m < -limit_m && stays {
             return false;
         }
 
@@ -168,29 +174,40 @@ impl<'a> Way<'a> {
 
     /// The time up to which the bodies are apart, but for the band, if they do not stay so.
     pub fn meet_s(&self, band_m: f64, work: &mut Work) -> Option<f64> {
+        self.deeper_s(band_m, band_m, work)
+    }
+
+    /// The time up to which the bodies are apart, but for the band, before they overlap by a depth.
+    fn deeper_s(&self, depth_m: f64, band_m: f64, work: &mut Work) -> Option<f64> {
         if self.spheres_pass() {
             return None;
         }
         let [start_m, end_m] = [0.0, self.step_s].map(|time_s| self.gap_m(time_s, work));
-        if start_m < -band_m {
+        if start_m < -depth_m {
             return Some(0.0);
         }
-        if self.speed == 0.0 || (end_m >= -band_m && !self.may_pass([start_m, end_m], band_m, work)) {
+        if self.speed == 0.0 || (end_m >= -depth_m && !self.may_pass([start_m, end_m], depth_m, work)) {
             return None;
         }
         let least_m = LEAST * self.width_m();
-        let (mut from_s, mut gap_m) = (0.0, start_m);
+        let (mut apart_s, mut from_s, mut gap_m) = (0.0, 0.0, start_m);
         for _ in 0..MOST {
-            let to_s: f64 = from_s + (gap_m + band_m).max(least_m) / self.speed;
+            let to_s: f64 = from_s + (gap_m + depth_m).max(least_m) / self.speed;
             let to_s = to_s.min(self.step_s);
             gap_m = if to_s == self.step_s { end_m } else { self.gap_m(to_s, work) };
-            if gap_m < -band_m {
+            if gap_m < -depth_m {
+                // What never came apart before is as deep as that then.
+                let band_m = if apart_s > 0.0 { band_m } else { depth_m };
+                let from_s = if apart_s > 0.0 { apart_s } else { from_s };
                 return Some(self.last_apart([from_s, to_s], band_m, work));
             }
             if to_s == self.step_s {
                 return None;
             }
             from_s = to_s;
+            if gap_m >= -band_m {
+                apart_s = to_s;
+            }
         }
         None
     }
@@ -198,6 +215,30 @@ impl<'a> Way<'a> {
     /// Whether the way that is left after they meet leads them through each other, or deep inside.
     pub fn is_through(&self, meet_s: f64) -> bool {
         self.speed * (self.step_s - meet_s) > THROUGH * self.width_m()
+    }
+
+    /// Whether they hit each other: they come from afar, and would be through by the end.
+    pub fn is_hit(&self, meet_s: f64) -> bool {
+        self.speed * meet_s > AFAR * self.width_m() && self.is_through(meet_s)
+    }
+
+    /// The time in which one of two bodies that come together turns as far as its way is a steady turn; if it turns
+    /// farther in the step.
+    pub fn turned_s(&self) -> Option<f64> {
+        let turning = |k: usize| {
+            let body = &self.model.bodies[self.pair[k]];
+            if body.is_centred_ball() || body.driven { 0.0 } else { self.moving[k][1].norm() }
+        };
+        let angle = turning(0).max(turning(1)) * self.step_s;
+        (angle > STEADY && !self.spheres_pass()).then(|| self.step_s * STEADY / angle)
+    }
+
+    /// The time at which they are deep inside each other, if they may be through by the end.
+    pub fn deep_s(&self, work: &mut Work) -> Option<f64> {
+        let band_m = band_m(self.model, self.pair, &self.at(0, 0.0));
+        let is_far = self.is_through(0.0);
+        let deep_s = is_far.then(|| self.deeper_s(DEEP * self.width_m(), band_m, work)).flatten()?;
+        (self.speed * deep_s > AFAR * self.width_m()).then_some(deep_s)
     }
 
     /// Between a time at which they are apart and one at which they overlap, as far as the band tells.

@@ -5,7 +5,7 @@ use crate::clock::Clock;
 use crate::experiment::types::Experiment;
 use crate::model::Model;
 use crate::record::sampler::Sampler;
-use crate::shown::{ContactForce, Passage, Shown};
+use crate::shown::{Acted, ContactForce, Passage, Shown};
 use crate::state::State;
 
 /// The times of a clock, on the way of a run.
@@ -62,6 +62,7 @@ impl Parts {
         let (end, parts) = (shown.after, self.due.clock.steps);
         match shown.way {
             _ if shown.stalled.is_some() => {}
+            None if shown.is_part() => {}
             Some(way) => {
                 while let Some(at) = self.due.next(way, model, end) {
                     to(at.part, at.state);
@@ -109,11 +110,12 @@ impl<'a> Samples<'a> {
     }
 
     fn show_step(&mut self, model: &Model, shown: &Shown, last: bool) {
-        let due = self.sampler.is_due(shown.after.step);
+        let due = self.sampler.is_due(shown.after.step) && (self.every_step || !shown.is_part());
         // A stalled run is back at a state that has been sampled if it was due.
         let wanted = if shown.stalled.is_some() { !due } else { due || last };
         if wanted {
-            let forces = shown.impulses().iter().map(|solved| ContactForce::mean(solved, self.step_s));
+            let step_s = if let Acted::Kick { step_s, .. } = shown.acted { step_s } else { self.step_s };
+            let forces = shown.impulses().iter().map(|solved| ContactForce::mean(solved, step_s));
             self.sampler.sample(model, shown.after, forces);
         }
     }

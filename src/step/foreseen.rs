@@ -4,6 +4,9 @@
 //! besides. Contacts that were left out and would close are asked for as well, pairs in doubt (`collide::doubt`) are
 //! judged with the impulses of all others, and bodies that impulses lead farther than they were looked at are looked
 //! at again. That is repeated until nothing changes; where nothing is in doubt, once is enough.
+//!
+//! Bodies that would come together and be through each other, or deep inside, within the step are not asked to stay
+//! apart from afar: the step is to end where they meet (`hit_s`), and the next one begins with a contact.
 
 use super::scratch::Scratch;
 use crate::collide::approach::{Approach, foresee};
@@ -74,6 +77,15 @@ pub(super) struct Foreseen {
     round: u32,
     /// The last impulses ask for other contacts still.
     pub(super) is_given_up: bool,
+    /// The first time in the step at which two bodies come together that would be through each other by its end.
+    pub(super) hit_s: Option<f64>,
+    /// The step is not to be cut any more: what hits is asked to stay apart from afar.
+    pub(super) is_whole: bool,
+}
+
+/// The earlier of two times.
+fn note_earlier(hit_s: &mut Option<f64>, other_s: f64) {
+    *hit_s = Some(hit_s.map_or(other_s, |first_s| first_s.min(other_s)));
 }
 
 impl Foreseen {
@@ -86,7 +98,7 @@ impl Foreseen {
         last: &[(Key, Impulse)],
         step_s: f64,
     ) {
-        (self.round, self.is_given_up) = (0, false);
+        (self.round, self.is_given_up, self.hit_s) = (0, false, None);
         self.fall_m.clear();
         let bodies = model.bodies.iter().zip(&state.bodies).zip(&scratch.free);
         self.fall_m.extend(bodies.map(|((body, at), free)| {
@@ -143,6 +155,9 @@ impl Foreseen {
         if !self.doubts.list().is_empty() {
             self.measure_depths(model, scratch, step_s);
             changed |= self.judge(model, state, scratch, (approach, step_s));
+        }
+        if !changed {
+            self.watch_what_turns(model, state, scratch, step_s);
         }
         self.is_given_up = changed && self.round == MOST;
         if changed && !self.is_given_up {
@@ -227,7 +242,8 @@ impl Foreseen {
         scratch: &mut Scratch,
         (approach, step_s): (Approach, f64),
     ) -> bool {
-        let Foreseen { doubts, depths, meetings, points, .. } = self;
+        let Foreseen { doubts, depths, meetings, points, hit_s, is_whole, round, .. } = self;
+        *hit_s = None;
         let Scratch { free, response, problem, found, impulses, work, .. } = scratch;
         let mut changed = false;
         for doubt in doubts.list_mut() {
@@ -250,18 +266,22 @@ impl Foreseen {
             let beside_m = depths[a].beside(Some(b)).max(depths[b].beside(Some(a)));
             let band_m = band_m(model, doubt.pair, &state.bodies[a]).max(AS_DEEP * beside_m);
             let Some(meet_s) = way.meet_s(band_m, work) else {
-                if doubt.is_imposed && self.round < SETTLING {
+                if doubt.is_imposed && *round < SETTLING {
                     doubt.is_imposed = false;
                     changed = true;
                 }
                 continue;
             };
+            if !doubt.is_imposed && way.is_hit(meet_s) && !*is_whole {
+                note_earlier(hit_s, meet_s);
+                continue;
+            }
             way.points(meet_s, meetings, points);
             if points.is_empty() {
                 continue;
             }
             let is_same = doubt.is_imposed && doubt.normal().cross(&points[0].normal).norm() <= SAME_AXIS;
-            if is_same || (doubt.is_imposed && self.round >= SETTLING) {
+            if is_same || (doubt.is_imposed && *round >= SETTLING) {
                 continue;
             }
             // What bounces at the middle of a step waits until it is inside: not if it would be through by then.
@@ -273,5 +293,20 @@ impl Foreseen {
             changed = true;
         }
         changed
+    }
+
+    /// Bodies that turn too far beside each other for their way to be known, and pairs that are asked to stay apart
+    /// where they meet, and turn through each other elsewhere.
+    fn watch_what_turns(&mut self, model: &Model, state: &State, scratch: &mut Scratch, step_s: f64) {
+        let Scratch { free, response, work, .. } = scratch;
+        for doubt in self.doubts.list() {
+            let moving = doubt.pair.map(|i| [free[i].v + response[i].v, free[i].w + response[i].w]);
+            let Some(way) = Way::new(model, state, doubt.pair, moving, step_s) else { continue };
+            if let Some(turned_s) = way.turned_s() {
+                note_earlier(&mut self.hit_s, turned_s);
+            } else if let Some(deep_s) = doubt.is_imposed.then(|| way.deep_s(work)).flatten() {
+                note_earlier(&mut self.hit_s, deep_s);
+            }
+        }
     }
 }

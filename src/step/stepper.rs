@@ -127,7 +127,7 @@ impl Stepper {
         Acted::Kick {
             kicked: kicked.unwrap_or(before),
             contacts: self.contacts(),
-            step_s: clock.step_s,
+            step_s: self.made_s(clock),
             approach: self.approach,
         }
     }
@@ -144,7 +144,15 @@ impl Stepper {
     pub fn forces_at(&self, model: &Model, end: &State, clock: &Clock) -> Vec<ContactForce> {
         match self.way() {
             Some(way) => way.forces_at(model, end),
-            None => self.contacts().iter().map(|solved| ContactForce::mean(solved, clock.step_s)).collect(),
+            None => self.contacts().iter().map(|solved| ContactForce::mean(solved, self.made_s(clock))).collect(),
+        }
+    }
+
+    /// Length of the last step: of the clock's, or a part of it.
+    fn made_s(&self, clock: &Clock) -> f64 {
+        match &self.method {
+            Method::TimeStepping(method) => method.made_s,
+            Method::Free(_) | Method::Lecture(_) | Method::Penalty(_) | Method::EventDriven(_) => clock.step_s,
         }
     }
 

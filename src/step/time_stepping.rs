@@ -35,6 +35,9 @@ use nalgebra::Vector3;
 /// Of the greatest friction: what is below it sticks.
 const STUCK: f64 = 1.0 - 1e-9;
 
+/// Most cuts of a step of the clock.
+const MOST_PARTS: u32 = 64;
+
 pub struct TimeStepping {
     solver: ContactSolver,
     approach: Approach,
@@ -46,6 +49,15 @@ pub struct TimeStepping {
     /// The same of this step, as far as it is solved.
     solved: Vec<(Key, Impulse)>,
     foreseen: Foreseen,
+    /// What is left of a step of the clock of which a part is made, and how often it was cut.
+    left_s: Option<f64>,
+    parts: u32,
+    /// Length of the next one, if bodies are to hit each other half-way of it.
+    next_s: Option<f64>,
+    /// Where the step began, if it is to begin again.
+    start: Option<State>,
+    /// Length of the last step.
+    pub(super) made_s: f64,
     pins: Vec<Pin>,
     last_pins: Vec<Impulse>,
     push: Push,
@@ -78,6 +90,11 @@ impl TimeStepping {
             last: Vec::with_capacity(scratch.contacts()),
             solved: Vec::with_capacity(scratch.contacts()),
             foreseen: Foreseen::default(),
+            left_s: None,
+            parts: 0,
+            next_s: None,
+            start: (plan.approach == Approach::Middle).then(|| start.clone()),
+            made_s: 0.0,
             pins: Vec::new(),
             last_pins: Vec::new(),
             push: Push::new(sweeps.tolerance, scratch.contacts(), scratch.free.capacity()),
@@ -93,19 +110,46 @@ impl TimeStepping {
         self.sweeps.deadline = deadline;
     }
 
+    /// A step of the clock, or a part of it: up to where bodies hit each other that would be through by its end; of a
+    /// kick half-way, such that they do so half-way of the next one.
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
-        let before_s = if self.approach == Approach::Middle { clock.step_s / 2.0 } else { 0.0 };
-        let after_s = clock.step_s - before_s;
-        drift(model, state, before_s, &mut self.scratch.work);
-        if let Some(kicked) = &mut self.kicked {
-            kicked.copy_from(state);
+        let left_s = self.left_s.unwrap_or(clock.step_s);
+        let is_half_way = self.approach == Approach::Middle;
+        if let Some(start) = self.start.as_mut() {
+            start.copy_from(state);
         }
-        // 1. Contact test.
-        self.scratch.free_velocities(model, state, clock.step_s);
-        self.foreseen.look(model, state, &mut self.scratch, &self.last, clock.step_s);
-        // 2. Contact impulses, until they ask for no other contacts; displacements that remove penetration.
-        self.solve_rounds(model, state, clock.step_s);
-        let pushed = self.push_out(model, state, clock.step_s);
+        let part_s = self.next_s.take().filter(|next_s| *next_s < left_s);
+        self.parts += u32::from(part_s.is_some());
+        self.made_s = part_s.unwrap_or(left_s);
+        let after_s = loop {
+            let before_s = if is_half_way { self.made_s / 2.0 } else { 0.0 };
+            drift(model, state, before_s, &mut self.scratch.work);
+            if let Some(kicked) = &mut self.kicked {
+                kicked.copy_from(state);
+            }
+            // 1. Contact test.
+            self.foreseen.is_whole = self.parts >= MOST_PARTS;
+            self.scratch.free_velocities(model, state, self.made_s);
+            self.foreseen.look(model, state, &mut self.scratch, &self.last, self.made_s);
+            // 2. Contact impulses, until they ask for no other contacts; displacements that remove penetration.
+            self.solve_rounds(model, state, self.made_s);
+            let Some(hit_s) = self.foreseen.hit_s.filter(|_| !self.foreseen.is_whole && !self.is_cut) else {
+                break self.made_s - before_s;
+            };
+            let to_hit_s = before_s + hit_s;
+            let part_s = if is_half_way { 2.0 * to_hit_s - self.made_s } else { to_hit_s };
+            if part_s >= self.made_s {
+                self.next_s = Some(2.0 * (to_hit_s - self.made_s));
+                break self.made_s - before_s;
+            }
+            self.parts += 1;
+            self.made_s = part_s;
+            if let Some(start) = &self.start {
+                state.copy_from(start);
+            }
+        };
+        self.take_solution();
+        let pushed = self.push_out(model, state, self.made_s);
         // 3. Velocities. 4. Position and attitude.
         let s = &mut self.scratch;
         for (i, at) in state.bodies.iter_mut().enumerate() {
@@ -124,7 +168,11 @@ impl TimeStepping {
             }
         }
         // 5. Time.
-        clock.advance(state);
+        self.left_s = (self.made_s < left_s).then_some(left_s - self.made_s);
+        if self.left_s.is_none() {
+            self.parts = 0;
+            clock.advance(state);
+        }
     }
 
     fn solve_rounds(&mut self, model: &Model, state: &State, step_s: f64) {
@@ -138,6 +186,9 @@ impl TimeStepping {
         if self.foreseen.is_given_up {
             self.scratch.work.unsolved = unsolved + 1;
         }
+    }
+
+    fn take_solution(&mut self) {
         std::mem::swap(&mut self.last, &mut self.solved);
         self.last_pins.clear();
         self.last_pins.extend_from_slice(&self.scratch.impulses[self.scratch.found.len()..]);

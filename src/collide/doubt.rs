@@ -31,7 +31,7 @@ const MOST: usize = 10_000;
 /// Halvings of the time at which two bodies meet.
 const HALVINGS: usize = 60;
 /// Turn in radians up to which a body that nothing turns is taken to turn steadily.
-const STEADY: f64 = 0.5;
+const STEADY: f64 = 0.25;
 /// Of that width: how far away what hits is, and how deep inside what has turned through.
 const AFAR: f64 = 1e-3;
 const DEEP: f64 = 0.005;
@@ -112,7 +112,7 @@ pub fn band_m(model: &Model, pair: [usize; 2], at: &BodyState) -> f64 {
     BAND * smaller_m(model, pair) + unresolved_m(at.p_WB.amax() + model.bodies[pair[0]].bounding_radius_m)
 }
 
-/// Two bodies on their way through a step, straight on and turning steadily.
+/// Two bodies on their way through a step, straight on and turning without a torque.
 pub struct Way<'a> {
     model: &'a Model,
     state: &'a State,
@@ -120,6 +120,8 @@ pub struct Way<'a> {
     solids: [(&'a Solid, &'a Vector3<f64>); 2],
     /// Velocity and angular velocity of each.
     moving: [[Vector3<f64>; 2]; 2],
+    /// Angular acceleration of each without a torque.
+    turning: [Vector3<f64>; 2],
     step_s: f64,
     /// The most that the gap can change in a second.
     speed: f64,
@@ -140,7 +142,8 @@ impl<'a> Way<'a> {
             if body.is_centred_ball() { 0.0 } else { moving[k][1].norm() * body.bounding_radius_m }
         };
         let speed = (moving[0][0] - moving[1][0]).norm() + turning(0) + turning(1);
-        Some(Way { model, state, pair, solids: [solid_a, solid_b], moving, step_s, speed })
+        let free = [0, 1].map(|k| model.bodies[pair[k]].torque_free(&state.bodies[pair[k]], &moving[k][1]));
+        Some(Way { model, state, pair, solids: [solid_a, solid_b], moving, turning: free, step_s, speed })
     }
 
     /// The most that a gap can change on the way.
@@ -150,7 +153,10 @@ impl<'a> Way<'a> {
 
     fn at(&self, k: usize, time_s: f64) -> BodyState {
         let (at, [v, w]) = (&self.state.bodies[self.pair[k]], self.moving[k]);
-        let q_WB = UnitQuaternion::from_scaled_axis(w * time_s) * at.q_WB;
+        // Of third order in time (W. Magnus, Comm. Pure Appl. Math. 7 (1954) 649).
+        let a = self.turning[k];
+        let turned = (w + (a + a.cross(&w) * (time_s / 6.0)) * (0.5 * time_s)) * time_s;
+        let q_WB = UnitQuaternion::from_scaled_axis(turned) * at.q_WB;
         BodyState { p_WB: at.p_WB + v * time_s, q_WB, ..*at }
     }
 
@@ -229,8 +235,11 @@ impl<'a> Way<'a> {
             let body = &self.model.bodies[self.pair[k]];
             if body.is_centred_ball() || body.driven { 0.0 } else { self.moving[k][1].norm() }
         };
-        let angle = turning(0).max(turning(1)) * self.step_s;
-        (angle > STEADY && !self.spheres_pass()).then(|| self.step_s * STEADY / angle)
+        let fastest = turning(0).max(turning(1));
+        let radius_m = self.pair.map(|i| self.model.bodies[i].bounding_radius_m).into_iter().fold(0.0, f64::max);
+        // The steps of the motion itself are of third order: what they leave is R θ³/12.
+        let steady = libm::cbrt(12.0 * DEEP * self.width_m() / radius_m).min(STEADY);
+        (fastest * self.step_s > steady && !self.spheres_pass()).then(|| steady / fastest)
     }
 
     /// The time at which they are deep inside each other, if they may be through by the end.

@@ -60,6 +60,14 @@ impl Body {
         self.turned(&self.I_B_inverse, state)
     }
 
+    /// Angular acceleration without a torque at an angular velocity, −I⁻¹ (ω × I ω), in rad/s², world axes.
+    pub fn torque_free(&self, state: &BodyState, w_WB: &Vector3<f64>) -> Vector3<f64> {
+        if self.isotropic || self.driven {
+            return Vector3::zeros();
+        }
+        -(self.I_W_inverse(state) * w_WB.cross(&(self.I_W(state) * w_WB)))
+    }
+
     fn turned(&self, tensor_B: &Matrix3<f64>, state: &BodyState) -> Matrix3<f64> {
         if self.isotropic {
             return *tensor_B;

@@ -27,6 +27,8 @@ const SLACK: f64 = 3.0;
 /// Rounds after which what is asked for stays so, and rounds in all.
 const SETTLING: u32 = 8;
 const MOST: u32 = 16;
+/// Of a step: one that bodies turn too far in is cut by this at least.
+const SHORTER: f64 = 0.9;
 /// Of a slack: a lead beyond it that is rounding.
 const LED: f64 = 1.0 + 1e-6;
 /// Of an overlap that others leave: what may come of it at another place of the same bodies.
@@ -78,7 +80,9 @@ pub(super) struct Foreseen {
     /// The last impulses ask for other contacts still.
     pub(super) is_given_up: bool,
     /// The first time in the step at which two bodies come together that would be through each other by its end.
-    pub(super) hit_s: Option<f64>,
+    hit_s: Option<f64>,
+    /// The first time at which bodies have turned too far beside each other for their way to be known.
+    turned_s: Option<f64>,
     /// The step is not to be cut any more: what hits is asked to stay apart from afar.
     pub(super) is_whole: bool,
 }
@@ -98,7 +102,7 @@ impl Foreseen {
         last: &[(Key, Impulse)],
         step_s: f64,
     ) {
-        (self.round, self.is_given_up, self.hit_s) = (0, false, None);
+        (self.round, self.is_given_up, self.hit_s, self.turned_s) = (0, false, None, None);
         self.fall_m.clear();
         let bodies = model.bodies.iter().zip(&state.bodies).zip(&scratch.free);
         self.fall_m.extend(bodies.map(|((body, at), free)| {
@@ -115,6 +119,13 @@ impl Foreseen {
             doubt.is_imposed |= own.fold(false, |pushed, (_, p)| pushed || *p != Impulse::zeros());
         }
         self.ask(&mut scratch.found);
+    }
+
+    /// When the step is to end, of which so much is left after its kick: where bodies hit each other, or have turned
+    /// too far.
+    pub(super) fn cut_s(&self, after_s: f64) -> Option<f64> {
+        let turned_s = self.turned_s.filter(|turned_s| *turned_s < SHORTER * after_s);
+        [self.hit_s, turned_s].into_iter().flatten().reduce(f64::min)
     }
 
     /// Fills `contacts` and `doubts`.
@@ -302,11 +313,8 @@ impl Foreseen {
         for doubt in self.doubts.list() {
             let moving = doubt.pair.map(|i| [free[i].v + response[i].v, free[i].w + response[i].w]);
             let Some(way) = Way::new(model, state, doubt.pair, moving, step_s) else { continue };
-            if let Some(turned_s) = way.turned_s() {
-                note_earlier(&mut self.hit_s, turned_s);
-            } else if let Some(deep_s) = doubt.is_imposed.then(|| way.deep_s(work)).flatten() {
-                note_earlier(&mut self.hit_s, deep_s);
-            }
+            let turned_s = way.turned_s().or_else(|| doubt.is_imposed.then(|| way.deep_s(work)).flatten());
+            turned_s.into_iter().for_each(|turned_s| note_earlier(&mut self.turned_s, turned_s));
         }
     }
 }

@@ -128,7 +128,7 @@ impl Stepper {
             kicked: kicked.unwrap_or(before),
             contacts: self.contacts(),
             step_s: self.made_s(clock),
-            approach: self.approach,
+            approach: if let Method::TimeStepping(method) = &self.method { method.approach } else { self.approach },
         }
     }
 

@@ -36,11 +36,13 @@ use nalgebra::Vector3;
 const STUCK: f64 = 1.0 - 1e-9;
 
 /// Most cuts of a step of the clock.
-const MOST_PARTS: u32 = 64;
+const MOST_PARTS: u32 = 1_000;
 
 pub struct TimeStepping {
     solver: ContactSolver,
-    approach: Approach,
+    scheme: Approach,
+    /// That of the last step or part of one.
+    pub(super) approach: Approach,
     sweeps: Sweeps,
     reduction: Option<Reduction>,
     position_correction: PositionCorrection,
@@ -52,10 +54,8 @@ pub struct TimeStepping {
     /// What is left of a step of the clock of which a part is made, and how often it was cut.
     left_s: Option<f64>,
     parts: u32,
-    /// Length of the next one, if bodies are to hit each other half-way of it.
-    next_s: Option<f64>,
-    /// Where the step began, if it is to begin again.
-    start: Option<State>,
+    /// Time from the start of the next one to its kick, if bodies hit each other before its middle.
+    before_s: Option<f64>,
     /// Length of the last step.
     pub(super) made_s: f64,
     pins: Vec<Pin>,
@@ -83,6 +83,7 @@ impl TimeStepping {
         };
         TimeStepping {
             solver: ContactSolver::new(settings.solver, scratch.contacts(), scratch.free.capacity()),
+            scheme: plan.approach,
             approach: plan.approach,
             sweeps,
             reduction: settings.contacts_per_face.map(|most| Reduction::new(most, scratch.contacts())),
@@ -92,8 +93,7 @@ impl TimeStepping {
             foreseen: Foreseen::default(),
             left_s: None,
             parts: 0,
-            next_s: None,
-            start: (plan.approach == Approach::Middle).then(|| start.clone()),
+            before_s: None,
             made_s: 0.0,
             pins: Vec::new(),
             last_pins: Vec::new(),
@@ -110,44 +110,39 @@ impl TimeStepping {
         self.sweeps.deadline = deadline;
     }
 
-    /// A step of the clock, or a part of it: up to where bodies hit each other that would be through by its end; of a
-    /// kick half-way, such that they do so half-way of the next one.
+    /// A step of the clock, or a part of it: up to where bodies hit each other that would be through by its end. What
+    /// is left of a step goes on with a kick at its start, whatever the scheme.
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
         let left_s = self.left_s.unwrap_or(clock.step_s);
-        let is_half_way = self.approach == Approach::Middle;
-        if let Some(start) = self.start.as_mut() {
-            start.copy_from(state);
+        let mut before_s = 0.0;
+        self.approach = if self.parts == 0 { self.scheme } else { Approach::Start };
+        if self.approach == Approach::Middle {
+            before_s = self.before_s.take().map_or(left_s / 2.0, |hit_s| hit_s.min(left_s / 2.0));
         }
-        let part_s = self.next_s.take().filter(|next_s| *next_s < left_s);
-        self.parts += u32::from(part_s.is_some());
-        self.made_s = part_s.unwrap_or(left_s);
-        let after_s = loop {
-            let before_s = if is_half_way { self.made_s / 2.0 } else { 0.0 };
-            drift(model, state, before_s, &mut self.scratch.work);
-            if let Some(kicked) = &mut self.kicked {
-                kicked.copy_from(state);
-            }
+        drift(model, state, before_s, &mut self.scratch.work);
+        if let Some(kicked) = &mut self.kicked {
+            kicked.copy_from(state);
+        }
+        self.made_s = left_s;
+        loop {
             // 1. Contact test.
             self.foreseen.is_whole = self.parts >= MOST_PARTS;
             self.scratch.free_velocities(model, state, self.made_s);
             self.foreseen.look(model, state, &mut self.scratch, &self.last, self.made_s);
             // 2. Contact impulses, until they ask for no other contacts; displacements that remove penetration.
             self.solve_rounds(model, state, self.made_s);
-            let Some(hit_s) = self.foreseen.hit_s.filter(|_| !self.foreseen.is_whole && !self.is_cut) else {
-                break self.made_s - before_s;
-            };
-            let to_hit_s = before_s + hit_s;
-            let part_s = if is_half_way { 2.0 * to_hit_s - self.made_s } else { to_hit_s };
-            if part_s >= self.made_s {
-                self.next_s = Some(2.0 * (to_hit_s - self.made_s));
-                break self.made_s - before_s;
+            let after_s = self.made_s - before_s;
+            let cut_s = self.foreseen.cut_s(after_s).filter(|_| !self.foreseen.is_whole && !self.is_cut);
+            let Some(hit_s) = cut_s else { break };
+            if hit_s >= after_s {
+                // On the way to the next kick, which comes when they meet.
+                self.before_s = Some(hit_s - after_s);
+                break;
             }
             self.parts += 1;
-            self.made_s = part_s;
-            if let Some(start) = &self.start {
-                state.copy_from(start);
-            }
-        };
+            self.made_s = before_s + hit_s;
+        }
+        let after_s = self.made_s - before_s;
         self.take_solution();
         let pushed = self.push_out(model, state, self.made_s);
         // 3. Velocities. 4. Position and attitude.

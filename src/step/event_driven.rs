@@ -9,6 +9,7 @@ use crate::collide::approach::Approach;
 use crate::collide::closed::{MARGIN, is_closed_to_delta};
 use crate::collide::{Contact, Detector, Reach, SolvedContact};
 use crate::deadline::Deadline;
+use crate::event::caps::{self, Rates};
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
 use crate::event::dense::{Dense, Field, project};
@@ -114,6 +115,9 @@ const SLAP: f64 = 1e3;
 /// Events at one moment, of all contacts, before something is wrong.
 const AT_ONCE: u32 = 200;
 
+/// Points of rims added to what touches, one after another: each is nearer to the one that bears.
+const POINTS: u32 = 40;
+
 /// More events than this in the time of a stretch are too many: those that cost an integration, and others.
 const MANY_DENSE: u64 = 2_000;
 const MANY: u64 = 100_000;
@@ -193,7 +197,10 @@ impl EventDriven {
                     self.regroup(model, state, &Change::default());
                 }
             }
-            Event::Struck => self.regroup(model, state, &Change::default()),
+            Event::Struck => {
+                caps::turn(model, state, &mut self.found);
+                self.regroup(model, state, &Change::default());
+            }
             Event::Change(change) => {
                 self.detect(model, state);
                 self.regroup(model, state, &change);
@@ -254,9 +261,10 @@ impl EventDriven {
     }
 
     /// Fills `found` with what touches now.
-    fn detect(&mut self, model: &Model, state: &State) {
+    fn detect(&mut self, model: &Model, state: &mut State) {
         self.found.clear();
         if self.contact {
+            caps::level(model, state);
             self.detector.detect(
                 model,
                 state,
@@ -265,6 +273,7 @@ impl EventDriven {
                 &mut self.work,
             );
             self.found.retain(|contact| is_closed_to_delta(model, contact));
+            caps::turn(model, state, &mut self.found);
         }
     }
 
@@ -287,38 +296,49 @@ impl EventDriven {
             }
         }
         let (gathered, solved, work) = (self.gathered.get_mut(), &mut self.solved, &mut self.work);
-        if !impact::strike(model, state, &self.found, self.law, gathered, solved, work) {
-            work.unsolved += 1;
+        self.scratch.copy_from(state);
+        let mut ended = false;
+        for _ in 0..POINTS {
+            state.copy_from(&self.scratch);
+            ended = impact::strike(model, state, &self.found, self.law, gathered, solved, work);
+            let velocities = |i: usize, arm_W: &Vector3<f64>| Rates::velocities(model, state, i, arm_W);
+            if !caps::add_sinking(model, state, &mut self.found, 1, |_| true, velocities) {
+                break;
+            }
         }
+        self.work.unsolved += u64::from(!ended);
         true
     }
 
     /// What holds from now on, and how everything moves.
     fn regroup(&mut self, model: &Model, state: &mut State, change: &Change) {
-        let Some(touches) = self.resting(model, state) else {
-            self.trouble = true;
-            return;
-        };
-        if touches.is_empty() && model.pins.is_empty() {
-            self.held.clear();
-            self.settle(model, state, &Solved::default());
-            return;
-        }
         let change = &Change { slow_m_s: self.slow.fading_m_s, ..change.clone() };
-        let mut solved = match decide(model, state, touches, change, self.gathered.get_mut(), &mut self.work) {
-            Decision::Holds(held, solved) => {
-                self.held = held;
-                solved
-            }
-            Decision::Jams => {
-                self.next = Event::Jam;
-                return;
-            }
-            Decision::Unsolved => {
+        let mut solved = Solved::default();
+        for _ in 0..POINTS {
+            let Some(touches) = self.resting(model, state) else {
                 self.trouble = true;
                 return;
+            };
+            if touches.is_empty() && model.pins.is_empty() {
+                self.held.clear();
+                self.settle(model, state, &Solved::default());
+                return;
             }
-        };
+            match decide(model, state, touches, change, self.gathered.get_mut(), &mut self.work) {
+                Decision::Holds(held, forces) => (self.held, solved) = (held, forces),
+                Decision::Jams => {
+                    self.next = Event::Jam;
+                    return;
+                }
+                Decision::Unsolved => {
+                    self.trouble = true;
+                    return;
+                }
+            }
+            if !self.add_sinking(model, state, &solved) {
+                break;
+            }
+        }
         self.kicked.copy_from(state);
         let placed = project(model, state, &self.held, &mut self.placing);
         let gathered = self.gathered.get_mut();
@@ -331,6 +351,25 @@ impl EventDriven {
         }
         self.steady_W = steady(gathered, &solved, self.held.len());
         self.settle(model, state, &solved);
+    }
+
+    /// Adds the point of a cap at rest that would sink, if one would, to what touches.
+    fn add_sinking(&mut self, model: &Model, state: &State, solved: &Solved) -> bool {
+        let gathered = self.gathered.get_mut();
+        if solved.added.is_empty() || gathered.free.is_empty() {
+            return false;
+        }
+        let least = caps::TIPS_AT_LEAST * gathered.free.iter().map(|free| free.v.norm()).fold(0.0, f64::max);
+        let rates = |i: usize, arm_W: &Vector3<f64>| {
+            let (of, w) = (solved.acceleration(gathered, i), state.bodies[i].w_WB);
+            Rates { at_arm: of.v + of.w.cross(arm_W) + w.cross(&w.cross(arm_W)), turning: of.w, least }
+        };
+        let zeno = &self.zeno;
+        let rests = |contact: &Contact| {
+            let (approach, scale) = approach_m_s(model, state, contact);
+            -approach <= zeno.rests_m_s(model, contact).max(NO_SLIP * scale)
+        };
+        caps::add_sinking(model, state, &mut self.found, 3, rests, rates)
     }
 
     /// Smooth motion, with what had to be put to rest before it. True: that took no time, and is all of the step.
@@ -398,7 +437,8 @@ impl EventDriven {
             let (gathered, at, work) = (self.gathered.get_mut(), &mut self.scratch, &mut self.work);
             let mut looking = Looking { paths, held: &self.held, gathered, at, work };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
-                (to_s, self.next) = (t_s, Event::Change(change));
+                let turned = looking.has_turned();
+                (to_s, self.next) = (t_s, if turned { Event::Impact } else { Event::Change(change) });
             }
         }
         // Last: beyond the border of a face others touch that are not held.
@@ -419,7 +459,7 @@ impl EventDriven {
         }
         let mut dense = std::mem::take(&mut self.dense);
         self.scratch.copy_from(state);
-        let mut most_s = self.longest_s;
+        let mut most_s = self.longest_s.min(caps::longest_s(model, &self.held, state));
         if self.held.iter().any(|held| held.slides().is_some()) {
             let gathered = self.gathered.get_mut();
             let Margin { solved, .. } = margin(model, state, &self.held, gathered, &mut self.work);

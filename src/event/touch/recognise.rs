@@ -2,6 +2,7 @@
 
 use super::parts::Parts;
 use super::plane::Plane;
+use super::standing::ROLLS;
 use crate::collide::Contact;
 use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, Spot, shown};
 use crate::model::{Body, Geometry, Model};
@@ -45,9 +46,9 @@ fn lowest(body: &Body, at: &BodyState, node: u32, found: &Contact) -> Option<Par
         }
         Solid::Ellipsoid { semi_axes_m } => Part::Ellipsoid { centre_B: centre, semi_axes_m: *semi_axes_m },
         Solid::Cylinder { radius_m, half_height_m } => {
-            let tilted = at.q_WB.inverse_transform_vector(&found.normal).cross(&y).norm() > TILTED;
-            let centre_B = centre + y * if node < 4 { -half_height_m } else { *half_height_m };
-            if tilted && node.is_multiple_of(4) {
+            let rolls = at.q_WB.inverse_transform_vector(&found.normal).cross(&y).norm() > ROLLS;
+            let centre_B = centre + y * if node % 8 < 4 { -half_height_m } else { *half_height_m };
+            if rolls && node.is_multiple_of(4) {
                 Part::Rim { centre_B, axis_B: y, radius_m: *radius_m }
             } else {
                 corner(at.q_WB.inverse_transform_vector(&found.r_BC_W))
@@ -56,9 +57,6 @@ fn lowest(body: &Body, at: &BodyState, node: u32, found: &Contact) -> Option<Par
         Solid::Box { .. } | Solid::Convex(_) => corner(at.q_WB.inverse_transform_vector(&found.r_BC_W)),
     })
 }
-
-/// Of a cap (rad): flatter, four points of its rim stand for it.
-const TILTED: f64 = 1e-8;
 
 /// Of unit vectors: less than this is parallel.
 const PARALLEL: f64 = 1e-6;

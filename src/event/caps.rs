@@ -9,13 +9,14 @@
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::touch::{Standing, Touch};
 use crate::collide::Contact;
-use crate::collide::closed::{delta_m, is_closed_to_delta};
+use crate::collide::closed::{SOME, delta_m, is_closed_to_delta};
 use crate::integrate::rotation::exponential;
 use crate::model::{Body, Geometry, Model};
 use crate::shape::cylinder::{FLAT, rim_directions};
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
+use std::f64::consts::PI;
 
 /// Of `FLAT`: a rim that falls flat is a point of the body from here on, and one that tips is a rim from here on; what
 /// is found between them is either (`touch::ROLLS`).
@@ -23,7 +24,10 @@ const LANDS: f64 = 1.5;
 const TIPS: f64 = 2.0;
 
 /// Beyond flat, in rad: so much is rounding.
-const BEYOND: f64 = 1e-14;
+const BEYOND: f64 = 1e-15;
+
+/// A tilt (rad) that is none: rounding of a turn.
+const LEVEL: f64 = 2e-16;
 
 /// Of the time in which a rim would be flat: a step's part.
 const BEFORE_FLAT: f64 = 0.9;
@@ -101,7 +105,7 @@ pub fn level(model: &Model, state: &mut State) {
             let (arm, sagitta_m) = cap.reach(at, &face.normal);
             let lowest_m = face.gap_m(&(at.p_WB + arm)) - sagitta_m;
             let delta_m = delta_m(body.bounding_radius_m, at.p_WB.amax() + body.bounding_radius_m);
-            if !cap.is_flat(at, &face.normal) || sagitta_m <= delta_m || lowest_m.abs() > 20.0 * delta_m {
+            if !cap.is_flat(at, &face.normal) || sagitta_m <= LEVEL * cap.radius_m || lowest_m > SOME * delta_m {
                 continue;
             }
             let turn = (at.q_WB * cap.out_B).cross(&-face.normal);
@@ -154,6 +158,23 @@ fn is_same_cap(a: &Contact, b: &Contact) -> bool {
     of(a) == of(b)
 }
 
+/// What falls flat has lost its restitution where all that come nearer have: what rests on one point of a rim and
+/// strikes with the others rocks on without it.
+pub fn lose_restitution(model: &Model, found: &mut [Contact], approaches: impl Fn(&Contact) -> bool) {
+    let mut from = 0;
+    while from < found.len() {
+        let first = found[from];
+        let len = found[from..].iter().take_while(|other| is_same_cap(&first, other)).count();
+        let group = &mut found[from..from + len];
+        let mut coming = group.iter().filter(|contact| approaches(contact)).peekable();
+        let any = coming.peek().is_some();
+        if Cap::of_contact(model, &first).is_some() && any && coming.all(|contact| contact.restitution == 0.0) {
+            group.iter_mut().for_each(|contact| contact.restitution = 0.0);
+        }
+        from += len;
+    }
+}
+
 trait NormalizeOrZero {
     fn normalize_or_zero(&self) -> Vector3<f64>;
 }
@@ -204,38 +225,99 @@ impl Rates {
     }
 }
 
-/// Adds the point of a flat cap's rim that sinks, if one does, to what touches. `bears`: caps are looked at of which
-/// so many contacts do.
-pub fn add_sinking(
-    model: &Model,
-    state: &State,
-    found: &mut Vec<Contact>,
-    least: usize,
-    bears: impl Fn(&Contact) -> bool,
-    rates: impl Fn(usize, &Vector3<f64>) -> Rates,
-) -> bool {
-    let mut from = 0;
-    while from < found.len() {
-        let first = found[from];
-        let len = found[from..].iter().take_while(|other| is_same_cap(&first, other)).count();
-        let group = &found[from..from + len];
-        if let Some(cap) = flat(model, state, &first)
-            && group.iter().filter(|contact| bears(contact)).count() >= least
-        {
-            let at = &state.bodies[first.body];
-            let Rates { at_arm, turning, least } = rates(first.body, &(at.q_WB * cap.centre_B));
-            let descent = -first.normal.cross(&turning);
-            if first.normal.dot(&at_arm) - cap.radius_m * descent.norm() < -least {
-                let u_B = rim_directions(&at.q_WB.inverse_transform_vector(&descent).normalize_or_zero())[0];
-                let node = group.iter().map(|contact| contact.feature.1 / POINTS).fold(0, u32::max) + 1;
-                let point = cap.point(model, state, &first, &u_B, node * POINTS + cap.first);
-                found.insert(from + len, point);
-                return true;
-            }
-        }
-        from += len;
+/// Which point of each flat cap's rim bears beside those that stand for it: the one that would sink. It bears where
+/// its own push leaves it the lowest, a root of one angle.
+#[derive(Default)]
+pub struct Sinking {
+    of: Vec<Search>,
+}
+
+struct Search {
+    body: usize,
+    feature: (u32, u32),
+    /// Angles of the point tried, with the angles from there to the one that then sinks: to either side, and the last.
+    above: Option<[f64; 2]>,
+    below: Option<[f64; 2]>,
+    tried_rad: Option<f64>,
+}
+
+impl Search {
+    /// The next angle to try, where the point at `sinks_rad` sinks.
+    fn tried(&mut self, sinks_rad: f64) -> f64 {
+        let next_rad = self.next_rad(sinks_rad);
+        self.tried_rad = Some(next_rad);
+        next_rad
     }
-    false
+
+    fn next_rad(&mut self, sinks_rad: f64) -> f64 {
+        let Some(tried_rad) = self.tried_rad else { return sinks_rad };
+        let off_rad = (sinks_rad - tried_rad + PI).rem_euclid(2.0 * PI) - PI;
+        let (side, other) =
+            if off_rad > 0.0 { (&mut self.below, &mut self.above) } else { (&mut self.above, &mut self.below) };
+        // A. M. Ostrowski's rule of the false position that does not stay on one side ("Illinois").
+        if side.replace([tried_rad, off_rad]).is_some()
+            && let Some([_, off]) = other
+        {
+            *off /= 2.0;
+        }
+        match (self.below, self.above) {
+            (Some([below_rad, less]), Some([above_rad, more])) => {
+                let apart = (above_rad - below_rad + PI).rem_euclid(2.0 * PI) - PI;
+                below_rad + apart * less / (less - more)
+            }
+            _ => sinks_rad,
+        }
+    }
+}
+
+impl Sinking {
+    /// Puts the point of a flat cap's rim that sinks to what touches; false: none does. `bears`: caps are looked at of
+    /// which so many contacts do.
+    pub fn add(
+        &mut self,
+        model: &Model,
+        state: &State,
+        found: &mut Vec<Contact>,
+        (least, bears): (usize, impl Fn(&Contact) -> bool),
+        rates: impl Fn(usize, &Vector3<f64>) -> Rates,
+    ) -> bool {
+        let mut from = 0;
+        while from < found.len() {
+            let first = found[from];
+            let len = found[from..].iter().take_while(|other| is_same_cap(&first, other)).count();
+            let group = &found[from..from + len];
+            if let Some(cap) = flat(model, state, &first)
+                && group.iter().filter(|contact| bears(contact)).count() >= least
+            {
+                let at = &state.bodies[first.body];
+                let Rates { at_arm, turning, least } = rates(first.body, &(at.q_WB * cap.centre_B));
+                let descent = -first.normal.cross(&turning);
+                if first.normal.dot(&at_arm) - cap.radius_m * descent.norm() < -least {
+                    let d_B = at.q_WB.inverse_transform_vector(&descent);
+                    let angle_rad = self.search(&first, &cap).tried(libm::atan2(d_B.x, d_B.z));
+                    let u_B = Vector3::new(libm::sin(angle_rad), 0.0, libm::cos(angle_rad));
+                    let point = cap.point(model, state, &first, &u_B, cap.first + POINTS);
+                    match group.iter().position(|contact| contact.feature.1 == point.feature.1) {
+                        Some(k) => found[from + k] = point,
+                        None => found.insert(from + len, point),
+                    }
+                    return true;
+                }
+            }
+            from += len;
+        }
+        false
+    }
+
+    fn search(&mut self, contact: &Contact, cap: &Cap) -> &mut Search {
+        let (body, feature) = (contact.body, (contact.feature.0, cap.first));
+        let k = self.of.iter().position(|search| search.body == body && search.feature == feature);
+        let k = k.unwrap_or_else(|| {
+            self.of.push(Search { body, feature, above: None, below: None, tried_rad: None });
+            self.of.len() - 1
+        });
+        &mut self.of[k]
+    }
 }
 
 /// A rim that stands on a plane.

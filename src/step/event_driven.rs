@@ -9,7 +9,7 @@ use crate::collide::approach::Approach;
 use crate::collide::closed::{MARGIN, is_closed_to_delta};
 use crate::collide::{Contact, Detector, Reach, SolvedContact};
 use crate::deadline::Deadline;
-use crate::event::caps::{self, Rates};
+use crate::event::caps::{self, Rates, Sinking};
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
 use crate::event::dense::{Dense, Field, project};
@@ -115,7 +115,7 @@ const SLAP: f64 = 1e3;
 /// Events at one moment, of all contacts, before something is wrong.
 const AT_ONCE: u32 = 200;
 
-/// Points of rims added to what touches, one after another: each is nearer to the one that bears.
+/// Points of a rim that are tried, one after another: each is nearer to the one that bears.
 const POINTS: u32 = 40;
 
 /// More events than this in the time of a stretch are too many: those that cost an integration, and others.
@@ -291,18 +291,19 @@ impl EventDriven {
             if self.zeno.bounces_out(model, state, &contact, self.found.len() == 1) {
                 self.found[k].restitution = 0.0;
             }
-            if self.found[k].restitution == 0.0 {
-                self.found[k].tangential_restitution = 0.0;
-            }
+        }
+        caps::lose_restitution(model, &mut self.found, strikes);
+        for contact in self.found.iter_mut().filter(|contact| contact.restitution == 0.0) {
+            contact.tangential_restitution = 0.0;
         }
         let (gathered, solved, work) = (self.gathered.get_mut(), &mut self.solved, &mut self.work);
         self.scratch.copy_from(state);
-        let mut ended = false;
+        let (mut ended, mut sinking) = (false, Sinking::default());
         for _ in 0..POINTS {
             state.copy_from(&self.scratch);
             ended = impact::strike(model, state, &self.found, self.law, gathered, solved, work);
             let velocities = |i: usize, arm_W: &Vector3<f64>| Rates::velocities(model, state, i, arm_W);
-            if !caps::add_sinking(model, state, &mut self.found, 1, |_| true, velocities) {
+            if !sinking.add(model, state, &mut self.found, (1, |_| true), velocities) {
                 break;
             }
         }
@@ -313,7 +314,7 @@ impl EventDriven {
     /// What holds from now on, and how everything moves.
     fn regroup(&mut self, model: &Model, state: &mut State, change: &Change) {
         let change = &Change { slow_m_s: self.slow.fading_m_s, ..change.clone() };
-        let mut solved = Solved::default();
+        let (mut solved, mut sinking) = (Solved::default(), Sinking::default());
         for _ in 0..POINTS {
             let Some(touches) = self.resting(model, state) else {
                 self.trouble = true;
@@ -335,7 +336,7 @@ impl EventDriven {
                     return;
                 }
             }
-            if !self.add_sinking(model, state, &solved) {
+            if !self.add_sinking(model, state, &solved, &mut sinking) {
                 break;
             }
         }
@@ -354,7 +355,7 @@ impl EventDriven {
     }
 
     /// Adds the point of a cap at rest that would sink, if one would, to what touches.
-    fn add_sinking(&mut self, model: &Model, state: &State, solved: &Solved) -> bool {
+    fn add_sinking(&mut self, model: &Model, state: &State, solved: &Solved, sinking: &mut Sinking) -> bool {
         let gathered = self.gathered.get_mut();
         if solved.added.is_empty() || gathered.free.is_empty() {
             return false;
@@ -369,7 +370,7 @@ impl EventDriven {
             let (approach, scale) = approach_m_s(model, state, contact);
             -approach <= zeno.rests_m_s(model, contact).max(NO_SLIP * scale)
         };
-        caps::add_sinking(model, state, &mut self.found, 3, rests, rates)
+        sinking.add(model, state, &mut self.found, (3, rests), rates)
     }
 
     /// Smooth motion, with what had to be put to rest before it. True: that took no time, and is all of the step.

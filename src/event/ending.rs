@@ -70,13 +70,13 @@ pub fn lasts_s(
     };
     // Well within the cones, not on their edge.
     let mut over_s = if least_s > 0.0 { 2.0 * least_s } else { longest_s * f64::EPSILON };
-    while !are_lawful(over_s) {
-        over_s *= 2.0;
-        if over_s > longest_s || over_s.is_nan() {
-            return shared_s();
+    while over_s <= longest_s {
+        if are_lawful(over_s) {
+            return over_s;
         }
+        over_s *= 2.0;
     }
-    over_s
+    shared_s()
 }
 
 /// Puts all impulses of a step where a smooth motion has led, so that velocities are those of what holds; `kicked`

@@ -1,25 +1,27 @@
-//! Caps of cylinders on the faces of a container: that lie flat, fall flat and tip over their rim.
+//! Caps of cylinders on planes: faces of a container, and of other bodies under all of the cap. They lie flat, fall
+//! flat and tip over their rim.
 //!
 //! A tilted cap touches in one point, which rolls along its rim. The direction to that point has no limit where the
 //! tilt goes to zero, and so below `FLAT` the cap is a disc whose points are fixed in the body: every one of its rim
 //! may bear, wherever it is. Four of them stand for it, the first where the cap comes down, and to those is added
-//! whichever else would sink, until none does: a cap that tips does so over one point, in the direction of its tilt.
-//! A rim that falls flat goes on about its last point, up to the moment when the cap is flat; then all of it strikes.
+//! whichever else would sink: a cap that tips does so over one point, in the direction of its tilt. A rim that falls
+//! flat goes on about its last point, up to the moment when the cap is flat; then all of it strikes.
 
-use super::forces::{Held, NO_SLIP, speed_m_s};
+use super::forces::{Held, NO_SLIP, meeting_m_s};
+use super::shown::shown;
 use super::touch::{Standing, Touch};
 use crate::collide::Contact;
-use crate::collide::closed::{SOME, delta_m, is_closed_to_delta};
+use crate::collide::closed::{SOME, delta_m};
 use crate::integrate::rotation::exponential;
 use crate::model::{Body, Geometry, Model};
-use crate::shape::cylinder::{FLAT, rim_directions};
+use crate::shape::cylinder::{FLAT, RIM, rim_directions};
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
 /// Of `FLAT`: a rim that falls flat is a point of the body from here on, and one that tips is a rim from here on; what
-/// is found between them is either (`touch::ROLLS`).
+/// is found between them is either (`shown::ROLLS`).
 const LANDS: f64 = 1.5;
 const TIPS: f64 = 2.0;
 
@@ -32,13 +34,13 @@ const LEVEL: f64 = 2e-16;
 /// Of the time in which a rim would be flat: a step's part.
 const BEFORE_FLAT: f64 = 0.9;
 
-/// A point of the rim that sinks slower, of the speed of the body, does not.
-const SINKS: f64 = 1e-12;
-
 /// Accelerations that turn a cap over, of those without contact: less is rounding of what the law leaves.
 pub const TIPS_AT_LEAST: f64 = 1e-9;
 
-/// Points of a container's contact test: of either cap four.
+/// A point of the rim that sinks slower, of the speed of the bodies, does not.
+const SINKS: f64 = 1e-12;
+
+/// Points of the contact test: of either cap four.
 const POINTS: u32 = 8;
 
 /// The cap of a cylinder that faces a plane.
@@ -52,17 +54,11 @@ pub struct Cap {
 impl Cap {
     /// None: the body has no caps.
     pub fn facing(body: &Body, at: &BodyState, normal: &Vector3<f64>) -> Option<Self> {
-        let below = at.q_WB.inverse_transform_vector(normal).y > 0.0;
-        Cap::of(body, if below { 0 } else { 4 })
-    }
-
-    /// By the number of a contact's point.
-    fn of(body: &Body, node: u32) -> Option<Self> {
         let Geometry::Solid { solid: Solid::Cylinder { radius_m, half_height_m }, centre } = &body.geometry else {
             return None;
         };
-        let first = node % POINTS / 4 * 4;
-        let out_B = if first == 0 { -Vector3::y() } else { Vector3::y() };
+        let below = at.q_WB.inverse_transform_vector(normal).y > 0.0;
+        let (first, out_B) = if below { (0, -Vector3::y()) } else { (4, Vector3::y()) };
         Some(Cap { first, centre_B: centre + out_B * *half_height_m, out_B, radius_m: *radius_m })
     }
 
@@ -87,6 +83,7 @@ impl Cap {
         self.lean_W(at, normal).norm() <= FLAT
     }
 
+    /// Number of its first point.
     pub fn first(&self) -> u32 {
         self.first
     }
@@ -94,135 +91,193 @@ impl Cap {
     pub fn has(&self, node: u32) -> bool {
         node % POINTS / 4 * 4 == self.first
     }
+
+    /// Turns the body so that it is flat, its lowest point as high as it is.
+    fn level(&self, at: &mut BodyState, normal: &Vector3<f64>) {
+        let (arm_W, sagitta_m) = self.reach(at, normal);
+        let turn = (at.q_WB * self.out_B).cross(&-normal);
+        at.q_WB = exponential(&turn) * at.q_WB;
+        at.q_WB.renormalize();
+        at.p_WB += arm_W - at.q_WB * self.centre_B - normal * sagitta_m;
+    }
+
+    /// It has a tilt, but is flat.
+    fn is_nearly_level(&self, at: &BodyState, normal: &Vector3<f64>) -> bool {
+        (LEVEL..=FLAT).contains(&self.lean_W(at, normal).norm())
+    }
 }
 
-/// Puts what is flat to `FLAT` and touches flat to rounding, so that all of it touches.
+/// Puts what is flat to `FLAT` and touches flat to rounding, so that all of it touches: on a container, where its
+/// lowest point is none of the contact test's.
 pub fn level(model: &Model, state: &mut State) {
     let Some(container) = &model.container else { return };
     for (body, at) in model.bodies.iter().zip(&mut state.bodies).filter(|(body, _)| body.feels_container()) {
         for face in &container.faces {
             let Some(cap) = Cap::facing(body, at, &face.normal) else { continue };
-            let (arm, sagitta_m) = cap.reach(at, &face.normal);
-            let lowest_m = face.gap_m(&(at.p_WB + arm)) - sagitta_m;
+            let (arm_W, sagitta_m) = cap.reach(at, &face.normal);
+            let lowest_m = face.gap_m(&(at.p_WB + arm_W)) - sagitta_m;
             let delta_m = delta_m(body.bounding_radius_m, at.p_WB.amax() + body.bounding_radius_m);
-            if !cap.is_flat(at, &face.normal) || sagitta_m <= LEVEL * cap.radius_m || lowest_m > SOME * delta_m {
-                continue;
+            if cap.is_nearly_level(at, &face.normal) && lowest_m <= SOME * delta_m {
+                cap.level(at, &face.normal);
             }
-            let turn = (at.q_WB * cap.out_B).cross(&-face.normal);
-            at.q_WB = exponential(&turn) * at.q_WB;
-            at.q_WB.renormalize();
-            at.p_WB += arm - at.q_WB * cap.centre_B - face.normal * sagitta_m;
         }
     }
+}
+
+/// The same on other bodies, of what touches. False: nothing had to be moved.
+pub fn level_on_bodies(model: &Model, state: &mut State, found: &[Contact]) -> bool {
+    let mut moved = false;
+    for contact in found.iter().filter(|contact| contact.other.is_some()) {
+        let Some(Footing { of, base: Some(base), cap, .. }) = Footing::of(model, state, contact) else { continue };
+        if model.bodies[of].driven {
+            continue;
+        }
+        let (of_base, at_base) = (&model.bodies[base], &state.bodies[base]);
+        let own = |d: Vector3<f64>| at_base.q_WB.inverse_transform_vector(&d);
+        let normal = if of == contact.body { contact.normal } else { -contact.normal };
+        let facing = shown(of_base, &own(contact.p_WC - at_base.p_WB), &own(normal));
+        let Some(face) = facing.and_then(|facing| facing.face) else { continue };
+        let normal = at_base.q_WB * face.normal_B;
+        if cap.is_nearly_level(&state.bodies[of], &normal) {
+            cap.level(&mut state.bodies[of], &normal);
+            moved = true;
+        }
+    }
+    moved
+}
+
+/// A flat cap that a contact is of.
+struct Footing {
+    of: usize,
+    base: Option<usize>,
+    /// From the base.
+    normal: Vector3<f64>,
+    cap: Cap,
+    /// Of the contact's point.
+    node: u32,
+}
+
+impl Footing {
+    fn of(model: &Model, state: &State, contact: &Contact) -> Option<Self> {
+        let on = |of: usize, base: Option<usize>, normal: Vector3<f64>, node: u32| {
+            let cap = Cap::facing(&model.bodies[of], &state.bodies[of], &normal)?;
+            let is_flat = cap.is_flat(&state.bodies[of], &normal);
+            (is_flat && (base.is_some() || cap.has(node))).then_some(Footing { of, base, normal, cap, node })
+        };
+        match (contact.other, rim_side(contact)) {
+            (None, _) => on(contact.body, None, contact.normal, contact.feature.1),
+            (Some(other), Some(0)) => on(contact.body, Some(other), contact.normal, contact.feature.0 - RIM),
+            (Some(other), Some(_)) => on(other, Some(contact.body), -contact.normal, contact.feature.1 - RIM),
+            (Some(_), None) => None,
+        }
+    }
+
+    /// The same contact at another point of the rim.
+    fn point(&self, state: &State, like: &Contact, u_B: &Vector3<f64>, node: u32) -> Contact {
+        let at = &state.bodies[self.of];
+        let arm_W = |u_B: &Vector3<f64>| at.q_WB * (self.cap.centre_B + u_B * self.cap.radius_m);
+        let r_W = arm_W(u_B);
+        let p_WC = at.p_WB + r_W;
+        match like.other {
+            None => {
+                let feature = (like.feature.0, node + self.cap.first);
+                // As high as the other one: it is flat.
+                let gap_m = like.gap_m + self.normal.dot(&(p_WC - like.p_WC));
+                Contact { feature, r_BC_W: r_W, p_WC, gap_m, ..*like }
+            }
+            Some(other) => {
+                let feature =
+                    if self.of == like.body { (RIM | node, like.feature.1) } else { (like.feature.0, RIM | node) };
+                let [r_BC_W, r_OC_W] = [like.body, other].map(|i| p_WC - state.bodies[i].p_WB);
+                Contact { feature, r_BC_W, r_OC_W, p_WC, ..*like }
+            }
+        }
+    }
+}
+
+/// Which side's rim a contact of a pair is a point of.
+fn rim_side(contact: &Contact) -> Option<u32> {
+    let is_rim = |feature: u32| feature >> 28 == RIM >> 28;
+    match contact.feature {
+        (feature, _) if is_rim(feature) => Some(0),
+        (_, feature) if is_rim(feature) => Some(1),
+        _ => None,
+    }
+}
+
+fn is_same_cap(a: &Contact, b: &Contact) -> bool {
+    let of = |contact: &Contact| {
+        let part = match contact.other {
+            None => (contact.feature.0, Some(contact.feature.1 % POINTS / 4)),
+            Some(_) => (0, rim_side(contact)),
+        };
+        (contact.body, contact.other, part)
+    };
+    of(a) == of(b)
+}
+
+/// Calls `visit` for all that touches, cap by cap: where its contacts begin and end, and what it stands on; none, if
+/// they are of no flat cap.
+fn each_cap(
+    model: &Model,
+    state: &State,
+    found: &mut Vec<Contact>,
+    mut visit: impl FnMut(&mut Vec<Contact>, std::ops::Range<usize>, &Footing) -> bool,
+) -> bool {
+    let mut from = 0;
+    while from < found.len() {
+        let first = found[from];
+        let len = found[from..].iter().take_while(|other| is_same_cap(&first, other)).count();
+        if let Some(footing) = Footing::of(model, state, &first)
+            && len >= 4
+            && visit(found, from..from + len, &footing)
+        {
+            return true;
+        }
+        from += len;
+    }
+    false
 }
 
 /// Has every flat cap among what touches stand on four points, the first of them where it comes down, or, if it does
 /// not turn over, on those that are the body's own.
 pub fn turn(model: &Model, state: &State, found: &mut Vec<Contact>) {
-    found.retain(|contact| Cap::of_contact(model, contact).is_none() || contact.feature.1 < POINTS);
-    let mut from = 0;
-    while from < found.len() {
-        let len = found[from..].iter().take_while(|other| is_same_cap(&found[from], other)).count();
-        if let Some(cap) = flat(model, state, &found[from]) {
-            let (first, body) = (found[from], &model.bodies[found[from].body]);
-            let (at, normal) = (&state.bodies[first.body], first.normal);
-            let descent = -normal.cross(&at.w_WB);
-            let turns = cap.radius_m * descent.norm() > NO_SLIP * speed_m_s(model, body, at);
-            let along_B = if turns { at.q_WB.inverse_transform_vector(&descent) } else { Vector3::zeros() };
-            let group = &found[from..from + len];
-            let most = |of: fn(&Contact) -> f64| group.iter().map(of).fold(0.0, f64::max);
-            let (restitution, tangential_restitution) =
-                (most(|contact| contact.restitution), most(|contact| contact.tangential_restitution));
-            let all = rim_directions(&along_B.normalize_or_zero()).into_iter().zip(cap.first..).map(|(u_B, node)| {
-                let at = Contact { restitution, tangential_restitution, ..first };
-                cap.point(model, state, &at, &u_B, node)
-            });
-            found.splice(from..from + len, all.collect::<Vec<_>>());
-            from += 4;
-        } else {
-            from += len;
+    found.retain(|contact| Footing::of(model, state, contact).is_none_or(|footing| footing.node < POINTS));
+    each_cap(model, state, found, |found, group, footing| {
+        let first = found[group.start];
+        let descent = -footing.normal.cross(&relative(footing, &|i| state.bodies[i].w_WB));
+        let speed_m_s = meeting_m_s(model, state, first.ends().map(|(i, ..)| i));
+        let turns = footing.cap.radius_m * descent.norm() > NO_SLIP * speed_m_s;
+        let at = &state.bodies[footing.of];
+        let along_B = if turns { at.q_WB.inverse_transform_vector(&descent).normalize() } else { Vector3::zeros() };
+        let most = |of: fn(&Contact) -> f64| found[group.clone()].iter().map(of).fold(0.0, f64::max);
+        let restitution = most(|contact| contact.restitution);
+        let tangential_restitution = most(|contact| contact.tangential_restitution);
+        for ((contact, u_B), node) in found[group].iter_mut().zip(rim_directions(&along_B)).zip(0..) {
+            let like = Contact { restitution, tangential_restitution, ..first };
+            *contact = footing.point(state, &like, &u_B, node);
         }
-    }
+        false
+    });
 }
 
-/// The flat cap that a contact with the container is of.
-fn flat(model: &Model, state: &State, contact: &Contact) -> Option<Cap> {
-    let cap = Cap::of_contact(model, contact)?;
-    let (at, normal) = (&state.bodies[contact.body], &contact.normal);
-    let faces = (at.q_WB * cap.out_B).dot(normal) < 0.0;
-    (faces && cap.is_flat(at, normal) && is_closed_to_delta(model, contact)).then_some(cap)
+fn relative(footing: &Footing, of: &impl Fn(usize) -> Vector3<f64>) -> Vector3<f64> {
+    of(footing.of) - footing.base.map_or_else(Vector3::zeros, of)
 }
 
-fn is_same_cap(a: &Contact, b: &Contact) -> bool {
-    let of = |contact: &Contact| (contact.body, contact.other, contact.feature.0, contact.feature.1 % POINTS / 4);
-    of(a) == of(b)
+/// Velocities, or accelerations, of a body's points: of the one at an arm from its centre of mass (world axes), and of
+/// its rotation.
+pub type Rates = [Vector3<f64>; 2];
+
+/// Velocities of a body in a state.
+pub fn velocities(state: &State, i: usize, arm_W: &Vector3<f64>) -> Rates {
+    let at = &state.bodies[i];
+    [at.v_WB + at.w_WB.cross(arm_W), at.w_WB]
 }
 
-/// What falls flat has lost its restitution where all that come nearer have: what rests on one point of a rim and
-/// strikes with the others rocks on without it.
-pub fn lose_restitution(model: &Model, found: &mut [Contact], approaches: impl Fn(&Contact) -> bool) {
-    let mut from = 0;
-    while from < found.len() {
-        let first = found[from];
-        let len = found[from..].iter().take_while(|other| is_same_cap(&first, other)).count();
-        let group = &mut found[from..from + len];
-        let mut coming = group.iter().filter(|contact| approaches(contact)).peekable();
-        let any = coming.peek().is_some();
-        if Cap::of_contact(model, &first).is_some() && any && coming.all(|contact| contact.restitution == 0.0) {
-            group.iter_mut().for_each(|contact| contact.restitution = 0.0);
-        }
-        from += len;
-    }
-}
-
-trait NormalizeOrZero {
-    fn normalize_or_zero(&self) -> Vector3<f64>;
-}
-
-impl NormalizeOrZero for Vector3<f64> {
-    fn normalize_or_zero(&self) -> Vector3<f64> {
-        self.try_normalize(0.0).unwrap_or_else(Vector3::zeros)
-    }
-}
-
-impl Cap {
-    fn of_contact(model: &Model, contact: &Contact) -> Option<Self> {
-        if contact.other.is_some() {
-            return None;
-        }
-        Cap::of(&model.bodies[contact.body], contact.feature.1)
-    }
-
-    /// The same contact at another point of the rim.
-    fn point(&self, model: &Model, state: &State, like: &Contact, u_B: &Vector3<f64>, node: u32) -> Contact {
-        let at = &state.bodies[like.body];
-        let r_BC_W = at.q_WB * (self.centre_B + u_B * self.radius_m);
-        let p_WC = at.p_WB + r_BC_W;
-        let face = model.container.as_ref().map(|container| container.faces[like.feature.0 as usize]);
-        let gap_m = face.map_or(like.gap_m, |face| face.gap_m(&p_WC));
-        Contact { feature: (like.feature.0, node), r_BC_W, p_WC, gap_m, ..*like }
-    }
-}
-
-/// Velocities, or accelerations, of all points of a body.
-pub struct Rates {
-    /// Of the point at the arm asked for.
-    pub at_arm: Vector3<f64>,
-    pub turning: Vector3<f64>,
-    /// What is less than this is rounding.
-    pub least: f64,
-}
-
-impl Rates {
-    /// Velocities in a state, by a body's index and an arm from its centre of mass.
-    pub fn velocities(model: &Model, state: &State, i: usize, arm_W: &Vector3<f64>) -> Self {
-        let at = &state.bodies[i];
-        Rates {
-            at_arm: at.v_WB + at.w_WB.cross(arm_W),
-            turning: at.w_WB,
-            least: SINKS * speed_m_s(model, &model.bodies[i], at),
-        }
-    }
+/// What is no velocity of a point that sinks.
+pub fn sinks_m_s(model: &Model, state: &State, contact: &Contact) -> f64 {
+    SINKS * meeting_m_s(model, state, contact.ends().map(|(i, ..)| i))
 }
 
 /// Which point of each flat cap's rim bears beside those that stand for it: the one that would sink. It bears where
@@ -234,7 +289,7 @@ pub struct Sinking {
 
 struct Search {
     body: usize,
-    feature: (u32, u32),
+    feature: (usize, u32),
     /// Angles of the point tried, with the angles from there to the one that then sinks: to either side, and the last.
     above: Option<[f64; 2]>,
     below: Option<[f64; 2]>,
@@ -254,7 +309,7 @@ impl Search {
         let off_rad = (sinks_rad - tried_rad + PI).rem_euclid(2.0 * PI) - PI;
         let (side, other) =
             if off_rad > 0.0 { (&mut self.below, &mut self.above) } else { (&mut self.above, &mut self.below) };
-        // A. M. Ostrowski's rule of the false position that does not stay on one side ("Illinois").
+        // The rule of the false position that does not stay on one side ("Illinois").
         if side.replace([tried_rad, off_rad]).is_some()
             && let Some([_, off]) = other
         {
@@ -271,46 +326,42 @@ impl Search {
 }
 
 impl Sinking {
-    /// Puts the point of a flat cap's rim that sinks to what touches; false: none does. `bears`: caps are looked at of
-    /// which so many contacts do.
+    /// Puts the point of a flat cap's rim that sinks faster than `least` to what touches; false: none does. `bears`:
+    /// caps are looked at of which so many contacts do.
     pub fn add(
         &mut self,
         model: &Model,
         state: &State,
         found: &mut Vec<Contact>,
-        (least, bears): (usize, impl Fn(&Contact) -> bool),
-        rates: impl Fn(usize, &Vector3<f64>) -> Rates,
+        (most, bears): (usize, impl Fn(&Contact) -> bool),
+        (rates, least): (impl Fn(usize, &Vector3<f64>) -> Rates, impl Fn(&Contact) -> f64),
     ) -> bool {
-        let mut from = 0;
-        while from < found.len() {
-            let first = found[from];
-            let len = found[from..].iter().take_while(|other| is_same_cap(&first, other)).count();
-            let group = &found[from..from + len];
-            if let Some(cap) = flat(model, state, &first)
-                && group.iter().filter(|contact| bears(contact)).count() >= least
-            {
-                let at = &state.bodies[first.body];
-                let Rates { at_arm, turning, least } = rates(first.body, &(at.q_WB * cap.centre_B));
-                let descent = -first.normal.cross(&turning);
-                if first.normal.dot(&at_arm) - cap.radius_m * descent.norm() < -least {
-                    let d_B = at.q_WB.inverse_transform_vector(&descent);
-                    let angle_rad = self.search(&first, &cap).tried(libm::atan2(d_B.x, d_B.z));
-                    let u_B = Vector3::new(libm::sin(angle_rad), 0.0, libm::cos(angle_rad));
-                    let point = cap.point(model, state, &first, &u_B, cap.first + POINTS);
-                    match group.iter().position(|contact| contact.feature.1 == point.feature.1) {
-                        Some(k) => found[from + k] = point,
-                        None => found.insert(from + len, point),
-                    }
-                    return true;
-                }
+        each_cap(model, state, found, |found, group, footing| {
+            let first = found[group.start];
+            if found[group.clone()].iter().filter(|contact| bears(contact)).count() < most {
+                return false;
             }
-            from += len;
-        }
-        false
+            let (cap, at) = (&footing.cap, &state.bodies[footing.of]);
+            let p_W = at.p_WB + at.q_WB * cap.centre_B;
+            let of = |k: usize| relative(footing, &|i: usize| rates(i, &(p_W - state.bodies[i].p_WB))[k]);
+            let descent = -footing.normal.cross(&of(1));
+            if footing.normal.dot(&of(0)) - cap.radius_m * descent.norm() >= -least(&first) {
+                return false;
+            }
+            let d_B = at.q_WB.inverse_transform_vector(&descent);
+            let angle_rad = self.search(&first, footing).tried(libm::atan2(d_B.x, d_B.z));
+            let u_B = Vector3::new(libm::sin(angle_rad), 0.0, libm::cos(angle_rad));
+            let point = footing.point(state, &first, &u_B, POINTS);
+            match found[group.clone()].iter().position(|contact| contact.feature == point.feature) {
+                Some(k) => found[group.start + k] = point,
+                None => found.insert(group.end, point),
+            }
+            true
+        })
     }
 
-    fn search(&mut self, contact: &Contact, cap: &Cap) -> &mut Search {
-        let (body, feature) = (contact.body, (contact.feature.0, cap.first));
+    fn search(&mut self, contact: &Contact, footing: &Footing) -> &mut Search {
+        let (body, feature) = (footing.of, footing.base.map_or((0, contact.feature.0), |base| (base + 1, 0)));
         let k = self.of.iter().position(|search| search.body == body && search.feature == feature);
         let k = k.unwrap_or_else(|| {
             self.of.push(Search { body, feature, above: None, below: None, tried_rad: None });
@@ -318,6 +369,39 @@ impl Sinking {
         });
         &mut self.of[k]
     }
+}
+
+/// How the lowest point of a rim that is nearly flat may move toward what it faces.
+pub struct Rolling {
+    /// Beside what its points are accelerated, for a time; none: it is flat.
+    pub along: Option<(f64, f64)>,
+    /// How much faster than this point any other may come nearer.
+    pub faster_m_s: f64,
+}
+
+/// The tilt (rad) up to which that is more than the points of contact of other parts may do.
+const NEARLY: f64 = 0.2;
+
+/// Part of a tilt that is sure to be left while the bound of the curvature is used.
+const KEPT: f64 = 0.5;
+
+/// Of two bodies that touch along this normal, and turn no faster than this against each other. None: no cap does.
+pub fn rolling(bodies: [&Body; 2], at: &[BodyState; 2], normal: &Vector3<f64>, w_rad_s: f64) -> Option<Rolling> {
+    let of = |k: usize| {
+        let normal = if k == 0 { *normal } else { -normal };
+        let cap = Cap::facing(bodies[k], &at[k], &normal)?;
+        let tilt = cap.lean_W(&at[k], &normal).norm();
+        (tilt <= NEARLY).then_some((cap.radius_m, tilt))
+    };
+    let (radius_m, tilt) = match (of(0), of(1)) {
+        (Some(a), Some(b)) => (a.0.max(b.0), a.1.min(b.1)),
+        (Some(one), None) | (None, Some(one)) => one,
+        (None, None) => return None,
+    };
+    let faster_m_s = 2.0 * radius_m * normal.cross(&(at[0].w_WB - at[1].w_WB)).norm();
+    let kept = KEPT * tilt;
+    let along = (tilt > FLAT).then(|| (w_rad_s * w_rad_s * radius_m / kept, kept / w_rad_s.max(f64::MIN_POSITIVE)));
+    Some(Rolling { along, faster_m_s })
 }
 
 /// A rim that stands on a plane.

@@ -9,7 +9,7 @@
 //! Pairs of bodies: of balls likewise; of others by their distance and the largest speed of their points, and within a
 //! thousandth of their size by their points of contact.
 
-use super::caps::Cap;
+use super::caps::{self, Cap};
 use super::dense::Dense;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::motion::{Bounds, Motion};
@@ -407,11 +407,25 @@ impl<'a> Two<'a> {
             let turning = ROLLING * (a.w + b.w) * closing;
             let toward_m_s2 = ROLLING * self.toward_m_s2(self.sizes) + turning;
             let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2, known_s: near_m / closing, ..Look::EMPTY };
-            safe_s = safe_s.min(look.safe_s(*delta_m, *slow_m_s));
+            safe_s = safe_s.min(self.rolling_s(now, touch, &look));
             touching |= look.is_touching(*delta_m, *slow_m_s);
         }
         let way_m = near_m.max(self.smaller_m() * WAY);
         (safe_s.min(way_m / closing.max(f64::MIN_POSITIVE)), touching)
+    }
+
+    /// The safe time of such a look, of a cap that is nearly flat: its lowest point rolls along the rim.
+    fn rolling_s(&self, now: &Now, touch: &Found, look: &Look) -> f64 {
+        let Now { at, delta_m, slow_m_s, .. } = now;
+        let w_rad_s = self.bounds[0].w + self.bounds[1].w;
+        let Some(rolling) = caps::rolling(self.bodies, at, &touch.normal, w_rad_s) else {
+            return look.safe_s(*delta_m, *slow_m_s);
+        };
+        let of_any = Look { rate_m_s: look.rate_m_s - rolling.faster_m_s, ..*look };
+        let of_any_s = of_any.safe_s(*delta_m, *slow_m_s);
+        let Some((more_m_s2, known_s)) = rolling.along else { return of_any_s };
+        let along = Look { toward_m_s2: look.toward_m_s2 + more_m_s2, known_s: look.known_s.min(known_s), ..*look };
+        of_any_s.max(along.safe_s(*delta_m, *slow_m_s))
     }
 
     fn is_held(&self, at: &[BodyState; 2], touch: &Found) -> bool {

@@ -10,6 +10,9 @@ use std::f64::consts::PI;
 /// points of the rim are fixed in the body; what is lost is less than a third of this angle times the radius.
 pub const FLAT: f64 = 1e-10;
 
+/// Of a pair's features: a point of a rim, by its number.
+pub const RIM: u32 = 3 << 28;
+
 pub fn bounding_radius_m(radius_m: f64, half_height_m: f64) -> f64 {
     (radius_m * radius_m + half_height_m * half_height_m).sqrt()
 }

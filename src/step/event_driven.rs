@@ -9,7 +9,7 @@ use crate::collide::approach::Approach;
 use crate::collide::closed::{MARGIN, is_closed_to_delta};
 use crate::collide::{Contact, Detector, Reach, SolvedContact};
 use crate::deadline::Deadline;
-use crate::event::caps::{self, Rates, Sinking};
+use crate::event::caps::{self, Sinking};
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
 use crate::event::dense::{Dense, Field, project};
@@ -22,7 +22,7 @@ use crate::event::settle::{Forces, settle};
 use crate::event::slip::{self, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
-use crate::event::zeno::{Zeno, approach_m_s};
+use crate::event::zeno::{Zeno, approach_m_s, lose_together};
 use crate::experiment::types::{EventDriven as Settings, Impact};
 use crate::math::full_pivot::Selection;
 use crate::model::Model;
@@ -265,16 +265,18 @@ impl EventDriven {
         self.found.clear();
         if self.contact {
             caps::level(model, state);
-            self.detector.detect(
-                model,
-                state,
-                &Reach { margin: MARGIN, ahead_s: 0.0 },
-                &mut self.found,
-                &mut self.work,
-            );
-            self.found.retain(|contact| is_closed_to_delta(model, contact));
+            self.look_around(model, state);
+            if caps::level_on_bodies(model, state, &self.found) {
+                self.look_around(model, state);
+            }
             caps::turn(model, state, &mut self.found);
         }
+    }
+
+    fn look_around(&mut self, model: &Model, state: &State) {
+        let reach = Reach { margin: MARGIN, ahead_s: 0.0 };
+        self.detector.detect(model, state, &reach, &mut self.found, &mut self.work);
+        self.found.retain(|contact| is_closed_to_delta(model, contact));
     }
 
     /// An impact, if something comes nearer.
@@ -292,7 +294,7 @@ impl EventDriven {
                 self.found[k].restitution = 0.0;
             }
         }
-        caps::lose_restitution(model, &mut self.found, strikes);
+        lose_together(&mut self.found, strikes);
         for contact in self.found.iter_mut().filter(|contact| contact.restitution == 0.0) {
             contact.tangential_restitution = 0.0;
         }
@@ -302,8 +304,9 @@ impl EventDriven {
         for _ in 0..POINTS {
             state.copy_from(&self.scratch);
             ended = impact::strike(model, state, &self.found, self.law, gathered, solved, work);
-            let velocities = |i: usize, arm_W: &Vector3<f64>| Rates::velocities(model, state, i, arm_W);
-            if !sinking.add(model, state, &mut self.found, (1, |_| true), velocities) {
+            let velocities = |i: usize, arm_W: &Vector3<f64>| caps::velocities(state, i, arm_W);
+            let rates = (velocities, |contact: &Contact| caps::sinks_m_s(model, state, contact));
+            if !sinking.add(model, state, &mut self.found, (1, |_| true), rates) {
                 break;
             }
         }
@@ -363,14 +366,14 @@ impl EventDriven {
         let least = caps::TIPS_AT_LEAST * gathered.free.iter().map(|free| free.v.norm()).fold(0.0, f64::max);
         let rates = |i: usize, arm_W: &Vector3<f64>| {
             let (of, w) = (solved.acceleration(gathered, i), state.bodies[i].w_WB);
-            Rates { at_arm: of.v + of.w.cross(arm_W) + w.cross(&w.cross(arm_W)), turning: of.w, least }
+            [of.v + of.w.cross(arm_W) + w.cross(&w.cross(arm_W)), of.w]
         };
         let zeno = &self.zeno;
         let rests = |contact: &Contact| {
             let (approach, scale) = approach_m_s(model, state, contact);
             -approach <= zeno.rests_m_s(model, contact).max(NO_SLIP * scale)
         };
-        sinking.add(model, state, &mut self.found, (3, rests), rates)
+        sinking.add(model, state, &mut self.found, (3, rests), (rates, |_: &Contact| least))
     }
 
     /// Smooth motion, with what had to be put to rest before it. True: that took no time, and is all of the step.

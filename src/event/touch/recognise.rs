@@ -2,9 +2,8 @@
 
 use super::parts::Parts;
 use super::plane::Plane;
-use super::standing::ROLLS;
 use crate::collide::Contact;
-use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, Spot, shown};
+use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, ROLLS, Spot, shown};
 use crate::model::{Body, Geometry, Model};
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
@@ -113,10 +112,19 @@ fn round(a: &Spot, b: &Spot) -> Option<Parts> {
     }
 }
 
+/// Of a radius: nearer to it is the end of a round side.
+const AT_END: f64 = 1e-9;
+
 /// On a face the point of a line that lies there stays one of the body's, and so does one of another face.
 fn part(spot: &Spot, p_B: Vector3<f64>) -> Part {
     match spot {
         Spot::Part(part) => part.clone(),
+        // A round side ends at a rim: what turns up from a face stands on that.
+        Spot::Line(Line { point_B, direction_B, radius_m, ends_m, .. })
+            if ends_m.iter().any(|end_m| end_m.abs() < AT_END * radius_m) =>
+        {
+            Part::Rim { centre_B: *point_B, axis_B: *direction_B, radius_m: *radius_m }
+        }
         Spot::Line(line) => Part::Ball(Ball::new(line.point_B, line.radius_m)),
         Spot::Inside => corner(p_B),
     }

@@ -3,12 +3,8 @@
 use super::Touch;
 use super::parts::Parts;
 use crate::event::shown::Part;
-use crate::shape::cylinder::FLAT;
 use crate::state::State;
 use nalgebra::Vector3;
-
-/// Of a cap's tilt (rad): a steeper one rolls along its rim, one less steep stands on points of the body (`caps`).
-pub const ROLLS: f64 = 1.75 * FLAT;
 
 /// A body on a plane.
 pub struct Standing {

@@ -8,7 +8,7 @@
 //! flat goes on about its last point, up to the moment when the cap is flat; then all of it strikes.
 
 use super::forces::{Held, NO_SLIP, meeting_m_s};
-use super::shown::shown;
+use super::shown::{ROLLS, shown};
 use super::touch::{Standing, Touch};
 use crate::collide::Contact;
 use crate::collide::closed::{SOME, delta_m};
@@ -124,21 +124,30 @@ pub fn level(model: &Model, state: &mut State) {
     }
 }
 
-/// The same on other bodies, of what touches. False: nothing had to be moved.
-pub fn level_on_bodies(model: &Model, state: &mut State, found: &[Contact]) -> bool {
+/// The same of what touches, on other bodies too, and where all four points of a cap that is next to flat are closed.
+/// False: nothing had to be moved.
+pub fn level_found(model: &Model, state: &mut State, found: &[Contact]) -> bool {
     let mut moved = false;
-    for contact in found.iter().filter(|contact| contact.other.is_some()) {
-        let Some(Footing { of, base: Some(base), cap, .. }) = Footing::of(model, state, contact) else { continue };
+    for contact in found {
+        let Some(Footing { of, base, normal, cap, .. }) = Footing::within(model, state, contact, ROLLS) else {
+            continue;
+        };
         if model.bodies[of].driven {
             continue;
         }
-        let (of_base, at_base) = (&model.bodies[base], &state.bodies[base]);
-        let own = |d: Vector3<f64>| at_base.q_WB.inverse_transform_vector(&d);
-        let normal = if of == contact.body { contact.normal } else { -contact.normal };
-        let facing = shown(of_base, &own(contact.p_WC - at_base.p_WB), &own(normal));
-        let Some(face) = facing.and_then(|facing| facing.face) else { continue };
-        let normal = at_base.q_WB * face.normal_B;
-        if cap.is_nearly_level(&state.bodies[of], &normal) {
+        let own = |base: usize, d: Vector3<f64>| state.bodies[base].q_WB.inverse_transform_vector(&d);
+        let normal = match base {
+            None => Some(normal),
+            Some(base) => {
+                let p_B = own(base, contact.p_WC - state.bodies[base].p_WB);
+                let facing = shown(&model.bodies[base], &p_B, &own(base, normal));
+                facing.and_then(|facing| facing.face).map(|face| state.bodies[base].q_WB * face.normal_B)
+            }
+        };
+        let Some(normal) = normal else { continue };
+        let tilt = cap.lean_W(&state.bodies[of], &normal).norm();
+        let closed = || found.iter().filter(|other| is_same_cap(contact, other)).count();
+        if (LEVEL..=FLAT).contains(&tilt) || ((FLAT..=ROLLS).contains(&tilt) && closed() >= 4) {
             cap.level(&mut state.bodies[of], &normal);
             moved = true;
         }
@@ -159,12 +168,17 @@ struct Footing {
 
 impl Footing {
     fn of(model: &Model, state: &State, contact: &Contact) -> Option<Self> {
+        Footing::within(model, state, contact, FLAT)
+    }
+
+    /// Of a cap that is tilted by no more.
+    fn within(model: &Model, state: &State, contact: &Contact, most_rad: f64) -> Option<Self> {
         let on = |of: usize, base: Option<usize>, normal: Vector3<f64>, node: u32| {
             let cap = Cap::facing(&model.bodies[of], &state.bodies[of], &normal)?;
-            let is_flat = cap.is_flat(&state.bodies[of], &normal);
+            let is_flat = cap.lean_W(&state.bodies[of], &normal).norm() <= most_rad;
             (is_flat && (base.is_some() || cap.has(node))).then_some(Footing { of, base, normal, cap, node })
         };
-        match (contact.other, rim_side(contact)) {
+        match (contact.other, rim_side(contact.feature)) {
             (None, _) => on(contact.body, None, contact.normal, contact.feature.1),
             (Some(other), Some(0)) => on(contact.body, Some(other), contact.normal, contact.feature.0 - RIM),
             (Some(other), Some(_)) => on(other, Some(contact.body), -contact.normal, contact.feature.1 - RIM),
@@ -195,10 +209,15 @@ impl Footing {
     }
 }
 
+/// Whether two contacts of one pair are points of one rim, by their features.
+pub fn are_of_one_rim(a: (u32, u32), b: (u32, u32)) -> bool {
+    rim_side(a).is_some_and(|side| rim_side(b) == Some(side))
+}
+
 /// Which side's rim a contact of a pair is a point of.
-fn rim_side(contact: &Contact) -> Option<u32> {
+fn rim_side(feature: (u32, u32)) -> Option<u32> {
     let is_rim = |feature: u32| feature >> 28 == RIM >> 28;
-    match contact.feature {
+    match feature {
         (feature, _) if is_rim(feature) => Some(0),
         (_, feature) if is_rim(feature) => Some(1),
         _ => None,
@@ -209,7 +228,7 @@ fn is_same_cap(a: &Contact, b: &Contact) -> bool {
     let of = |contact: &Contact| {
         let part = match contact.other {
             None => (contact.feature.0, Some(contact.feature.1 % POINTS / 4)),
-            Some(_) => (0, rim_side(contact)),
+            Some(_) => (0, rim_side(contact.feature)),
         };
         (contact.body, contact.other, part)
     };

@@ -431,7 +431,8 @@ impl<'a> Two<'a> {
     fn is_held(&self, at: &[BodyState; 2], touch: &Found) -> bool {
         self.resting.iter().any(|h| {
             let p = h.touch.here_of(|i| if i == self.pair[0] { &at[0] } else { &at[1] }).contact.p_WC;
-            (p - touch.p_W).norm() <= SAME * self.smaller_m()
+            // The lowest point of a rim is held, wherever it is.
+            caps::are_of_one_rim(h.touch.key().2, touch.feature) || (p - touch.p_W).norm() <= SAME * self.smaller_m()
         })
     }
 }

@@ -78,9 +78,15 @@ pub fn lose_together(found: &mut [Contact], approaches: impl Fn(&Contact) -> boo
     }
 }
 
-/// Gravity, against the normal.
+/// Gravity, that presses the two together: of a body on what does not move against the normal from there, whichever
+/// of them is named first; of two that move the upper one's.
 fn falling_m_s2(model: &Model, contact: &Contact) -> f64 {
-    -contact.normal.dot(&model.gravity_m_s2)
+    let falling = -contact.normal.dot(&model.gravity_m_s2);
+    match contact.other {
+        Some(other) if model.bodies[contact.body].driven && !model.bodies[other].driven => -falling,
+        Some(other) if !model.bodies[other].driven => falling.abs(),
+        _ => falling,
+    }
 }
 
 /// Of a contact, and what it is compared with.

@@ -266,7 +266,7 @@ impl EventDriven {
         if self.contact {
             caps::level(model, state);
             self.look_around(model, state);
-            if caps::level_on_bodies(model, state, &self.found) {
+            if caps::level_found(model, state, &self.found) {
                 self.look_around(model, state);
             }
             caps::turn(model, state, &mut self.found);

@@ -92,13 +92,13 @@ impl Cap {
         node % POINTS / 4 * 4 == self.first
     }
 
-    /// Turns the body so that it is flat, its lowest point as high as it is.
-    fn level(&self, at: &mut BodyState, normal: &Vector3<f64>) {
+    /// Turns the body so that it is flat, its lowest point as high as it is, or not inside.
+    fn level(&self, at: &mut BodyState, normal: &Vector3<f64>, lowest_m: f64) {
         let (arm_W, sagitta_m) = self.reach(at, normal);
         let turn = (at.q_WB * self.out_B).cross(&-normal);
         at.q_WB = exponential(&turn) * at.q_WB;
         at.q_WB.renormalize();
-        at.p_WB += arm_W - at.q_WB * self.centre_B - normal * sagitta_m;
+        at.p_WB += arm_W - at.q_WB * self.centre_B - normal * (sagitta_m + lowest_m.min(0.0));
     }
 
     /// It has a tilt, but is flat.
@@ -118,7 +118,7 @@ pub fn level(model: &Model, state: &mut State) {
             let lowest_m = face.gap_m(&(at.p_WB + arm_W)) - sagitta_m;
             let delta_m = delta_m(body.bounding_radius_m, at.p_WB.amax() + body.bounding_radius_m);
             if cap.is_nearly_level(at, &face.normal) && lowest_m <= SOME * delta_m {
-                cap.level(at, &face.normal);
+                cap.level(at, &face.normal, lowest_m);
             }
         }
     }
@@ -148,7 +148,8 @@ pub fn level_found(model: &Model, state: &mut State, found: &[Contact]) -> bool 
         let tilt = cap.lean_W(&state.bodies[of], &normal).norm();
         let closed = || found.iter().filter(|other| is_same_cap(contact, other)).count();
         if (LEVEL..=FLAT).contains(&tilt) || ((FLAT..=ROLLS).contains(&tilt) && closed() >= 4) {
-            cap.level(&mut state.bodies[of], &normal);
+            let gaps_m = found.iter().filter(|other| is_same_cap(contact, other)).map(|contact| contact.gap_m);
+            cap.level(&mut state.bodies[of], &normal, gaps_m.fold(f64::INFINITY, f64::min));
             moved = true;
         }
     }

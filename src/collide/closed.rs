@@ -13,7 +13,7 @@ const CLOSED: f64 = 1e-12;
 
 /// δ, of the body's bounding radius; and how many δ what was searched for, or put in place, is away at most.
 const DELTA: f64 = 1e-13;
-const SOME: f64 = 20.0;
+pub const SOME: f64 = 20.0;
 
 /// Of a coordinate: what a gap that is its difference from another cannot tell from zero.
 const ULPS: f64 = 8.0 * f64::EPSILON;

@@ -1,6 +1,7 @@
 //! When a contact that holds stops doing so: its slip ends, it begins to slip, it opens, or it comes to the border of a
 //! face or the end of an edge.
 
+use super::caps;
 use super::decide::{Change, Margin, margin};
 use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, meeting_m_s};
 use super::watch::Paths;
@@ -61,7 +62,12 @@ impl Looking<'_> {
 
     /// A face or an edge, at its border.
     fn has_left(&self) -> bool {
-        self.held.iter().any(|held| held.touch.left_m(self.at) < 0.0)
+        self.held.iter().any(|held| held.touch.left_m(self.at) < 0.0) || self.has_turned()
+    }
+
+    /// A cap falls flat, or tips.
+    pub fn has_turned(&self) -> bool {
+        !self.paths.dense.is_empty() && caps::has_turned(self.paths.model, self.held, self.at)
     }
 
     /// The least slip along its direction, of all that slide, over the speeds there; with room for rounding.

@@ -61,15 +61,22 @@ pub fn lasts_s(
     if are_lawful(0.0) {
         return 0.0;
     }
+    // No share of the forces among redundant contacts is known that makes pushes of all: the law of contact finds one.
+    let sum = |of: &[Vector3<f64>]| contacts.iter().zip(of).map(|(contact, of)| contact.normal.dot(of)).sum::<f64>();
+    let shared_s = || {
+        let pulls = contacts.iter().zip(&impulses).map(|(contact, p)| contact.normal.dot(p).abs()).sum::<f64>();
+        let over_s = if least_s > 0.0 { 2.0 * pulls / sum(&forces).max(0.0) } else { 0.0 };
+        if over_s <= longest_s { over_s } else { 0.0 }
+    };
     // Well within the cones, not on their edge.
     let mut over_s = if least_s > 0.0 { 2.0 * least_s } else { longest_s * f64::EPSILON };
-    while !are_lawful(over_s) {
-        over_s *= 2.0;
-        if over_s > longest_s {
-            return 0.0;
+    while over_s <= longest_s {
+        if are_lawful(over_s) {
+            return over_s;
         }
+        over_s *= 2.0;
     }
-    over_s
+    shared_s()
 }
 
 /// Puts all impulses of a step where a smooth motion has led, so that velocities are those of what holds; `kicked`

@@ -6,6 +6,7 @@
 //! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once
 //! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion; `slip`: where that is
 //!   stiff
+//! - `caps`: of cylinders, that lie flat, fall flat and tip
 //! - `change`: when a contact that holds stops doing so
 //! - `watch`: when the next gap closes, and the proof that none was missed
 //! - `impact`: the laws of impact at one moment; `zeno`: which of them is the last that matters
@@ -15,6 +16,7 @@
 //! tolerance, or what is left stays within δ: the contact then holds. What is left of a rocking is ended with the
 //! friction that comes with it; that its contacts have to pull for this is seen in the residual of that blow.
 
+pub mod caps;
 pub mod change;
 pub mod decide;
 pub mod dense;

@@ -2,6 +2,7 @@
 //! one's.
 
 use crate::model::Body;
+use crate::shape::cylinder::FLAT;
 use crate::shape::hull::{Hull, Polygon};
 use crate::shape::solid::Solid;
 use nalgebra::Vector3;
@@ -95,6 +96,9 @@ pub struct Facing {
 /// Of a unit vector: the normal is the face's.
 const ALONG: f64 = 1e-9;
 
+/// Of a cap's tilt (rad): a steeper one rolls along its rim, one less steep stands on points of the body (`caps`).
+pub const ROLLS: f64 = 1.75 * FLAT;
+
 /// Of the bounding radius: the point is on the corner, on the edge. Less than a point may be beyond a border (`touch`).
 const AT: f64 = 2e-10;
 
@@ -130,10 +134,13 @@ pub fn shown(body: &Body, p_B: &Vector3<f64>, out_B: &Vector3<f64>) -> Option<Fa
         }
         Solid::Cylinder { radius_m, half_height_m } => {
             let (normal_B, end) = (y * out_B.y.signum(), centre + y * half_height_m.copysign(out_B.y));
-            if (out_B - normal_B).norm() <= ALONG {
+            if (out_B - normal_B).norm() <= ROLLS {
                 let border = Border::Round { centre_B: *centre, radius_m: *radius_m };
                 let face = Face { normal_B, offset_m: normal_B.dot(&end), border };
-                Facing { spot: Spot::Inside, face: Some(face) }
+                let radial = Vector3::new(own.x, 0.0, own.z);
+                let is_on_rim = (radial.norm() - radius_m).abs() <= near;
+                let spot = if is_on_rim { ball(end + radial, 0.0, Vec::new()) } else { Spot::Inside };
+                Facing { spot, face: Some(face) }
             } else if out_B.y.abs() <= ALONG {
                 only(side(own.y.clamp(-half_height_m, *half_height_m), *radius_m, *half_height_m))
             } else {

@@ -9,6 +9,7 @@
 //! Pairs of bodies: of balls likewise; of others by their distance and the largest speed of their points, and within a
 //! thousandth of their size by their points of contact.
 
+use super::caps::{self, Cap};
 use super::dense::Dense;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::motion::{Bounds, Motion};
@@ -17,6 +18,7 @@ use crate::collide::faces;
 use crate::deadline::Deadline;
 use crate::model::container::Face;
 use crate::model::{Body, Geometry, Model};
+use crate::shape::cylinder::FLAT;
 use crate::shape::pair::touches;
 use crate::shape::solid::{Meeting as Found, Pose, Solid};
 use crate::state::BodyState;
@@ -197,16 +199,35 @@ fn with_face(
         let slow = NO_SLIP * speed_m_s(paths.model, body, &at);
         let (curvature_m, known_s) = roundness(body, &at, &face.normal, &bounds);
         let toward_m_s2 = bounds.toward(&face.normal, arm_m) + bounds.w * bounds.w * curvature_m;
+        let flattest = Cap::facing(body, &at, &face.normal).filter(|cap| !is_held(cap.first()));
+        // Of all points of the rim, wherever the lowest will be.
+        let flat = flattest.map(|cap| {
+            let (arm_W, sagitta_m) = cap.reach(&at, &face.normal);
+            let (rate_m_s, more_m_s) = cap.rates(&at, &face.normal);
+            let (gap_m, rate_m_s) = (face.gap_m(&(at.p_WB + arm_W)) - sagitta_m, rate_m_s - more_m_s);
+            let toward_m_s2 = bounds.toward(&face.normal, arm_m);
+            (Look { gap_m, rate_m_s, toward_m_s2, ..Look::EMPTY }, cap)
+        });
         let (mut safe_s, mut touching) = (f64::INFINITY, false);
+        let mut of_flattest_s = f64::INFINITY;
         faces::each_near(body, &at, face, f64::INFINITY, |node, r_W, gap_m| {
             if is_held(node) {
                 return;
             }
             let rate_m_s = face.normal.dot(&(at.v_WB + at.w_WB.cross(&r_W)));
             let look = Look { gap_m, rate_m_s, toward_m_s2, known_s, is_exact: arm_m == 0.0 && bounds.beside == 0.0 };
-            safe_s = safe_s.min(look.safe_s(delta_m, slow));
+            let of = if flat.as_ref().is_some_and(|(_, cap)| cap.has(node)) { &mut of_flattest_s } else { &mut safe_s };
+            *of = of.min(look.safe_s(delta_m, slow));
             touching |= look.is_touching(delta_m, slow);
         });
+        if let Some((look, cap)) = &flat {
+            let of_rim_s = look.safe_s(delta_m, slow);
+            if cap.is_flat(&at, &face.normal) {
+                of_flattest_s = of_rim_s;
+                touching |= look.is_touching(delta_m, slow);
+            }
+            safe_s = safe_s.min(of_flattest_s.max(of_rim_s));
+        }
         Some((safe_s, touching))
     })
 }
@@ -215,7 +236,7 @@ fn with_face(
 fn is_same_feature(body: &Body, held: &Held, i: usize, f: usize, node: u32) -> bool {
     let (of, other, feature) = held.touch.key();
     let is_cylinder = matches!(&body.geometry, Geometry::Solid { solid: Solid::Cylinder { .. }, .. });
-    let same = if is_cylinder { feature.1 / 4 == node / 4 } else { feature.1 == node };
+    let same = if is_cylinder { feature.1 % 8 / 4 == node / 4 } else { feature.1 == node };
     of == i && other.is_none() && feature.0 == f as u32 && same
 }
 
@@ -227,9 +248,6 @@ fn arm_m(body: &Body) -> f64 {
         _ => body.bounding_radius_m,
     }
 }
-
-/// The sine of a cylinder's tilt below which its rim lies flat, as far as the contact test can tell.
-const FLAT: f64 = 1e-8;
 
 /// Part of a tilt that is sure to be left until the next look: the bound of the curvature is for that.
 const KEPT: f64 = 0.5;
@@ -389,17 +407,32 @@ impl<'a> Two<'a> {
             let turning = ROLLING * (a.w + b.w) * closing;
             let toward_m_s2 = ROLLING * self.toward_m_s2(self.sizes) + turning;
             let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2, known_s: near_m / closing, ..Look::EMPTY };
-            safe_s = safe_s.min(look.safe_s(*delta_m, *slow_m_s));
+            safe_s = safe_s.min(self.rolling_s(now, touch, &look));
             touching |= look.is_touching(*delta_m, *slow_m_s);
         }
         let way_m = near_m.max(self.smaller_m() * WAY);
         (safe_s.min(way_m / closing.max(f64::MIN_POSITIVE)), touching)
     }
 
+    /// The safe time of such a look, of a cap that is nearly flat: its lowest point rolls along the rim.
+    fn rolling_s(&self, now: &Now, touch: &Found, look: &Look) -> f64 {
+        let Now { at, delta_m, slow_m_s, .. } = now;
+        let w_rad_s = self.bounds[0].w + self.bounds[1].w;
+        let Some(rolling) = caps::rolling(self.bodies, at, &touch.normal, w_rad_s) else {
+            return look.safe_s(*delta_m, *slow_m_s);
+        };
+        let of_any = Look { rate_m_s: look.rate_m_s - rolling.faster_m_s, ..*look };
+        let of_any_s = of_any.safe_s(*delta_m, *slow_m_s);
+        let Some((more_m_s2, known_s)) = rolling.along else { return of_any_s };
+        let along = Look { toward_m_s2: look.toward_m_s2 + more_m_s2, known_s: look.known_s.min(known_s), ..*look };
+        of_any_s.max(along.safe_s(*delta_m, *slow_m_s))
+    }
+
     fn is_held(&self, at: &[BodyState; 2], touch: &Found) -> bool {
         self.resting.iter().any(|h| {
             let p = h.touch.here_of(|i| if i == self.pair[0] { &at[0] } else { &at[1] }).contact.p_WC;
-            (p - touch.p_W).norm() <= SAME * self.smaller_m()
+            // The lowest point of a rim is held, wherever it is.
+            caps::are_of_one_rim(h.touch.key().2, touch.feature) || (p - touch.p_W).norm() <= SAME * self.smaller_m()
         })
     }
 }

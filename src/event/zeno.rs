@@ -62,9 +62,31 @@ impl Zeno {
     }
 }
 
-/// Gravity, against the normal.
+/// Between two bodies, or a body and a face, what rests in one point has lost its restitution with the others, where
+/// all that come nearer have: it rocks on without it, and at last it rests.
+pub fn lose_together(found: &mut [Contact], approaches: impl Fn(&Contact) -> bool) {
+    let between = |contact: &Contact| (contact.body, contact.other, contact.other.map_or(contact.feature.0, |_| 0));
+    let mut from = 0;
+    while from < found.len() {
+        let len = found[from..].iter().take_while(|other| between(other) == between(&found[from])).count();
+        let group = &mut found[from..from + len];
+        let mut coming = group.iter().filter(|contact| approaches(contact)).peekable();
+        if coming.peek().is_some() && coming.all(|contact| contact.restitution == 0.0) {
+            group.iter_mut().for_each(|contact| contact.restitution = 0.0);
+        }
+        from += len;
+    }
+}
+
+/// Gravity, that presses the two together: of a body on what does not move against the normal from there, whichever
+/// of them is named first; of two that move the upper one's.
 fn falling_m_s2(model: &Model, contact: &Contact) -> f64 {
-    -contact.normal.dot(&model.gravity_m_s2)
+    let falling = -contact.normal.dot(&model.gravity_m_s2);
+    match contact.other {
+        Some(other) if model.bodies[contact.body].driven && !model.bodies[other].driven => -falling,
+        Some(other) if !model.bodies[other].driven => falling.abs(),
+        _ => falling,
+    }
 }
 
 /// Of a contact, and what it is compared with.

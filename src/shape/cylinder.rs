@@ -6,9 +6,12 @@ use super::triangles::{Triangles, revolved};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
-/// A cap tilted by less (rad) lies flat. Below it, the lowest point of a rim is an accident of rounding, and the points
-/// of the rim are fixed in the body; what is lost is less than a third of this angle times the radius.
-const FLAT: f64 = 1e-8;
+/// A cap tilted by less (rad) lies flat. Below it, the lowest point of a rim is known to less than six digits, and the
+/// points of the rim are fixed in the body; what is lost is less than a third of this angle times the radius.
+pub const FLAT: f64 = 1e-10;
+
+/// Of a pair's features: a point of a rim, by its number.
+pub const RIM: u32 = 3 << 28;
 
 pub fn bounding_radius_m(radius_m: f64, half_height_m: f64) -> f64 {
     (radius_m * radius_m + half_height_m * half_height_m).sqrt()
@@ -45,7 +48,7 @@ pub(super) fn curvature(radius_m: f64, d: &Vector3<f64>) -> Matrix3<f64> {
 
 /// Radial unit vectors: the one nearest to `along`, then by quarter turns about y.
 #[inline]
-pub(super) fn rim_directions(along: &Vector3<f64>) -> [Vector3<f64>; 4] {
+pub fn rim_directions(along: &Vector3<f64>) -> [Vector3<f64>; 4] {
     let radial = Vector3::new(along.x, 0.0, along.z);
     let length = radial.norm();
     let first = if length > FLAT { radial / length } else { Vector3::x() };

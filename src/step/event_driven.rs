@@ -9,6 +9,7 @@ use crate::collide::approach::Approach;
 use crate::collide::closed::{MARGIN, is_closed_to_delta};
 use crate::collide::{Contact, Detector, Reach, SolvedContact};
 use crate::deadline::Deadline;
+use crate::event::caps::{self, Sinking};
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
 use crate::event::dense::{Dense, Field, project};
@@ -21,7 +22,7 @@ use crate::event::settle::{Forces, settle};
 use crate::event::slip::{self, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
-use crate::event::zeno::{Zeno, approach_m_s};
+use crate::event::zeno::{Zeno, approach_m_s, lose_together};
 use crate::experiment::types::{EventDriven as Settings, Impact};
 use crate::math::full_pivot::Selection;
 use crate::model::Model;
@@ -114,6 +115,9 @@ const SLAP: f64 = 1e3;
 /// Events at one moment, of all contacts, before something is wrong.
 const AT_ONCE: u32 = 200;
 
+/// Points of a rim that are tried, one after another: each is nearer to the one that bears.
+const POINTS: u32 = 40;
+
 /// More events than this in the time of a stretch are too many: those that cost an integration, and others.
 const MANY_DENSE: u64 = 2_000;
 const MANY: u64 = 100_000;
@@ -193,7 +197,10 @@ impl EventDriven {
                     self.regroup(model, state, &Change::default());
                 }
             }
-            Event::Struck => self.regroup(model, state, &Change::default()),
+            Event::Struck => {
+                caps::turn(model, state, &mut self.found);
+                self.regroup(model, state, &Change::default());
+            }
             Event::Change(change) => {
                 self.detect(model, state);
                 self.regroup(model, state, &change);
@@ -254,12 +261,22 @@ impl EventDriven {
     }
 
     /// Fills `found` with what touches now.
-    fn detect(&mut self, model: &Model, state: &State) {
+    fn detect(&mut self, model: &Model, state: &mut State) {
         self.found.clear();
         if self.contact {
-            self.detector.detect(model, state, &Reach { margin: MARGIN }, &mut self.found, &mut self.work);
-            self.found.retain(|contact| is_closed_to_delta(model, contact));
+            caps::level(model, state);
+            self.look_around(model, state);
+            if caps::level_found(model, state, &self.found) {
+                self.look_around(model, state);
+            }
+            caps::turn(model, state, &mut self.found);
         }
+    }
+
+    fn look_around(&mut self, model: &Model, state: &State) {
+        let reach = Reach { margin: MARGIN };
+        self.detector.detect(model, state, &reach, &mut self.found, &mut self.work);
+        self.found.retain(|contact| is_closed_to_delta(model, contact));
     }
 
     /// An impact, if something comes nearer.
@@ -276,43 +293,56 @@ impl EventDriven {
             if self.zeno.bounces_out(model, state, &contact, self.found.len() == 1) {
                 self.found[k].restitution = 0.0;
             }
-            if self.found[k].restitution == 0.0 {
-                self.found[k].tangential_restitution = 0.0;
-            }
+        }
+        lose_together(&mut self.found, strikes);
+        for contact in self.found.iter_mut().filter(|contact| contact.restitution == 0.0) {
+            contact.tangential_restitution = 0.0;
         }
         let (gathered, solved, work) = (self.gathered.get_mut(), &mut self.solved, &mut self.work);
-        if !impact::strike(model, state, &self.found, self.law, gathered, solved, work) {
-            work.unsolved += 1;
+        self.scratch.copy_from(state);
+        let (mut ended, mut sinking) = (false, Sinking::default());
+        for _ in 0..POINTS {
+            state.copy_from(&self.scratch);
+            ended = impact::strike(model, state, &self.found, self.law, gathered, solved, work);
+            let velocities = |i: usize, arm_W: &Vector3<f64>| caps::velocities(state, i, arm_W);
+            let rates = (velocities, |contact: &Contact| caps::sinks_m_s(model, state, contact));
+            if !sinking.add(model, state, &mut self.found, (1, |_| true), rates) {
+                break;
+            }
         }
+        self.work.unsolved += u64::from(!ended);
         true
     }
 
     /// What holds from now on, and how everything moves.
     fn regroup(&mut self, model: &Model, state: &mut State, change: &Change) {
-        let Some(touches) = self.resting(model, state) else {
-            self.trouble = true;
-            return;
-        };
-        if touches.is_empty() && model.pins.is_empty() {
-            self.held.clear();
-            self.settle(model, state, &Solved::default());
-            return;
-        }
         let change = &Change { slow_m_s: self.slow.fading_m_s, ..change.clone() };
-        let mut solved = match decide(model, state, touches, change, self.gathered.get_mut(), &mut self.work) {
-            Decision::Holds(held, solved) => {
-                self.held = held;
-                solved
-            }
-            Decision::Jams => {
-                self.next = Event::Jam;
-                return;
-            }
-            Decision::Unsolved => {
+        let (mut solved, mut sinking) = (Solved::default(), Sinking::default());
+        for _ in 0..POINTS {
+            let Some(touches) = self.resting(model, state) else {
                 self.trouble = true;
                 return;
+            };
+            if touches.is_empty() && model.pins.is_empty() {
+                self.held.clear();
+                self.settle(model, state, &Solved::default());
+                return;
             }
-        };
+            match decide(model, state, touches, change, self.gathered.get_mut(), &mut self.work) {
+                Decision::Holds(held, forces) => (self.held, solved) = (held, forces),
+                Decision::Jams => {
+                    self.next = Event::Jam;
+                    return;
+                }
+                Decision::Unsolved => {
+                    self.trouble = true;
+                    return;
+                }
+            }
+            if !self.add_sinking(model, state, &solved, &mut sinking) {
+                break;
+            }
+        }
         self.kicked.copy_from(state);
         let placed = project(model, state, &self.held, &mut self.placing);
         let gathered = self.gathered.get_mut();
@@ -325,6 +355,25 @@ impl EventDriven {
         }
         self.steady_W = steady(gathered, &solved, self.held.len());
         self.settle(model, state, &solved);
+    }
+
+    /// Adds the point of a cap at rest that would sink, if one would, to what touches.
+    fn add_sinking(&mut self, model: &Model, state: &State, solved: &Solved, sinking: &mut Sinking) -> bool {
+        let gathered = self.gathered.get_mut();
+        if solved.added.is_empty() || gathered.free.is_empty() {
+            return false;
+        }
+        let least = caps::TIPS_AT_LEAST * gathered.free.iter().map(|free| free.v.norm()).fold(0.0, f64::max);
+        let rates = |i: usize, arm_W: &Vector3<f64>| {
+            let (of, w) = (solved.acceleration(gathered, i), state.bodies[i].w_WB);
+            [of.v + of.w.cross(arm_W) + w.cross(&w.cross(arm_W)), of.w]
+        };
+        let zeno = &self.zeno;
+        let rests = |contact: &Contact| {
+            let (approach, scale) = approach_m_s(model, state, contact);
+            -approach <= zeno.rests_m_s(model, contact).max(NO_SLIP * scale)
+        };
+        sinking.add(model, state, &mut self.found, (3, rests), (rates, |_: &Contact| least))
     }
 
     /// Smooth motion, with what had to be put to rest before it. True: that took no time, and is all of the step.
@@ -392,7 +441,8 @@ impl EventDriven {
             let (gathered, at, work) = (self.gathered.get_mut(), &mut self.scratch, &mut self.work);
             let mut looking = Looking { paths, held: &self.held, gathered, at, work };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
-                (to_s, self.next) = (t_s, Event::Change(change));
+                let turned = looking.has_turned();
+                (to_s, self.next) = (t_s, if turned { Event::Impact } else { Event::Change(change) });
             }
         }
         // Last: beyond the border of a face others touch that are not held.
@@ -413,7 +463,7 @@ impl EventDriven {
         }
         let mut dense = std::mem::take(&mut self.dense);
         self.scratch.copy_from(state);
-        let mut most_s = self.longest_s;
+        let mut most_s = self.longest_s.min(caps::longest_s(model, &self.held, state));
         if self.held.iter().any(|held| held.slides().is_some()) {
             let gathered = self.gathered.get_mut();
             let Margin { solved, .. } = margin(model, state, &self.held, gathered, &mut self.work);

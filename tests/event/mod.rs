@@ -2,6 +2,7 @@
 
 mod balls;
 mod borders;
+mod cans;
 mod closed_forms;
 mod cube;
 mod never_hangs;

@@ -14,5 +14,7 @@ mod parts;
 mod plane;
 mod rates;
 mod recognise;
+mod standing;
 
 pub use moving::{Here, Touch};
+pub use standing::Standing;

@@ -22,7 +22,7 @@ const BORDER: f64 = 2e-9;
 pub struct Touch {
     /// As of the contact test; friction and restitution are in it.
     found: Contact,
-    parts: Parts,
+    pub(super) parts: Parts,
     /// It began within the borders of faces and the ends of edges, by so much or a little less.
     slack_m: Option<f64>,
 }

@@ -54,8 +54,10 @@ impl Part {
                 let radial = d - axis * along;
                 let length = radial.norm();
                 let radial_rate = d_rate - axis_rate * along - axis * (axis_rate.dot(d) + axis.dot(d_rate));
-                let u = radial / length;
-                let u_rate = (radial_rate - u * u.dot(&radial_rate)) / length;
+                // Across the axis to rounding, however little of d is.
+                let u = (radial - axis * axis.dot(&radial)).normalize();
+                let aside = axis.cross(&u);
+                let u_rate = aside * (aside.dot(&radial_rate) / length) - axis * u.dot(&axis_rate);
                 (arm + u * *radius_m, with_body(arm) + u_rate * *radius_m)
             }
             Part::Ellipsoid { centre_B, semi_axes_m } => {

@@ -3,7 +3,7 @@
 use super::parts::Parts;
 use super::plane::Plane;
 use crate::collide::Contact;
-use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, Spot, shown};
+use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, ROLLS, Spot, shown};
 use crate::model::{Body, Geometry, Model};
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
@@ -45,9 +45,9 @@ fn lowest(body: &Body, at: &BodyState, node: u32, found: &Contact) -> Option<Par
         }
         Solid::Ellipsoid { semi_axes_m } => Part::Ellipsoid { centre_B: centre, semi_axes_m: *semi_axes_m },
         Solid::Cylinder { radius_m, half_height_m } => {
-            let tilted = at.q_WB.inverse_transform_vector(&found.normal).cross(&y).norm() > TILTED;
-            let centre_B = centre + y * if node < 4 { -half_height_m } else { *half_height_m };
-            if tilted && node.is_multiple_of(4) {
+            let rolls = at.q_WB.inverse_transform_vector(&found.normal).cross(&y).norm() > ROLLS;
+            let centre_B = centre + y * if node % 8 < 4 { -half_height_m } else { *half_height_m };
+            if rolls && node.is_multiple_of(4) {
                 Part::Rim { centre_B, axis_B: y, radius_m: *radius_m }
             } else {
                 corner(at.q_WB.inverse_transform_vector(&found.r_BC_W))
@@ -56,9 +56,6 @@ fn lowest(body: &Body, at: &BodyState, node: u32, found: &Contact) -> Option<Par
         Solid::Box { .. } | Solid::Convex(_) => corner(at.q_WB.inverse_transform_vector(&found.r_BC_W)),
     })
 }
-
-/// Of a cap (rad): flatter, four points of its rim stand for it.
-const TILTED: f64 = 1e-8;
 
 /// Of unit vectors: less than this is parallel.
 const PARALLEL: f64 = 1e-6;
@@ -115,10 +112,19 @@ fn round(a: &Spot, b: &Spot) -> Option<Parts> {
     }
 }
 
+/// Of a radius: nearer to it is the end of a round side.
+const AT_END: f64 = 1e-9;
+
 /// On a face the point of a line that lies there stays one of the body's, and so does one of another face.
 fn part(spot: &Spot, p_B: Vector3<f64>) -> Part {
     match spot {
         Spot::Part(part) => part.clone(),
+        // A round side ends at a rim: what turns up from a face stands on that.
+        Spot::Line(Line { point_B, direction_B, radius_m, ends_m, .. })
+            if ends_m.iter().any(|end_m| end_m.abs() < AT_END * radius_m) =>
+        {
+            Part::Rim { centre_B: *point_B, axis_B: *direction_B, radius_m: *radius_m }
+        }
         Spot::Line(line) => Part::Ball(Ball::new(line.point_B, line.radius_m)),
         Spot::Inside => corner(p_B),
     }

@@ -1,0 +1,488 @@
+//! Caps of cylinders on planes: faces of a container, and of other bodies under all of the cap. They lie flat, fall
+//! flat and tip over their rim.
+//!
+//! A tilted cap touches in one point, which rolls along its rim. The direction to that point has no limit where the
+//! tilt goes to zero, and so below `FLAT` the cap is a disc whose points are fixed in the body: every one of its rim
+//! may bear, wherever it is. Four of them stand for it, the first where the cap comes down, and to those is added
+//! whichever else would sink: a cap that tips does so over one point, in the direction of its tilt. A rim that falls
+//! flat goes on about its last point, up to the moment when the cap is flat; then all of it strikes.
+
+use super::forces::{Held, NO_SLIP, meeting_m_s};
+use super::shown::{ROLLS, shown};
+use super::touch::{Standing, Touch};
+use crate::collide::Contact;
+use crate::collide::closed::{SOME, delta_m};
+use crate::integrate::rotation::exponential;
+use crate::model::{Body, Geometry, Model};
+use crate::shape::cylinder::{FLAT, RIM, rim_directions};
+use crate::shape::solid::Solid;
+use crate::state::{BodyState, State};
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+/// Of `FLAT`: a rim that falls flat is a point of the body from here on, and one that tips is a rim from here on; what
+/// is found between them is either (`shown::ROLLS`).
+const LANDS: f64 = 1.5;
+const TIPS: f64 = 2.0;
+
+/// Beyond flat, in rad: so much is rounding.
+const BEYOND: f64 = 1e-15;
+
+/// A tilt (rad) that is none: rounding of a turn.
+const LEVEL: f64 = 2e-16;
+
+/// Of the time in which a rim would be flat: a step's part.
+const BEFORE_FLAT: f64 = 0.9;
+
+/// Accelerations that turn a cap over, of those without contact: less is rounding of what the law leaves.
+pub const TIPS_AT_LEAST: f64 = 1e-9;
+
+/// A point of the rim that sinks slower, of the speed of the bodies, does not.
+const SINKS: f64 = 1e-12;
+
+/// Points of the contact test: of either cap four.
+const POINTS: u32 = 8;
+
+/// The cap of a cylinder that faces a plane.
+pub struct Cap {
+    first: u32,
+    centre_B: Vector3<f64>,
+    out_B: Vector3<f64>,
+    radius_m: f64,
+}
+
+impl Cap {
+    /// None: the body has no caps.
+    pub fn facing(body: &Body, at: &BodyState, normal: &Vector3<f64>) -> Option<Self> {
+        let Geometry::Solid { solid: Solid::Cylinder { radius_m, half_height_m }, centre } = &body.geometry else {
+            return None;
+        };
+        let below = at.q_WB.inverse_transform_vector(normal).y > 0.0;
+        let (first, out_B) = if below { (0, -Vector3::y()) } else { (4, Vector3::y()) };
+        Some(Cap { first, centre_B: centre + out_B * *half_height_m, out_B, radius_m: *radius_m })
+    }
+
+    /// Toward the lowest point of the rim, as long as the sine of the tilt.
+    fn lean_W(&self, at: &BodyState, normal: &Vector3<f64>) -> Vector3<f64> {
+        let out = at.q_WB * self.out_B;
+        out * out.dot(normal) - normal
+    }
+
+    /// Of its points, against the normal: of the centre, and at most more toward some point of the rim.
+    pub fn rates(&self, at: &BodyState, normal: &Vector3<f64>) -> (f64, f64) {
+        let rate = normal.dot(&(at.v_WB + at.w_WB.cross(&(at.q_WB * self.centre_B))));
+        (rate, self.radius_m * normal.cross(&at.w_WB).norm())
+    }
+
+    /// From the centre of mass to its centre, world axes; and how far below that, along a normal, its lowest point is.
+    pub fn reach(&self, at: &BodyState, normal: &Vector3<f64>) -> (Vector3<f64>, f64) {
+        (at.q_WB * self.centre_B, self.radius_m * self.lean_W(at, normal).norm())
+    }
+
+    pub fn is_flat(&self, at: &BodyState, normal: &Vector3<f64>) -> bool {
+        self.lean_W(at, normal).norm() <= FLAT
+    }
+
+    /// Number of its first point.
+    pub fn first(&self) -> u32 {
+        self.first
+    }
+
+    pub fn has(&self, node: u32) -> bool {
+        node % POINTS / 4 * 4 == self.first
+    }
+
+    /// Turns the body so that it is flat, its lowest point as high as it is, or not inside.
+    fn level(&self, at: &mut BodyState, normal: &Vector3<f64>, lowest_m: f64) {
+        let (arm_W, sagitta_m) = self.reach(at, normal);
+        let turn = (at.q_WB * self.out_B).cross(&-normal);
+        at.q_WB = exponential(&turn) * at.q_WB;
+        at.q_WB.renormalize();
+        at.p_WB += arm_W - at.q_WB * self.centre_B - normal * (sagitta_m + lowest_m.min(0.0));
+    }
+
+    /// It has a tilt, but is flat.
+    fn is_nearly_level(&self, at: &BodyState, normal: &Vector3<f64>) -> bool {
+        (LEVEL..=FLAT).contains(&self.lean_W(at, normal).norm())
+    }
+}
+
+/// Puts what is flat to `FLAT` and touches flat to rounding, so that all of it touches: on a container, where its
+/// lowest point is none of the contact test's.
+pub fn level(model: &Model, state: &mut State) {
+    let Some(container) = &model.container else { return };
+    for (body, at) in model.bodies.iter().zip(&mut state.bodies).filter(|(body, _)| body.feels_container()) {
+        for face in &container.faces {
+            let Some(cap) = Cap::facing(body, at, &face.normal) else { continue };
+            let (arm_W, sagitta_m) = cap.reach(at, &face.normal);
+            let lowest_m = face.gap_m(&(at.p_WB + arm_W)) - sagitta_m;
+            let delta_m = delta_m(body.bounding_radius_m, at.p_WB.amax() + body.bounding_radius_m);
+            if cap.is_nearly_level(at, &face.normal) && lowest_m <= SOME * delta_m {
+                cap.level(at, &face.normal, lowest_m);
+            }
+        }
+    }
+}
+
+/// The same of what touches, on other bodies too, and where all four points of a cap that is next to flat are closed.
+/// False: nothing had to be moved.
+pub fn level_found(model: &Model, state: &mut State, found: &[Contact]) -> bool {
+    let mut moved = false;
+    for contact in found {
+        let Some(Footing { of, base, normal, cap, .. }) = Footing::within(model, state, contact, ROLLS) else {
+            continue;
+        };
+        if model.bodies[of].driven {
+            continue;
+        }
+        let own = |base: usize, d: Vector3<f64>| state.bodies[base].q_WB.inverse_transform_vector(&d);
+        let normal = match base {
+            None => Some(normal),
+            Some(base) => {
+                let p_B = own(base, contact.p_WC - state.bodies[base].p_WB);
+                let facing = shown(&model.bodies[base], &p_B, &own(base, normal));
+                facing.and_then(|facing| facing.face).map(|face| state.bodies[base].q_WB * face.normal_B)
+            }
+        };
+        let Some(normal) = normal else { continue };
+        let tilt = cap.lean_W(&state.bodies[of], &normal).norm();
+        let closed = || found.iter().filter(|other| is_same_cap(contact, other)).count();
+        if (LEVEL..=FLAT).contains(&tilt) || ((FLAT..=ROLLS).contains(&tilt) && closed() >= 4) {
+            let gaps_m = found.iter().filter(|other| is_same_cap(contact, other)).map(|contact| contact.gap_m);
+            cap.level(&mut state.bodies[of], &normal, gaps_m.fold(f64::INFINITY, f64::min));
+            moved = true;
+        }
+    }
+    moved
+}
+
+/// A flat cap that a contact is of.
+struct Footing {
+    of: usize,
+    base: Option<usize>,
+    /// From the base.
+    normal: Vector3<f64>,
+    cap: Cap,
+    /// Of the contact's point.
+    node: u32,
+}
+
+impl Footing {
+    fn of(model: &Model, state: &State, contact: &Contact) -> Option<Self> {
+        Footing::within(model, state, contact, FLAT)
+    }
+
+    /// Of a cap that is tilted by no more.
+    fn within(model: &Model, state: &State, contact: &Contact, most_rad: f64) -> Option<Self> {
+        let on = |of: usize, base: Option<usize>, normal: Vector3<f64>, node: u32| {
+            let cap = Cap::facing(&model.bodies[of], &state.bodies[of], &normal)?;
+            let is_flat = cap.lean_W(&state.bodies[of], &normal).norm() <= most_rad;
+            (is_flat && (base.is_some() || cap.has(node))).then_some(Footing { of, base, normal, cap, node })
+        };
+        match (contact.other, rim_side(contact.feature)) {
+            (None, _) => on(contact.body, None, contact.normal, contact.feature.1),
+            (Some(other), Some(0)) => on(contact.body, Some(other), contact.normal, contact.feature.0 - RIM),
+            (Some(other), Some(_)) => on(other, Some(contact.body), -contact.normal, contact.feature.1 - RIM),
+            (Some(_), None) => None,
+        }
+    }
+
+    /// The same contact at another point of the rim.
+    fn point(&self, state: &State, like: &Contact, u_B: &Vector3<f64>, node: u32) -> Contact {
+        let at = &state.bodies[self.of];
+        let arm_W = |u_B: &Vector3<f64>| at.q_WB * (self.cap.centre_B + u_B * self.cap.radius_m);
+        let r_W = arm_W(u_B);
+        let p_WC = at.p_WB + r_W;
+        match like.other {
+            None => {
+                let feature = (like.feature.0, node + self.cap.first);
+                // As high as the other one: it is flat.
+                let gap_m = like.gap_m + self.normal.dot(&(p_WC - like.p_WC));
+                Contact { feature, r_BC_W: r_W, p_WC, gap_m, ..*like }
+            }
+            Some(other) => {
+                let feature =
+                    if self.of == like.body { (RIM | node, like.feature.1) } else { (like.feature.0, RIM | node) };
+                let [r_BC_W, r_OC_W] = [like.body, other].map(|i| p_WC - state.bodies[i].p_WB);
+                Contact { feature, r_BC_W, r_OC_W, p_WC, ..*like }
+            }
+        }
+    }
+}
+
+/// Whether two contacts of one pair are points of one rim, by their features.
+pub fn are_of_one_rim(a: (u32, u32), b: (u32, u32)) -> bool {
+    rim_side(a).is_some_and(|side| rim_side(b) == Some(side))
+}
+
+/// Which side's rim a contact of a pair is a point of.
+fn rim_side(feature: (u32, u32)) -> Option<u32> {
+    let is_rim = |feature: u32| feature >> 28 == RIM >> 28;
+    match feature {
+        (feature, _) if is_rim(feature) => Some(0),
+        (_, feature) if is_rim(feature) => Some(1),
+        _ => None,
+    }
+}
+
+fn is_same_cap(a: &Contact, b: &Contact) -> bool {
+    let of = |contact: &Contact| {
+        let part = match contact.other {
+            None => (contact.feature.0, Some(contact.feature.1 % POINTS / 4)),
+            Some(_) => (0, rim_side(contact.feature)),
+        };
+        (contact.body, contact.other, part)
+    };
+    of(a) == of(b)
+}
+
+/// Calls `visit` for all that touches, cap by cap: where its contacts begin and end, and what it stands on; none, if
+/// they are of no flat cap.
+fn each_cap(
+    model: &Model,
+    state: &State,
+    found: &mut Vec<Contact>,
+    mut visit: impl FnMut(&mut Vec<Contact>, std::ops::Range<usize>, &Footing) -> bool,
+) -> bool {
+    let mut from = 0;
+    while from < found.len() {
+        let first = found[from];
+        let len = found[from..].iter().take_while(|other| is_same_cap(&first, other)).count();
+        if let Some(footing) = Footing::of(model, state, &first)
+            && len >= 4
+            && visit(found, from..from + len, &footing)
+        {
+            return true;
+        }
+        from += len;
+    }
+    false
+}
+
+/// Has every flat cap among what touches stand on four points, the first of them where it comes down, or, if it does
+/// not turn over, on those that are the body's own.
+pub fn turn(model: &Model, state: &State, found: &mut Vec<Contact>) {
+    found.retain(|contact| Footing::of(model, state, contact).is_none_or(|footing| footing.node < POINTS));
+    each_cap(model, state, found, |found, group, footing| {
+        let first = found[group.start];
+        let descent = -footing.normal.cross(&relative(footing, &|i| state.bodies[i].w_WB));
+        let speed_m_s = meeting_m_s(model, state, first.ends().map(|(i, ..)| i));
+        let turns = footing.cap.radius_m * descent.norm() > NO_SLIP * speed_m_s;
+        let at = &state.bodies[footing.of];
+        let along_B = if turns { at.q_WB.inverse_transform_vector(&descent).normalize() } else { Vector3::zeros() };
+        let most = |of: fn(&Contact) -> f64| found[group.clone()].iter().map(of).fold(0.0, f64::max);
+        let restitution = most(|contact| contact.restitution);
+        let tangential_restitution = most(|contact| contact.tangential_restitution);
+        for ((contact, u_B), node) in found[group].iter_mut().zip(rim_directions(&along_B)).zip(0..) {
+            let like = Contact { restitution, tangential_restitution, ..first };
+            *contact = footing.point(state, &like, &u_B, node);
+        }
+        false
+    });
+}
+
+fn relative(footing: &Footing, of: &impl Fn(usize) -> Vector3<f64>) -> Vector3<f64> {
+    of(footing.of) - footing.base.map_or_else(Vector3::zeros, of)
+}
+
+/// Velocities, or accelerations, of a body's points: of the one at an arm from its centre of mass (world axes), and of
+/// its rotation.
+pub type Rates = [Vector3<f64>; 2];
+
+/// Velocities of a body in a state.
+pub fn velocities(state: &State, i: usize, arm_W: &Vector3<f64>) -> Rates {
+    let at = &state.bodies[i];
+    [at.v_WB + at.w_WB.cross(arm_W), at.w_WB]
+}
+
+/// What is no velocity of a point that sinks.
+pub fn sinks_m_s(model: &Model, state: &State, contact: &Contact) -> f64 {
+    SINKS * meeting_m_s(model, state, contact.ends().map(|(i, ..)| i))
+}
+
+/// Which point of each flat cap's rim bears beside those that stand for it: the one that would sink. It bears where
+/// its own push leaves it the lowest, a root of one angle.
+#[derive(Default)]
+pub struct Sinking {
+    of: Vec<Search>,
+}
+
+struct Search {
+    body: usize,
+    feature: (usize, u32),
+    /// Angles of the point tried, with the angles from there to the one that then sinks: to either side, and the last.
+    above: Option<[f64; 2]>,
+    below: Option<[f64; 2]>,
+    tried_rad: Option<f64>,
+}
+
+impl Search {
+    /// The next angle to try, where the point at `sinks_rad` sinks.
+    fn tried(&mut self, sinks_rad: f64) -> f64 {
+        let next_rad = self.next_rad(sinks_rad);
+        self.tried_rad = Some(next_rad);
+        next_rad
+    }
+
+    fn next_rad(&mut self, sinks_rad: f64) -> f64 {
+        let Some(tried_rad) = self.tried_rad else { return sinks_rad };
+        let off_rad = (sinks_rad - tried_rad + PI).rem_euclid(2.0 * PI) - PI;
+        let (side, other) =
+            if off_rad > 0.0 { (&mut self.below, &mut self.above) } else { (&mut self.above, &mut self.below) };
+        // The rule of the false position that does not stay on one side ("Illinois").
+        if side.replace([tried_rad, off_rad]).is_some()
+            && let Some([_, off]) = other
+        {
+            *off /= 2.0;
+        }
+        match (self.below, self.above) {
+            (Some([below_rad, less]), Some([above_rad, more])) => {
+                let apart = (above_rad - below_rad + PI).rem_euclid(2.0 * PI) - PI;
+                below_rad + apart * less / (less - more)
+            }
+            _ => sinks_rad,
+        }
+    }
+}
+
+impl Sinking {
+    /// Puts the point of a flat cap's rim that sinks faster than `least` to what touches; false: none does. `bears`:
+    /// caps are looked at of which so many contacts do.
+    pub fn add(
+        &mut self,
+        model: &Model,
+        state: &State,
+        found: &mut Vec<Contact>,
+        (most, bears): (usize, impl Fn(&Contact) -> bool),
+        (rates, least): (impl Fn(usize, &Vector3<f64>) -> Rates, impl Fn(&Contact) -> f64),
+    ) -> bool {
+        each_cap(model, state, found, |found, group, footing| {
+            let first = found[group.start];
+            if found[group.clone()].iter().filter(|contact| bears(contact)).count() < most {
+                return false;
+            }
+            let (cap, at) = (&footing.cap, &state.bodies[footing.of]);
+            let p_W = at.p_WB + at.q_WB * cap.centre_B;
+            let of = |k: usize| relative(footing, &|i: usize| rates(i, &(p_W - state.bodies[i].p_WB))[k]);
+            let descent = -footing.normal.cross(&of(1));
+            if footing.normal.dot(&of(0)) - cap.radius_m * descent.norm() >= -least(&first) {
+                return false;
+            }
+            let d_B = at.q_WB.inverse_transform_vector(&descent);
+            let angle_rad = self.search(&first, footing).tried(libm::atan2(d_B.x, d_B.z));
+            let u_B = Vector3::new(libm::sin(angle_rad), 0.0, libm::cos(angle_rad));
+            let point = footing.point(state, &first, &u_B, POINTS);
+            match found[group.clone()].iter().position(|contact| contact.feature == point.feature) {
+                Some(k) => found[group.start + k] = point,
+                None => found.insert(group.end, point),
+            }
+            true
+        })
+    }
+
+    fn search(&mut self, contact: &Contact, footing: &Footing) -> &mut Search {
+        let (body, feature) = (footing.of, footing.base.map_or((0, contact.feature.0), |base| (base + 1, 0)));
+        let k = self.of.iter().position(|search| search.body == body && search.feature == feature);
+        let k = k.unwrap_or_else(|| {
+            self.of.push(Search { body, feature, above: None, below: None, tried_rad: None });
+            self.of.len() - 1
+        });
+        &mut self.of[k]
+    }
+}
+
+/// How the lowest point of a rim that is nearly flat may move toward what it faces.
+pub struct Rolling {
+    /// Beside what its points are accelerated, for a time; none: it is flat.
+    pub along: Option<(f64, f64)>,
+    /// How much faster than this point any other may come nearer.
+    pub faster_m_s: f64,
+}
+
+/// The tilt (rad) up to which that is more than the points of contact of other parts may do.
+const NEARLY: f64 = 0.2;
+
+/// Part of a tilt that is sure to be left while the bound of the curvature is used.
+const KEPT: f64 = 0.5;
+
+/// Of two bodies that touch along this normal, and turn no faster than this against each other. None: no cap does.
+pub fn rolling(bodies: [&Body; 2], at: &[BodyState; 2], normal: &Vector3<f64>, w_rad_s: f64) -> Option<Rolling> {
+    let of = |k: usize| {
+        let normal = if k == 0 { *normal } else { -normal };
+        let cap = Cap::facing(bodies[k], &at[k], &normal)?;
+        let tilt = cap.lean_W(&at[k], &normal).norm();
+        (tilt <= NEARLY).then_some((cap.radius_m, tilt))
+    };
+    let (radius_m, tilt) = match (of(0), of(1)) {
+        (Some(a), Some(b)) => (a.0.max(b.0), a.1.min(b.1)),
+        (Some(one), None) | (None, Some(one)) => one,
+        (None, None) => return None,
+    };
+    let faster_m_s = 2.0 * radius_m * normal.cross(&(at[0].w_WB - at[1].w_WB)).norm();
+    let kept = KEPT * tilt;
+    let along = (tilt > FLAT).then(|| (w_rad_s * w_rad_s * radius_m / kept, kept / w_rad_s.max(f64::MIN_POSITIVE)));
+    Some(Rolling { along, faster_m_s })
+}
+
+/// A rim that stands on a plane.
+struct Rim {
+    cap: Cap,
+    standing: Standing,
+}
+
+impl Rim {
+    fn of(model: &Model, touch: &Touch, state: &State) -> Option<Self> {
+        let standing = touch.standing(state)?;
+        let cap = Cap::facing(&model.bodies[standing.of], &state.bodies[standing.of], &standing.normal_W)?;
+        Some(Rim { cap, standing })
+    }
+
+    fn is_same(&self, own: &Touch, other: &Rim, touch: &Touch) -> bool {
+        let of = |touch: &Touch| {
+            let (body, other, feature) = touch.key();
+            (body, other, if other.is_none() { feature.0 } else { 0 })
+        };
+        of(own) == of(touch) && self.standing.of == other.standing.of && self.cap.first == other.cap.first
+    }
+
+    /// Direction from the cap's centre to a point of the body on its rim.
+    fn toward_B(&self) -> Option<Vector3<f64>> {
+        let from_B = self.standing.corner_B? - self.cap.centre_B;
+        let out = from_B - self.cap.out_B * self.cap.out_B.dot(&from_B);
+        ((out.norm() - self.cap.radius_m).abs() <= 1e-6 * self.cap.radius_m).then(|| out.normalize())
+    }
+}
+
+/// A rim has come to lie flat, or a cap to tip.
+pub fn has_turned(model: &Model, held: &[Held], state: &State) -> bool {
+    let rim = |held: &Held| Rim::of(model, &held.touch, state);
+    held.iter().any(|own| {
+        let Some(of_own) = rim(own) else { return false };
+        let at = &state.bodies[of_own.standing.of];
+        let lean = of_own.cap.lean_W(at, &of_own.standing.normal_W);
+        if of_own.standing.corner_B.is_none() {
+            return lean.norm() < LANDS * FLAT;
+        }
+        let Some(toward_B) = of_own.toward_B() else { return false };
+        let same = |other: &&Held| rim(other).is_some_and(|of| of_own.is_same(&own.touch, &of, &other.touch));
+        // Three of its points hold a cap flat.
+        let is_flat = held.iter().filter(same).count() >= 3;
+        !is_flat && (lean.norm() > TIPS * FLAT || lean.dot(&(at.q_WB * toward_B)) < -BEYOND)
+    })
+}
+
+/// The longest step in which no rim falls flat.
+pub fn longest_s(model: &Model, held: &[Held], state: &State) -> f64 {
+    let until_flat_s = |held: &Held| {
+        let Rim { cap, standing } = Rim::of(model, &held.touch, state)?;
+        if standing.corner_B.is_some() {
+            return None;
+        }
+        let at = &state.bodies[standing.of];
+        let (lean, out) = (cap.lean_W(at, &standing.normal_W), at.q_WB * cap.out_B);
+        let out_rate = at.w_WB.cross(&out);
+        let rising = lean.dot(&(out_rate * out.dot(&standing.normal_W) - standing.normal_rate_W));
+        (rising < 0.0).then(|| BEFORE_FLAT * lean.norm_squared() / -rising)
+    };
+    held.iter().filter_map(until_flat_s).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,189 @@
+//! Caps of cylinders: they land flat, slap, tip over any point of their rim, and rest. `configs/event/cans.yaml` has
+//! all of it; here are its cases that once went wrong, a Latin square against other tolerances and against steps, and
+//! what must not depend on the direction or the scale.
+
+use super::apart_m;
+use crate::yaml::{experiment, measured, run};
+use gotai::experiment::types::Experiment;
+use gotai::outcome::Outcome;
+use gotai::rows::Measured;
+use gotai::run::advance::only_step;
+use gotai::scene::build;
+use gotai::state::State;
+use nalgebra::{Rotation3, Vector3};
+use rayon::prelude::*;
+
+fn scene(shape: &str, body: &str, rest: &str) -> String {
+    format!(
+        "
+scene:
+  container: {{ plane: {{ normal: [0, 1, 0] }} }}
+  {rest}
+  bodies:
+    - {{ name: can, shape: {{ cylinder: {{ {shape} }} }}, mass_kg: 1, {body} }}
+method: event-driven
+time: {{ end_s: 1 }}
+"
+    )
+}
+
+const CAN: &str = "radius_m: 0.25, height_m: 0.5";
+const DISC: &str = "radius_m: 0.3, height_m: 0.05";
+
+fn end(experiment: &Experiment) -> State {
+    let (model, start) = build(experiment).unwrap();
+    let method = experiment.method.stepping().unwrap();
+    let ended = only_step(&method, &model, start, &experiment.clock(), &experiment.limits);
+    assert!(ended.stopped.is_none(), "{:?}", ended.stopped);
+    ended.state
+}
+
+/// Nothing is left to steps of equal length, nothing sinks, and no energy is made.
+fn holds(ended: &Measured) {
+    assert_eq!(ended.outcome, Outcome::Finished);
+    assert_eq!((ended.work.fallbacks, ended.work.unsolved), (0, 0));
+    // Measured: 1.3e-12, 3.2e-13, 7.0e-11.
+    assert!(ended.penetration_max_m.unwrap() < 1e-9, "{:?}", ended.penetration_max_m);
+    assert!(ended.energy_rise_max_rel.unwrap() < 1e-9, "{:?}", ended.energy_rise_max_rel);
+    assert!(ended.energy_drift_rel.unwrap().abs() < 1e-9, "{:?}", ended.energy_drift_rel);
+}
+
+#[test]
+fn a_can_dropped_flat_stands_where_it_falls() {
+    for (law, body, friction) in [
+        ("newton", "position_m: [0, 0.9, 0], velocity_m_s: [0, -1, 0]", 0.5),
+        ("poisson", "position_m: [0, 0.9, 0], velocity_m_s: [0, -1, 0]", 0.5),
+        ("newton", "position_m: [0, 0.65, 0]", 1.0),
+        ("poisson", "position_m: [0, 0.65, 0]", 1.0),
+    ] {
+        let text = scene(CAN, body, &format!("friction: {friction}"));
+        let experiment = experiment(&text, &[&format!("method.event-driven.impact={law}")]);
+        holds(&run(&experiment).measured);
+        let at = end(&experiment).bodies[0];
+        // Measured: 0.
+        assert!((at.p_WB - Vector3::y() * 0.25).norm() < 1e-12, "{law}: {:?}", at.p_WB);
+    }
+}
+
+/// Of contacts struck one after the other none sees the others: the can takes a turn by it, and stands on the floor.
+#[test]
+fn a_can_struck_one_contact_after_the_other_stands() {
+    for body in ["position_m: [0, 0.9, 0], velocity_m_s: [0, -1, 0]", "position_m: [0, 0.65, 0]"] {
+        let text = scene(CAN, body, "friction: 0.5");
+        let experiment = experiment(&text, &["method.event-driven.impact=sequential"]);
+        holds(&run(&experiment).measured);
+        let at = end(&experiment).bodies[0];
+        // Measured: 5.6e-16.
+        assert!((at.p_WB.y - 0.25).abs() < 1e-12, "{:?}", at.p_WB);
+    }
+}
+
+#[test]
+fn a_tilted_can_on_a_smooth_floor_rocks_and_rests() {
+    for angle_deg in [1, 3, 10, 20, 30] {
+        let body = format!("position_m: [0, 0.6, 0], orientation: {{ axis: [0, 0, 1], angle_deg: {angle_deg} }}");
+        let text = scene("radius_m: 0.5, height_m: 0.5", &body, "friction: 0");
+        let experiment = experiment(&text, &["time.end_s=3"]);
+        holds(&run(&experiment).measured);
+        let at = end(&experiment).bodies[0];
+        // Measured: 1e-16.
+        assert!((at.p_WB.y - 0.25).abs() < 1e-12 && at.v_WB.norm() < 1e-12, "{angle_deg}: {at:?}");
+    }
+}
+
+#[test]
+fn the_blow_of_a_disc_that_slaps_is_seen() {
+    let body = "position_m: [0, 0.9, 0], velocity_m_s: [3, -1, 0], orientation: { axis: [0, 0, 1], angle_deg: 10 }";
+    let ended = measured(&scene(DISC, body, "friction: 1"), &[]);
+    holds(&ended);
+    // Measured: 2.5e-12; 0; 0.
+    assert!(ended.residual_max.unwrap() < 1e-8, "{:?}", ended.residual_max);
+    assert!(ended.linear_momentum_drift_rel.unwrap() < 1e-9 && ended.angular_momentum_drift_rel.unwrap() < 1e-9);
+}
+
+/// Attitude, friction, restitution, law of impact, speed and shape: every value of each with every other of most.
+fn latin_square() -> Vec<String> {
+    let laws = ["newton", "poisson", "sequential"];
+    let attitudes =
+        ["axis: [0, 0, 1], angle_deg: 0", "axis: [1, 0, 0.3], angle_deg: 12", "euler_xyz_deg: [20, 30, 15]"];
+    let mut texts = Vec::new();
+    for (i, law) in laws.iter().enumerate() {
+        for (j, attitude) in attitudes.iter().enumerate() {
+            let k = i + j;
+            let (friction, restitution) = ([0.0, 0.5, 0.2][k % 3], [0.5, 0.0, 0.3][(i + 2 * j) % 3]);
+            let (speed, shape) = ([0, 3, 1][(2 * i + j) % 3], [CAN, DISC][k % 2]);
+            let body =
+                format!("position_m: [0, 0.9, 0], velocity_m_s: [{speed}, -1, 0], orientation: {{ {attitude} }}");
+            let rest = format!("friction: {friction}, restitution: {restitution}").replace(", ", "\n  ");
+            texts.push(
+                scene(shape, &body, &rest)
+                    .replace(": event-driven", &format!(": {{ event-driven: {{ impact: {law} }} }}")),
+            );
+        }
+    }
+    texts
+}
+
+#[test]
+fn falls_of_cans_hold_at_every_tolerance() {
+    latin_square().par_iter().for_each(|text| {
+        let ended = measured(text, &[]);
+        holds(&ended);
+        let [fine, coarse] = ["1e-9", "1e-6"]
+            .map(|tolerance| end(&experiment(text, &[&format!("method.event-driven.tolerance={tolerance}")])));
+        let kappa = ended.sensitivity.unwrap_or(1.0).max(1.0);
+        // Measured: 0.0034 of it.
+        assert!(apart_m(&fine, &coarse) < 1e-5 * kappa, "{text}: {:e}", apart_m(&fine, &coarse));
+    });
+}
+
+/// A push on the lid, in any direction: the can tips over the point of its rim there, and turns about nothing else.
+#[test]
+fn a_can_tips_alike_in_every_direction() {
+    let tipped = |angle: f64| {
+        let push = Rotation3::from_axis_angle(&Vector3::y_axis(), angle) * (Vector3::x() * 6.0);
+        let text = scene(CAN, "position_m: [0, 0.25, 0]", "friction: 2").replace(
+            "method:",
+            &format!(
+                "  forces: [{{ body: can, force_n: [{:?}, 0, {:?}], at_m: [0, 0.25, 0] }}]\nmethod:",
+                push.x, push.z
+            ),
+        );
+        let experiment = experiment(&text, &["time.end_s=0.3"]);
+        holds(&run(&experiment).measured);
+        let at = end(&experiment).bodies[0];
+        (Rotation3::from_axis_angle(&Vector3::y_axis(), -angle) * at.p_WB, at.w_WB.norm())
+    };
+    let (first, w) = tipped(0.0);
+    assert!(w > 0.1, "{w}");
+    for angle in [0.2, 0.7, 1.1, 2.5, 4.0] {
+        let (turned, _) = tipped(angle);
+        // Measured: 1.2e-12.
+        assert!((turned - first).norm() < 1e-8, "{angle}: {:e}", (turned - first).norm());
+    }
+}
+
+/// Lengths by 1000, times by the root of that: the same motion.
+#[test]
+fn a_larger_can_falls_alike() {
+    let body = |k: f64| {
+        let v = k.sqrt();
+        format!(
+            "position_m: [0, {:?}, 0], velocity_m_s: [{v:?}, {:?}, 0], orientation: {{ axis: [0.3, 0, 1], angle_deg: 10 }}",
+            0.9 * k,
+            -v
+        )
+    };
+    let fallen = |k: f64| {
+        let shape = format!("radius_m: {:?}, height_m: {:?}", 0.25 * k, 0.5 * k);
+        let text = scene(&shape, &body(k), "friction: 0.3");
+        let time = format!("time.end_s={:?}", k.sqrt());
+        let tolerance = format!("method.event-driven.tolerance={:?}", 1e-9 * k);
+        end(&experiment(&text, &[&time, &tolerance])).bodies[0].p_WB / k
+    };
+    let one = fallen(1.0);
+    for k in [1.0 / 1024.0, 1024.0] {
+        // Measured: 3.2e-9.
+        assert!((fallen(k) - one).norm() < 1e-6, "{k}: {:e}", (fallen(k) - one).norm());
+    }
+}

@@ -21,6 +21,7 @@ use crate::event::settle::{Forces, settle};
 use crate::event::slip::{self, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
+use crate::event::which;
 use crate::event::zeno::{Zeno, approach_m_s};
 use crate::experiment::types::{EventDriven as Settings, Impact};
 use crate::math::full_pivot::Selection;
@@ -265,6 +266,9 @@ impl EventDriven {
                 &mut self.work,
             );
             self.found.retain(|contact| is_closed_to_delta(model, contact));
+            if model.touching_pairs {
+                which::choose(model, state, &mut self.found, self.gathered.get_mut(), &mut self.work);
+            }
         }
     }
 

@@ -12,14 +12,13 @@
 use super::dense::Dense;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::motion::{Bounds, Motion};
-use super::which::Sharing;
+use super::which::{GRAZING, Sharing};
 use crate::collide::closed::delta_m;
 use crate::collide::faces;
 use crate::deadline::Deadline;
 use crate::model::container::Face;
 use crate::model::{Body, Geometry, Model};
-use crate::shape::band::{Along, BAND};
-use crate::shape::pair::touches;
+use crate::shape::band::{Along, BAND, touches_beside};
 use crate::shape::solid::{Meeting as Found, Pose, Solid};
 use crate::state::BodyState;
 use crate::work::Work;
@@ -279,13 +278,19 @@ fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Windo
     two.bodies(window, work)
 }
 
-/// Of the speed of two bodies: what comes along a surface closes no faster once it is within the band of it,
-/// (2 · 10⁻⁹)^½ = 4.5e-5.
-const GRAZING: f64 = 1e-4;
-
 /// δ that what passes by may be inside, and looks at it: halving its rate, it is none after forty.
 const FEW: f64 = 10.0;
 const MOST_ARRIVING: u32 = 200;
+
+/// Parts of two bodies that face each other.
+struct Parted {
+    /// In which none can touch.
+    safe_s: f64,
+    /// One does.
+    touching: bool,
+    /// So many are closed and stay so.
+    lingering: usize,
+}
 
 /// How two bodies come to each other.
 #[derive(Clone, Copy)]
@@ -384,6 +389,7 @@ impl<'a> Two<'a> {
         let (reach_m, toward_m_s2) = (self.sizes[0] + self.sizes[1], self.toward_m_s2([0.0, 0.0]));
         let mut found: Vec<Found> = Vec::new();
         let mut way = Way::Apart;
+        let mut known = None;
         march(window, self.paths.deadline, |t_s| {
             let now = self.now(t_s, work);
             let at = &now.at;
@@ -392,7 +398,12 @@ impl<'a> Two<'a> {
                 return Some((look.safe_s(now.delta_m, now.slow_m_s), false));
             }
             self.find(&now, &mut found);
-            let (safe_s, touching) = self.parts(&now, &found);
+            let Parted { safe_s, touching, lingering } = self.parts(&now, &found);
+            // What comes to be touched beside what is held is to be held, too.
+            let is_new = known.replace(lingering).is_some_and(|known| lingering > known);
+            if !self.resting.is_empty() && is_new {
+                return Some((safe_s, true));
+            }
             if !self.resting.is_empty() || nearest(&found).is_none_or(|nearest| nearest.gap_m > self.band_m()) {
                 way = Way::Apart;
                 return Some((safe_s, touching));
@@ -401,7 +412,7 @@ impl<'a> Two<'a> {
                 && sharing.rate_m_s() >= -now.slow_m_s
             {
                 way = Way::Shared;
-                return Some((safe_s.min(self.parted_s(&now, &sharing)), false));
+                return Some((self.parted_s(&now, &sharing), false));
             }
             match std::mem::replace(&mut way, Way::Apart) {
                 // What they shared has got an area, or comes to be touched.
@@ -421,7 +432,7 @@ impl<'a> Two<'a> {
     fn find(&self, now: &Now, found: &mut Vec<Found>) {
         found.clear();
         let reach_m = self.sizes[0] + self.sizes[1];
-        touches(self.solids[0], &now.poses[0], self.solids[1], &now.poses[1], reach_m, found);
+        touches_beside(self.solids[0], &now.poses[0], self.solids[1], &now.poses[1], reach_m, found);
     }
 
     fn band_m(&self) -> f64 {
@@ -447,7 +458,8 @@ impl<'a> Two<'a> {
             let look = Look { gap_m: along.gap_m + self.band_m(), rate_m_s: *rate_m_s, toward_m_s2, ..Look::EMPTY };
             look.safe_s(now.delta_m, now.slow_m_s)
         };
-        sharing.axes.iter().map(out_s).fold(f64::INFINITY, f64::min)
+        let way_s = self.smaller_m() * WAY / self.closing_m_s(&now.at).max(f64::MIN_POSITIVE);
+        sharing.axes.iter().map(out_s).fold(way_s, f64::min)
     }
 
     /// When a gap that closes ever more slowly has closed, if it does not go on: what comes over an edge along a surface
@@ -497,12 +509,12 @@ impl<'a> Two<'a> {
         })
     }
 
-    /// Of the parts that face each other: the time in which none can touch, and whether one does.
-    fn parts(&self, now: &Now, found: &[Found]) -> (f64, bool) {
+    /// Of the parts that face each other and are not held.
+    fn parts(&self, now: &Now, found: &[Found]) -> Parted {
         let Now { at, delta_m, slow_m_s, .. } = now;
         let near_m = NEAR * self.smaller_m();
         let closing = self.closing_m_s(at);
-        let (mut safe_s, mut touching) = (f64::INFINITY, false);
+        let (mut safe_s, mut touching, mut lingering) = (f64::INFINITY, false, 0);
         for touch in found.iter().filter(|touch| !self.is_held(at, touch)) {
             if touch.gap_m > near_m {
                 let (gap_m, rate_m_s) = (touch.gap_m - near_m / 2.0, -closing);
@@ -515,10 +527,12 @@ impl<'a> Two<'a> {
             let toward_m_s2 = self.rolling_m_s2(closing);
             let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2, known_s: near_m / closing, ..Look::EMPTY };
             safe_s = safe_s.min(look.safe_s(*delta_m, *slow_m_s));
-            touching |= look.is_touching(*delta_m, *slow_m_s);
+            let touches = look.is_touching(*delta_m, *slow_m_s);
+            touching |= touches;
+            lingering += usize::from(!touches && look.gap_m <= *delta_m && look.rate_m_s <= *slow_m_s);
         }
         let way_m = near_m.max(self.smaller_m() * WAY);
-        (safe_s.min(way_m / closing.max(f64::MIN_POSITIVE)), touching)
+        Parted { safe_s: safe_s.min(way_m / closing.max(f64::MIN_POSITIVE)), touching, lingering }
     }
 
     fn is_held(&self, at: &[BodyState; 2], touch: &Found) -> bool {

@@ -9,13 +9,18 @@ use super::decide::{Change, Decision, decide};
 use super::forces::{Gathered, NO_SLIP, meeting_m_s};
 use super::touch::Touch;
 use crate::collide::Contact;
-use crate::model::{Body, Model};
-use crate::shape::band::{Along, axes};
-use crate::shape::solid::Pose;
+use crate::collide::closed::is_closed_to_delta;
+use crate::model::Model;
+use crate::shape::band::{Along, axes, band_m, touches_beside};
+use crate::shape::solid::{Meeting, Pose, Solid};
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use crate::work::Work;
 use nalgebra::Vector3;
+
+/// Of the speed of two bodies: what comes along a surface closes no faster once it is within the band of it,
+/// (2 · 10⁻⁹)^½ = 4.5e-5.
+pub const GRAZING: f64 = 1e-4;
 
 /// Of the acceleration of gravity: what is less does not close a pair.
 const NONE: f64 = 1e-9;
@@ -29,10 +34,8 @@ pub struct Sharing {
 impl Sharing {
     /// None: one axis alone.
     pub fn new(model: &Model, pair: [usize; 2], at: [&BodyState; 2]) -> Option<Self> {
-        let bodies = pair.map(|i| &model.bodies[i]);
-        let [Some((solid_a, centre_a)), Some((solid_b, centre_b))] = bodies.map(Body::solid) else { return None };
-        let pose = |at: &BodyState, centre: &Vector3<f64>| Pose { p_W: at.p_WB + at.q_WB * centre, q_W: at.q_WB };
-        let found = axes(solid_a, &pose(at[0], centre_a), solid_b, &pose(at[1], centre_b));
+        let [(solid_a, pose_a), (solid_b, pose_b)] = posed(model, pair, at)?;
+        let found = axes(solid_a, &pose_a, solid_b, &pose_b);
         if found.len() < 2 {
             return None;
         }
@@ -51,18 +54,30 @@ impl Sharing {
     }
 
     /// Contacts along the axis of the largest of some numbers, of which there is one an axis.
-    fn contacts<'a>(&'a self, model: &Contact, at: [&'a BodyState; 2], of: &[f64]) -> Vec<Contact> {
+    fn contacts(&self, like: &Contact, at: [&BodyState; 2], of: &[f64]) -> Vec<Contact> {
         let Some(last) = (0..of.len()).reduce(|best, i| if of[i] > of[best] { i } else { best }) else { return vec![] };
-        let contact = |point: &crate::shape::solid::Meeting| Contact {
-            feature: point.feature,
-            r_BC_W: point.p_W - at[0].p_WB,
-            r_OC_W: point.p_W - at[1].p_WB,
-            p_WC: point.p_W,
-            normal: point.normal,
-            gap_m: point.gap_m,
-            ..*model
-        };
-        self.axes[last].0.points.iter().map(contact).collect()
+        self.axes[last].0.points.iter().map(|point| contact(point, like, at)).collect()
+    }
+}
+
+fn posed<'a>(model: &'a Model, pair: [usize; 2], at: [&BodyState; 2]) -> Option<[(&'a Solid, Pose); 2]> {
+    let [Some((solid_a, centre_a)), Some((solid_b, centre_b))] = pair.map(|i| model.bodies[i].solid()) else {
+        return None;
+    };
+    let pose = |at: &BodyState, centre: &Vector3<f64>| Pose { p_W: at.p_WB + at.q_WB * centre, q_W: at.q_WB };
+    Some([(solid_a, pose(at[0], centre_a)), (solid_b, pose(at[1], centre_b))])
+}
+
+/// Contact at a point, of the bodies and surfaces of another one.
+fn contact(point: &Meeting, like: &Contact, at: [&BodyState; 2]) -> Contact {
+    Contact {
+        feature: point.feature,
+        r_BC_W: point.p_W - at[0].p_WB,
+        r_OC_W: point.p_W - at[1].p_WB,
+        p_WC: point.p_W,
+        normal: point.normal,
+        gap_m: point.gap_m,
+        ..*like
     }
 }
 
@@ -85,7 +100,7 @@ pub fn choose(model: &Model, state: &State, found: &mut Vec<Contact>, gathered: 
             Some((pair, Sharing::new(model, pair, pair.map(|i| &state.bodies[i]))?))
         });
         let Some((pair, sharing)) = sharing else {
-            kept.extend_from_slice(group);
+            kept.extend(beside(model, state, group));
             continue;
         };
         let rates: Vec<f64> = sharing.axes.iter().map(|(_, rate_m_s)| *rate_m_s).collect();
@@ -106,6 +121,30 @@ pub fn choose(model: &Model, state: &State, found: &mut Vec<Contact>, gathered: 
     }
     kept.sort_unstable_by_key(Contact::key);
     *found = kept;
+}
+
+/// Contacts of a pair with one axis: those found; where something round is beside a face, with its edge, if it strikes
+/// that. What moves along the face comes over it, or has left it.
+fn beside(model: &Model, state: &State, group: &[Contact]) -> Vec<Contact> {
+    let is_round = |i: usize| {
+        let solid = model.bodies[i].solid();
+        solid.is_some_and(|(solid, _)| matches!(solid, Solid::Capsule { .. } | Solid::Cylinder { .. }))
+    };
+    let Some(pair) = group[0].other.map(|other| [group[0].body, other]) else { return group.to_vec() };
+    let at = pair.map(|i| &state.bodies[i]);
+    let posed = if pair.into_iter().any(is_round) { posed(model, pair, at) } else { None };
+    let Some([(solid_a, pose_a), (solid_b, pose_b)]) = posed else { return group.to_vec() };
+    let mut points = Vec::new();
+    if !touches_beside(solid_a, &pose_a, solid_b, &pose_b, band_m(solid_a, solid_b), &mut points) {
+        return group.to_vec();
+    }
+    let speed = meeting_m_s(model, state, pair.into_iter());
+    let strikes = |contact: &Contact| {
+        let velocity = contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]);
+        contact.normal.dot(&velocity) < -GRAZING * speed
+    };
+    let contacts = points.iter().map(|point| contact(point, &group[0], at));
+    contacts.filter(|contact| is_closed_to_delta(model, contact) && strikes(contact)).collect()
 }
 
 /// Contacts of the first pair that the others leave to come nearer; it is set aside no longer.

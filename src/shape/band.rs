@@ -6,7 +6,8 @@
 //! extreme rays a face of one body, or an edge of each, is across the axis.
 
 use super::axis::{Axis, Face, axis, separation};
-use super::manifold::{Opposite, of_face, of_lines};
+use super::manifold::{Opposite, closest_parts, of_face, of_lines};
+use super::pair::touches;
 use super::placed::Placed;
 use super::solid::{Meeting, Pose, Solid};
 use nalgebra::Vector3;
@@ -47,6 +48,31 @@ pub fn axes(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose) -> Vec<Along> {
     Axes { a: &a, b: &b, origin_W }.within(band_m(a.solid, b.solid))
 }
 
+/// Adds the points of two solids whose gap is below the margin, as `pair::touches`; but what is round and beside a face
+/// by less than its axis can tell has the direction to the face's edge. Whether it has.
+pub fn touches_beside(
+    a: &Solid,
+    pose_a: &Pose,
+    b: &Solid,
+    pose_b: &Pose,
+    margin_m: f64,
+    out: &mut Vec<Meeting>,
+) -> bool {
+    let is_round = |solid: &Solid| matches!(solid, Solid::Capsule { .. } | Solid::Cylinder { .. });
+    let has_corners = |solid: &Solid| matches!(solid, Solid::Box { .. } | Solid::Convex(_));
+    if (is_round(a) && has_corners(b)) || (is_round(b) && has_corners(a)) {
+        let origin_W = pose_b.p_W;
+        let [a, b] = [Placed::new(a, pose_a, &origin_W), Placed::new(b, pose_b, &origin_W)];
+        let axes = Axes { a: &a, b: &b, origin_W };
+        if let Some(n) = axes.beside() {
+            out.extend(axes.of_lines(&n).into_iter().filter(|meeting| meeting.gap_m < margin_m));
+            return true;
+        }
+    }
+    touches(a, pose_a, b, pose_b, margin_m, out);
+    false
+}
+
 struct Axes<'a> {
     a: &'a Placed<'a>,
     b: &'a Placed<'a>,
@@ -84,19 +110,57 @@ impl Axes<'_> {
     }
 
     fn along(&self, axis: &Axis, band_m: f64) -> Along {
-        let (n, radii_m) = (axis.normal, self.a.radius_m() + self.b.radius_m());
-        let meeting = |at: Opposite| {
-            let gap_m = n.dot(&(at.on_a - at.on_b)) - radii_m;
-            let middle = (at.on_a + at.on_b + n * (self.b.radius_m() - self.a.radius_m())) * 0.5;
-            Meeting { p_W: self.origin_W + middle, normal: n, gap_m, feature: at.feature }
-        };
-        let gap_m = axis.gap_m - radii_m;
+        let gap_m = axis.gap_m - self.radii_m();
         let mut points = Vec::new();
-        of_face(self.a, self.b, axis, self.size_m(), &mut |at| points.push(meeting(at)));
+        of_face(self.a, self.b, axis, self.size_m(), &mut |at| points.push(self.meeting(&axis.normal, at)));
         points.retain(|point: &Meeting| point.gap_m <= gap_m + band_m);
         if points.is_empty() {
-            of_lines(self.a, self.b, &n, self.size_m(), &mut |at| points.push(meeting(at)));
+            points = self.of_lines(&axis.normal);
         }
-        Along { normal: n, gap_m, points }
+        Along { normal: axis.normal, gap_m, points }
+    }
+
+    /// Direction from the edge of a face that is the axis, but over which nothing is, to the middle line of what is
+    /// round.
+    fn beside(&self) -> Option<Vector3<f64>> {
+        let (best, _) = axis(self.a, self.b, self.size_m());
+        let (face, of, round, sign) = match best.face? {
+            Face::OfA(face) => (face, self.a, self.b, -1.0),
+            Face::OfB(face) => (face, self.b, self.a, 1.0),
+        };
+        let half_m = match round.solid {
+            Solid::Capsule { half_height_m, .. } | Solid::Cylinder { half_height_m, .. } => *half_height_m,
+            _ => return None,
+        };
+        let corners = of.face_corners(face);
+        let mut is_over = corners.is_empty();
+        of_face(self.a, self.b, &best, self.size_m(), &mut |_| is_over = true);
+        if is_over {
+            return None;
+        }
+        let (from, along) = (round.p - round.axis() * half_m, round.axis() * (2.0 * half_m));
+        let apart = (0..corners.len()).map(|i| {
+            let [p, q] = [i, (i + 1) % corners.len()].map(|i| of.vertex(corners[i]));
+            let (s, t) = closest_parts(&from, &along, &p, &(q - p));
+            from + along * s - p - (q - p) * t
+        });
+        let nearest = apart.reduce(|best, next| if next.norm_squared() < best.norm_squared() { next } else { best })?;
+        nearest.try_normalize(0.0).map(|out| out * sign)
+    }
+
+    fn of_lines(&self, n: &Vector3<f64>) -> Vec<Meeting> {
+        let mut points = Vec::new();
+        of_lines(self.a, self.b, n, self.size_m(), &mut |at| points.push(self.meeting(n, at)));
+        points
+    }
+
+    fn meeting(&self, n: &Vector3<f64>, at: Opposite) -> Meeting {
+        let gap_m = n.dot(&(at.on_a - at.on_b)) - self.radii_m();
+        let middle = (at.on_a + at.on_b + n * (self.b.radius_m() - self.a.radius_m())) * 0.5;
+        Meeting { p_W: self.origin_W + middle, normal: *n, gap_m, feature: at.feature }
+    }
+
+    fn radii_m(&self) -> f64 {
+        self.a.radius_m() + self.b.radius_m()
     }
 }

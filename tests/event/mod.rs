@@ -7,6 +7,7 @@ mod cube;
 mod never_hangs;
 mod painleve;
 mod same;
+mod seams;
 mod symmetries;
 mod tolerance;
 

@@ -462,8 +462,8 @@ impl<'a> Two<'a> {
         sharing.axes.iter().map(out_s).fold(way_s, f64::min)
     }
 
-    /// When a gap that closes ever more slowly has closed, if it does not go on: what comes over an edge along a surface
-    /// that another contact holds, or passes by. None: it is an impact.
+    /// When a gap that closes ever more slowly has closed, if it does not go on: what comes over an edge along a
+    /// surface that another contact holds, or passes by. None: it is an impact.
     fn arrives_s(&self, from_s: f64, window: Window, work: &mut Work) -> Option<f64> {
         let mut found = Vec::new();
         let mut t_s = from_s;

@@ -93,7 +93,9 @@ pub(super) fn summary(id: &str, m: &Measured) -> String {
         ("contacts max", m.contacts_max.to_string()),
         ("stepping", format!("{} s", number(m.wall_s))),
     ];
-    let chosen = m.method_used.as_ref().map(|method| format!("{method}, wrong by {} m", relative(m.error_estimate_m)));
+    let met = if m.tolerance_met.as_deref() == Some("no") { ", not what was asked for" } else { "" };
+    let wrong_by = m.error_estimate_m.map_or("nobody knows how much".to_string(), |by_m| format!("{by_m:.2e} m"));
+    let chosen = m.method_used.as_ref().map(|method| format!("{method}, wrong by {wrong_by}{met}"));
     let error = m.error_position_m.map(|error_m| format!("{error_m:.2e} m at {} s", number(m.error_time_s)));
     let more = [
         ("chosen", chosen),

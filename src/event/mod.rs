@@ -9,6 +9,7 @@
 //! - `caps`: of cylinders, that lie flat, fall flat and tip
 //! - `change`: when a contact that holds stops doing so
 //! - `watch`: when the next gap closes, and the proof that none was missed
+//! - `which`: what bodies that share an edge alone do to each other
 //! - `impact`: the laws of impact at one moment; `zeno`: which of them is the last that matters
 //!
 //! Errors. A gap beyond δ = 1e-13 of the body (and rounding of its coordinates) is never stepped over. Impacts that
@@ -30,4 +31,5 @@ pub mod shown;
 pub mod slip;
 pub mod touch;
 pub mod watch;
+pub mod which;
 pub mod zeno;

@@ -13,13 +13,14 @@ use super::caps::{self, Cap};
 use super::dense::Dense;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::motion::{Bounds, Motion};
+use super::which::{GRAZING, Sharing};
 use crate::collide::closed::delta_m;
 use crate::collide::faces;
 use crate::deadline::Deadline;
 use crate::model::container::Face;
 use crate::model::{Body, Geometry, Model};
+use crate::shape::band::{Along, BAND, touches_beside};
 use crate::shape::cylinder::FLAT;
-use crate::shape::pair::touches;
 use crate::shape::solid::{Meeting as Found, Pose, Solid};
 use crate::state::BodyState;
 use crate::work::Work;
@@ -295,6 +296,34 @@ fn with_each_other(paths: &Paths, pair: [usize; 2], held: &[Held], window: Windo
     two.bodies(window, work)
 }
 
+/// δ that what passes by may be inside, and looks at it: halving its rate, it is none after forty.
+const FEW: f64 = 10.0;
+const MOST_ARRIVING: u32 = 200;
+
+/// Parts of two bodies that face each other.
+struct Parted {
+    /// In which none can touch.
+    safe_s: f64,
+    /// One does.
+    touching: bool,
+    /// So many are closed and stay so.
+    lingering: usize,
+}
+
+/// How two bodies come to each other.
+#[derive(Clone, Copy)]
+enum Way {
+    Apart,
+    /// An edge or a corner alone is shared.
+    Shared,
+    /// The gap closes without an impact, at the next look.
+    Arriving,
+}
+
+fn nearest(found: &[Found]) -> Option<&Found> {
+    found.iter().min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
+}
+
 /// Two bodies that may come to touch.
 struct Two<'a> {
     paths: &'a Paths<'a>,
@@ -304,6 +333,8 @@ struct Two<'a> {
     centres: [&'a Vector3<f64>; 2],
     bounds: [Bounds; 2],
     resting: Vec<&'a Held>,
+    /// All that is held.
+    held: &'a [Held],
     sizes: [f64; 2],
     /// Of the centres against each other.
     between_m_s2: f64,
@@ -331,6 +362,7 @@ impl<'a> Two<'a> {
             centres: [centre_a, centre_b],
             bounds,
             resting: held.iter().filter(is_theirs).collect(),
+            held,
             sizes: bodies.map(|body| body.bounding_radius_m),
             between_m_s2: (bounds[0].acceleration - bounds[1].acceleration).norm(),
         })
@@ -374,6 +406,8 @@ impl<'a> Two<'a> {
     fn bodies(&self, window: Window, work: &mut Work) -> Option<f64> {
         let (reach_m, toward_m_s2) = (self.sizes[0] + self.sizes[1], self.toward_m_s2([0.0, 0.0]));
         let mut found: Vec<Found> = Vec::new();
+        let mut way = Way::Apart;
+        let mut known = None;
         march(window, self.paths.deadline, |t_s| {
             let now = self.now(t_s, work);
             let at = &now.at;
@@ -381,19 +415,124 @@ impl<'a> Two<'a> {
             if look.gap_m > now.delta_m {
                 return Some((look.safe_s(now.delta_m, now.slow_m_s), false));
             }
-            found.clear();
-            touches(self.solids[0], &now.poses[0], self.solids[1], &now.poses[1], reach_m, &mut found);
-            Some(self.parts(&now, &found))
+            self.find(&now, &mut found);
+            let Parted { safe_s, touching, lingering } = self.parts(&now, &found);
+            // What comes to be touched beside what is held is to be held, too.
+            let is_new = known.replace(lingering).is_some_and(|known| lingering > known);
+            if !self.resting.is_empty() && is_new {
+                return Some((safe_s, true));
+            }
+            if !self.resting.is_empty() || nearest(&found).is_none_or(|nearest| nearest.gap_m > self.band_m()) {
+                way = Way::Apart;
+                return Some((safe_s, touching));
+            }
+            if let Some(sharing) = Sharing::new(self.paths.model, self.pair, at.each_ref())
+                && sharing.rate_m_s() >= -now.slow_m_s
+            {
+                way = Way::Shared;
+                return Some((self.parted_s(&now, &sharing), false));
+            }
+            match std::mem::replace(&mut way, Way::Apart) {
+                // What they shared has got an area, or comes to be touched.
+                Way::Shared | Way::Arriving => Some((safe_s, true)),
+                Way::Apart if touching => match self.arrives_s(t_s, window, work) {
+                    Some(arrives_s) => {
+                        way = Way::Arriving;
+                        Some((arrives_s - t_s, false))
+                    }
+                    None => Some((safe_s, true)),
+                },
+                Way::Apart => Some((safe_s, false)),
+            }
         })
     }
 
-    /// Of the parts that face each other: the time in which none can touch, and whether one does.
-    fn parts(&self, now: &Now, found: &[Found]) -> (f64, bool) {
-        let Now { at, delta_m, slow_m_s, .. } = now;
+    fn find(&self, now: &Now, found: &mut Vec<Found>) {
+        found.clear();
+        let reach_m = self.sizes[0] + self.sizes[1];
+        touches_beside(self.solids[0], &now.poses[0], self.solids[1], &now.poses[1], reach_m, found);
+    }
+
+    fn band_m(&self) -> f64 {
+        BAND * self.smaller_m()
+    }
+
+    /// How fast any of their points comes nearer at most.
+    fn closing_m_s(&self, at: &[BodyState; 2]) -> f64 {
         let [a, b] = &self.bounds;
+        a.w * self.sizes[0] + b.w * self.sizes[1] + (at[0].v_WB - at[1].v_WB).norm()
+    }
+
+    /// M of points of contact: the normal turns with the bodies, and they move over the surfaces.
+    fn rolling_m_s2(&self, closing_m_s: f64) -> f64 {
+        let turning = ROLLING * (self.bounds[0].w + self.bounds[1].w) * closing_m_s;
+        ROLLING * self.toward_m_s2(self.sizes) + turning
+    }
+
+    /// In which none of the axes that separate two bodies alike is out of the band.
+    fn parted_s(&self, now: &Now, sharing: &Sharing) -> f64 {
+        let toward_m_s2 = self.rolling_m_s2(self.closing_m_s(&now.at));
+        let out_s = |(along, rate_m_s): &(Along, f64)| {
+            let look = Look { gap_m: along.gap_m + self.band_m(), rate_m_s: *rate_m_s, toward_m_s2, ..Look::EMPTY };
+            look.safe_s(now.delta_m, now.slow_m_s)
+        };
+        let way_s = self.smaller_m() * WAY / self.closing_m_s(&now.at).max(f64::MIN_POSITIVE);
+        sharing.axes.iter().map(out_s).fold(way_s, f64::min)
+    }
+
+    /// When a gap that closes ever more slowly has closed, if it does not go on: what comes over an edge along a
+    /// surface that another contact holds, or passes by. None: it is an impact.
+    fn arrives_s(&self, from_s: f64, window: Window, work: &mut Work) -> Option<f64> {
+        let mut found = Vec::new();
+        let mut t_s = from_s;
+        let mut most_m = None;
+        for _ in 0..MOST_ARRIVING {
+            let now = self.now(t_s, work);
+            self.find(&now, &mut found);
+            let Some(nearest) = nearest(&found) else { return Some(t_s) };
+            let closing_m_s = self.closing_m_s(&now.at);
+            let velocity = |k: usize| now.at[k].v_WB + now.at[k].w_WB.cross(&(nearest.p_W - now.at[k].p_WB));
+            let rate_m_s = nearest.normal.dot(&(velocity(0) - velocity(1)));
+            let most_m = *most_m.get_or_insert_with(|| {
+                if self.is_held_along(t_s, &nearest.normal) { self.band_m() } else { FEW * now.delta_m }
+            });
+            if rate_m_s < -GRAZING * closing_m_s || nearest.gap_m < -most_m {
+                return None;
+            }
+            if rate_m_s >= -now.slow_m_s {
+                return Some(t_s);
+            }
+            let toward_m_s2 = self.rolling_m_s2(closing_m_s);
+            let look = Look { gap_m: nearest.gap_m + most_m, rate_m_s, toward_m_s2, ..Look::EMPTY };
+            t_s = (t_s + look.safe_s(0.0, now.slow_m_s)).max(t_s.next_up());
+            if t_s >= window.to_s {
+                return Some(window.to_s);
+            }
+        }
+        None
+    }
+
+    /// Whether something else holds one of the two along this normal.
+    fn is_held_along(&self, t_s: f64, normal: &Vector3<f64>) -> bool {
+        self.held.iter().any(|h| {
+            let at: Vec<(usize, BodyState)> = h.touch.bodies().map(|i| (i, self.paths.at(i, t_s))).collect();
+            let of = |i: usize| at.iter().find(|(j, _)| *j == i).map_or(&at[0].1, |(_, at)| at);
+            let held = h.touch.here_of(of).contact;
+            let along = |sign: f64| held.normal.dot(normal) * sign > 0.0;
+            let turned = held.normal.cross(normal).norm();
+            turned <= GRAZING
+                && held
+                    .ends()
+                    .any(|(i, _, sign)| (i == self.pair[0] && along(sign)) || (i == self.pair[1] && along(-sign)))
+        })
+    }
+
+    /// Of the parts that face each other and are not held.
+    fn parts(&self, now: &Now, found: &[Found]) -> Parted {
+        let Now { at, delta_m, slow_m_s, .. } = now;
         let near_m = NEAR * self.smaller_m();
-        let closing = a.w * self.sizes[0] + b.w * self.sizes[1] + (at[0].v_WB - at[1].v_WB).norm();
-        let (mut safe_s, mut touching) = (f64::INFINITY, false);
+        let closing = self.closing_m_s(at);
+        let (mut safe_s, mut touching, mut lingering) = (f64::INFINITY, false, 0);
         for touch in found.iter().filter(|touch| !self.is_held(at, touch)) {
             if touch.gap_m > near_m {
                 let (gap_m, rate_m_s) = (touch.gap_m - near_m / 2.0, -closing);
@@ -403,15 +542,15 @@ impl<'a> Two<'a> {
             }
             let velocity = |k: usize| at[k].v_WB + at[k].w_WB.cross(&(touch.p_W - at[k].p_WB));
             let rate_m_s = touch.normal.dot(&(velocity(0) - velocity(1)));
-            // The normal turns with the bodies.
-            let turning = ROLLING * (a.w + b.w) * closing;
-            let toward_m_s2 = ROLLING * self.toward_m_s2(self.sizes) + turning;
+            let toward_m_s2 = self.rolling_m_s2(closing);
             let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2, known_s: near_m / closing, ..Look::EMPTY };
             safe_s = safe_s.min(self.rolling_s(now, touch, &look));
-            touching |= look.is_touching(*delta_m, *slow_m_s);
+            let touches = look.is_touching(*delta_m, *slow_m_s);
+            touching |= touches;
+            lingering += usize::from(!touches && look.gap_m <= *delta_m && look.rate_m_s <= *slow_m_s);
         }
         let way_m = near_m.max(self.smaller_m() * WAY);
-        (safe_s.min(way_m / closing.max(f64::MIN_POSITIVE)), touching)
+        Parted { safe_s: safe_s.min(way_m / closing.max(f64::MIN_POSITIVE)), touching, lingering }
     }
 
     /// The safe time of such a look, of a cap that is nearly flat: its lowest point rolls along the rim.

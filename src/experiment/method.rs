@@ -540,8 +540,9 @@ impl MethodSettings for Auto {
 
     fn about(&self) -> About {
         about(
-            "`event-driven`, or `time-stepping` where that stalls or falls back: whatever two runs say is accurate \
-             enough (columns `method_used`, `error_estimate_m`). `tolerance` is of positions at the end, in metres.",
+            "`event-driven`, or `time-stepping` where that stalls or falls back, or its judges do not believe it: \
+             whatever two runs say is accurate enough (columns `method_used`, `error_estimate_m`, `tolerance_met`). \
+             `tolerance` is of positions at the end, in metres.",
             "",
         )
     }

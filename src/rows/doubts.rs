@@ -1,6 +1,7 @@
 //! Doubts about rows: what is not solved, what pushes where nothing touches, what has passed through a body. They are
 //! told by the names of columns alone, so that a column that a row does not have raises none.
 
+use super::Measured;
 use serde_json::{Map, Value};
 
 /// Sign of a doubt: a column, and the value above which it is one.
@@ -42,6 +43,11 @@ const KINDS: [Kind; 3] = [
 pub fn signs(row: &Map<String, Value>) -> Map<String, Value> {
     let shown = |sign: &Sign| Some((sign.column.to_string(), Value::from(sign.shown_by(row)?)));
     KINDS.iter().flat_map(|kind| kind.signs).filter_map(shown).collect()
+}
+
+/// Whether what was measured raises a doubt.
+pub fn are_raised(measured: &Measured) -> bool {
+    matches!(serde_json::to_value(measured), Ok(Value::Object(cells)) if !signs(&cells).is_empty())
 }
 
 /// What is in doubt, in words, and the columns that say so.

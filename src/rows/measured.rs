@@ -87,8 +87,12 @@ columns! {
         pub error_angular_velocity_rad_s: Option<f64>,
         /// Time that the errors are of.
         pub error_time_s: Option<f64>,
-        /// Estimate of the error of positions at the end, by what `auto` has seen of two runs. Null for other methods.
+        /// Estimate of the error of positions at the end, by what `auto` has seen of two runs. Null for other methods,
+        /// and where no two runs came to the end, or the judges call what they agree on wrong.
         pub error_estimate_m: Option<f64>,
+        /// Whether the run has finished and its `error_estimate_m` is within the tolerance that `auto` was asked for:
+        /// `yes` or `no`. Far from the origin rounding alone may be more than that. Null for other methods.
+        pub tolerance_met: Option<String>,
         /// Distance between the two runs of the reference at `error_time_s`.
         pub reference_uncertainty_m: Option<f64>,
         /// Last time of the reference at which its two runs agree.

@@ -1,6 +1,7 @@
 //! Convex geometry that knows no body: solids, hulls, meshes, their moments and surfaces, and where two of them meet.
 
 mod axis;
+pub mod band;
 pub mod capsule;
 pub mod closest;
 pub mod convex;

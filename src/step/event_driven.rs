@@ -22,6 +22,7 @@ use crate::event::settle::{Forces, settle};
 use crate::event::slip::{self, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
+use crate::event::which;
 use crate::event::zeno::{Zeno, approach_m_s, lose_together};
 use crate::experiment::types::{EventDriven as Settings, Impact};
 use crate::math::full_pivot::Selection;
@@ -270,6 +271,9 @@ impl EventDriven {
                 self.look_around(model, state);
             }
             caps::turn(model, state, &mut self.found);
+            if model.touching_pairs {
+                which::choose(model, state, &mut self.found, self.gathered.get_mut(), &mut self.work);
+            }
         }
     }
 

@@ -7,9 +7,9 @@ use crate::model::Model;
 use crate::run::advance::Advance;
 use crate::state::State;
 
-/// Runs beside the one that is shown: three twins, and two more for what `auto` compares.
+/// Runs beside the one that is shown: three twins, and three more for what `auto` compares and has judged.
 const TWINS: f64 = 3.0;
-const TRIED_BY_AUTO: f64 = 2.0;
+const TRIED_BY_AUTO: f64 = 3.0;
 /// Least part of a case from which a moment says something.
 const LEAST_PART: f64 = 1e-3;
 

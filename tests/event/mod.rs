@@ -8,6 +8,7 @@ mod cube;
 mod never_hangs;
 mod painleve;
 mod same;
+mod seams;
 mod symmetries;
 mod tolerance;
 

@@ -42,6 +42,7 @@ fn the_run_is_that_of_the_chosen_method_to_the_bit() {
         method_used: None,
         tolerance_used: None,
         error_estimate_m: None,
+        tolerance_met: None,
         ..measured.without_wall_time()
     };
     assert_eq!(blank(&auto.measured), blank(&named.measured));
@@ -172,4 +173,34 @@ fn where_the_answer_is_known_the_estimate_is_not_below_the_error() {
         // measured: the estimate is 1.9 (the rocking block) to 22 times the error, and 1.2e-7 at most
         assert!(error_m <= estimate_m && estimate_m <= 1e-6, "{scene}: {error_m:e} {estimate_m:e}");
     }
+}
+
+/// A tilted crate falls on a floor 10⁸ m from the origin, where rounding is 1.5e-8 m.
+const FAR_AWAY: &str = "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  friction: 0.4
+  container: { plane: { normal: [0, 1, 0], offset_m: 1e8 } }
+  bodies: [{ name: crate, shape: { box: { size_m: [0.5, 0.5, 0.5] } }, mass_kg: 1, position_m: [0, 100000001, 0], orientation: { axis: [0, 0, 1], angle_deg: 20 }, velocity_m_s: [1, 0, 0] }]
+method: auto
+time: { end_s: 1 }
+";
+
+#[test]
+fn where_rounding_is_more_than_the_tolerance_auto_ends_and_says_so() {
+    let of = |set: &str| measured(FAR_AWAY, &[set]);
+    let far = of("seed=0");
+    assert_eq!((far.outcome, far.tolerance_met.as_deref()), (Outcome::Finished, Some("no")));
+    // measured: 1.5e-6 (2853 steps); half of it is rounding
+    assert!((1e-6..1e-5).contains(&far.error_estimate_m.unwrap()), "{far:?}");
+    assert!(far.steps < 10_000, "{}", far.steps);
+    // A push there is no ghost.
+    assert!(far.ghost_impulse_max_rel.unwrap() < 1e-6, "{far:?}");
+    assert_eq!(of("method.auto.tolerance=1e-4").tolerance_met.as_deref(), Some("yes"));
+}
+
+#[test]
+fn who_chooses_himself_is_told_of_no_tolerance() {
+    assert_eq!(measured(THROWN, &["method=event-driven"]).tolerance_met, None);
+    assert_eq!(measured(THROWN, &[]).tolerance_met.as_deref(), Some("yes"));
 }

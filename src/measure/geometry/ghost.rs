@@ -32,8 +32,10 @@ const OVERLAP: f64 = 1e-10;
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Looks on the way of two bodies that begin and end apart.
 const LOOKS: usize = 64;
-/// Of a body's size: how far two bodies are followed after a blow, or by a force.
+/// Of a body's size: how far two bodies are followed after a blow, or by a force; and at least so many times what
+/// rounding may make of them, far from the origin.
 const AHEAD: f64 = 1e-6;
+const BEYOND: f64 = 1e3;
 /// Of the speed: a change of velocity that shows in the motion itself.
 const SHOWS: f64 = 1e-3;
 
@@ -173,7 +175,7 @@ impl GhostJudge<'_> {
             return 0.0;
         }
         let shows = gained >= SHOWS * speed;
-        let time_s = AHEAD * self.size_m(group) / if shows { speed.max(gained) } else { gained };
+        let time_s = self.ahead_m(group, before) / if shows { speed.max(gained) } else { gained };
         let leg = |i: usize, gain: &Gain| {
             let at = &after.bodies[i];
             let (v, w) = if shows { (at.v_WB, at.w_WB) } else { (Vector3::zeros(), Vector3::zeros()) };
@@ -189,7 +191,7 @@ impl GhostJudge<'_> {
         if !self.moves(group, &gains, 0.5 * over_s) {
             return 0.0;
         }
-        let time_s = AHEAD * self.size_m(group) / self.largest(group, &gains);
+        let time_s = self.ahead_m(group, at) / self.largest(group, &gains);
         let leg = |i: usize, gain: &Gain| Leg {
             from: (&at.bodies[i]).into(),
             moved: -gain.v * time_s,
@@ -228,6 +230,10 @@ impl GhostJudge<'_> {
     /// Of the smaller body.
     fn size_m(&self, group: &Group) -> f64 {
         self.each(group, &[Gain::NONE; 2]).map(|(figure, _)| figure.radius_m).fold(f64::INFINITY, f64::min)
+    }
+
+    fn ahead_m(&self, group: &Group, at: &State) -> f64 {
+        (AHEAD * self.size_m(group)).max(BEYOND * self.closed_m(group, at))
     }
 
     /// What rounding may make of two bodies that touch.

@@ -67,7 +67,7 @@ impl Looking<'_> {
     /// The least slip along its direction, of all that slide, over the speeds there; with room for rounding.
     fn slip_left(&self) -> f64 {
         let left = self.held.iter().map(|held| match held.slides() {
-            Some(d) if held.slip != Slip::Young => {
+            Some(d) if !matches!(held.slip, Slip::Young(_)) => {
                 held.touch.here(self.at).slip_W().dot(&d) / meeting_m_s(self.paths.model, self.at, held.touch.bodies())
                     + NO_SLIP
             }

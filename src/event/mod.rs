@@ -5,7 +5,7 @@
 //! - `forces`: the forces that keep what is in contact together
 //! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once
 //! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion; `slip`: where that is
-//!   stiff
+//!   stiff; `stiff`: its steps there
 //! - `change`: when a contact that holds stops doing so
 //! - `watch`: when the next gap closes, and the proof that none was missed
 //! - `impact`: the laws of impact at one moment; `zeno`: which of them is the last that matters
@@ -23,9 +23,11 @@ pub mod forces;
 pub mod impact;
 pub mod law;
 pub mod motion;
+pub mod radau_tableau;
 pub mod settle;
 pub mod shown;
 pub mod slip;
+pub mod stiff;
 pub mod touch;
 pub mod watch;
 pub mod zeno;

@@ -98,8 +98,8 @@ impl Looking<'_> {
         None
     }
 
-    /// What is left of the friction of contacts that stick side by side, over the most that there could be; the least of
-    /// all. It changes smoothly however they share it.
+    /// What is left of the friction of contacts that stick side by side, over the most that there could be; the least
+    /// of all. It changes smoothly however they share it.
     fn grip(&mut self, t_s: f64) -> f64 {
         self.look(t_s);
         let solved = self.forces().solved;

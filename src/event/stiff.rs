@@ -6,7 +6,7 @@
 //! stages' turns as its unknowns, and takes positions, and all other forces, by iteration. It starts from slips along
 //! the directions of the beginning.
 
-use super::dense::Field;
+use super::field::Field;
 use super::forces::{Mode, Slip, along};
 use super::radau_tableau::{A, NESTED, NODES, STAGES};
 use crate::integrate::phase::Phase;

@@ -10,8 +10,9 @@ use crate::collide::{Contact, Detector, Reach, SolvedContact};
 use crate::deadline::Deadline;
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
-use crate::event::dense::{Dense, Field, project};
+use crate::event::dense::{Dense, project};
 use crate::event::ending::{self, is_lawful};
+use crate::event::field::Field;
 use crate::event::forces::{Gathered, Held, NO_SLIP, Solved};
 use crate::event::impact;
 use crate::event::motion::Motion;
@@ -179,7 +180,6 @@ impl EventDriven {
         state.step += 1;
         self.span = Span::Motion;
         let from_s = state.time_s;
-        eprintln!("DBGEV t {:.12} {:?}", from_s, self.next);
         let event = std::mem::replace(&mut self.next, Event::Step);
         self.work.events += u64::from(matches!(event, Event::Impact | Event::Change(_)));
         let mut blow = false;
@@ -232,7 +232,6 @@ impl EventDriven {
 
     fn begin_stretch(&mut self, model: &Model, state: &State) {
         self.work.fallbacks += 1;
-        eprintln!("DBGFALL t {:.12} trouble {} at_once {}", state.time_s, self.trouble, self.at_once);
         let mut stretch = Stretch::new(self.law, model, state);
         stretch.hurry(self.deadline);
         self.stretch = Some(stretch);

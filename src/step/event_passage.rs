@@ -50,22 +50,6 @@ impl Smooth for EventDriven {
         if span_s <= 0.0 || (self.held.is_empty() && !model.has_loads() && !model.has_driven_pins()) {
             return Vec::new();
         }
-        eprintln!(
-            "DBGMOM t {:.12} span {:.3e} dense {} held {:?}",
-            before.time_s,
-            span_s,
-            self.dense.bodies.len(),
-            self.held
-                .iter()
-                .map(|h| (
-                    h.touch.key().2,
-                    h.mode,
-                    h.slip,
-                    h.touch.here(before).slip_W().norm(),
-                    h.touch.here(after).slip_W().norm()
-                ))
-                .collect::<Vec<_>>()
-        );
         moments(before, span_s, |state| {
             self.state_at(model, state);
             self.forces_at(model, state)

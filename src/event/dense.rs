@@ -57,7 +57,7 @@ const SAFETY: f64 = 0.9;
 const SHORTER: f64 = 1.0 / 5.0;
 const LONGER: f64 = 4.0;
 
-/// A slip that turns at so many radians in a step, toward where it is to go, is stiff: one of order 8 is stable up to 6.
+/// A slip that turns at so many radians in a step, toward where it is to go, is stiff: order 8 is stable up to 6.
 const STIFF: f64 = 3.0;
 
 /// So little more than a step is no reason for another one.
@@ -101,8 +101,8 @@ impl Dense {
         }
     }
 
-    /// One step that meets the tolerance, not beyond `end_s` and no longer than so; `stiff_hz`: the fastest rate at which
-    /// a slip turns. False: there is none.
+    /// One step that meets the tolerance, not beyond `end_s` and no longer than so; `stiff_hz`: the fastest rate at
+    /// which a slip turns. False: there is none.
     pub fn step(&mut self, field: &mut Field, end_s: f64, (most_s, stiff_hz): (f64, f64)) -> bool {
         let left_s = end_s - self.t_s;
         let is_stiff = stiff_hz * self.wanted_s.min(most_s).min(left_s) > STIFF && field.can_be_stiff();

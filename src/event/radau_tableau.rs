@@ -1,5 +1,5 @@
-//! The coefficients of Radau's method IIA with seven stages, of order 13 (Hairer & Wanner, Solving Ordinary Differential
-//! Equations II, IV.5), worked out with 60 digits and rounded to f64.
+//! The coefficients of Radau's method IIA with seven stages, of order 13 (Hairer & Wanner, Solving Ordinary
+//! Differential Equations II, IV.5), worked out with 60 digits and rounded to f64.
 
 pub const STAGES: usize = 7;
 

@@ -1,5 +1,5 @@
-//! Steps of Radau's method IIA with seven stages (Hairer & Wanner, Solving Ordinary Differential Equations II, IV.8) for
-//! slips that are slow: of order 13, stable however stiff, and it asks nothing of the moment at which a slip begins,
+//! Steps of Radau's method IIA with seven stages (Hairer & Wanner, Solving Ordinary Differential Equations II, IV.8)
+//! for slips that are slow: of order 13, stable however stiff, and it asks nothing of the moment at which a slip begins,
 //! where its direction is singular.
 //!
 //! What is stiff is the turn θ of each slip's direction, dθ = t·ds/|s|, and nothing else: Newton's method has the
@@ -12,8 +12,8 @@ use super::radau_tableau::{A, NESTED, NODES, STAGES};
 use crate::integrate::phase::Phase;
 use nalgebra::{DMatrix, DVector, Quaternion, Vector3, Vector6};
 
-/// Sweeps with directions as they were at the beginning, before Newton's method: velocities differ by the third power of
-/// the step then.
+/// Sweeps with directions as they were at the beginning, before Newton's method: velocities differ by the third power
+/// of the step then.
 const AS_BEFORE: u32 = 2;
 
 /// Newton's steps; half as many is usual.

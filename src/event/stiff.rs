@@ -1,4 +1,4 @@
-//! Steps of Radau's method IIA with seven stages (Hairer & Wanner, Solving Ordinary Differential Equations II, IV.8)
+//! Steps of Radau's method IIA with seven stages (Hairer & Wanner, Solving Ordinary Differential Eqs. II, IV.8)
 //! for slips that are slow: of order 13, stable however stiff, and it asks nothing of the moment at which a slip begins,
 //! where its direction is singular.
 //!

@@ -1,6 +1,6 @@
 //! Steps of Radau's method IIA with seven stages (Hairer & Wanner, Solving Ordinary Differential Eqs. II, IV.8)
-//! for slips that are slow: of order 13, stable however stiff, and it asks nothing of the moment at which a slip begins,
-//! where its direction is singular.
+//! for slips that are slow: of order 13, stable however stiff, and it asks nothing of the moment at which a slip
+//! begins, where its direction is singular.
 //!
 //! What is stiff is the turn θ of each slip's direction, dθ = t·ds/|s|, and nothing else: Newton's method has the
 //! stages' turns as its unknowns, and takes positions, and all other forces, by iteration. It starts from slips along

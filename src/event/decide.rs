@@ -7,6 +7,7 @@
 
 use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, Solved, edge, meeting_m_s};
 use super::law::{Law, MANY, ROUNDING, by_law, goes_on};
+use super::slip;
 use super::touch::Touch;
 use crate::math::full_pivot::Selection;
 use crate::model::Model;
@@ -62,7 +63,7 @@ pub fn decide(
         .enumerate()
         .map(|(i, touch)| slips(model, state, gathered, (i, touch), change.slow_m_s).is_none())
         .collect();
-    let young = |i: usize| if slow[i] { Slip::Young } else { Slip::Fast };
+    let young = |i: usize| if slow[i] { slip::young(model, state, &touches[i]) } else { Slip::Fast };
     let modes: Vec<Mode> =
         touches.iter().enumerate().map(|(i, touch)| mode(model, state, gathered, i, touch, change)).collect();
     work.contact_solves += 1;
@@ -80,20 +81,19 @@ pub fn decide(
             Alone::Jams => Decision::Jams,
         };
     }
-    let hold = |modes: &[Mode], solved: Solved| {
-        let held = |(i, mode): (usize, &Mode)| Held { touch: touches[i].clone(), mode: *mode, slip: young(i) };
-        Decision::Holds(modes.iter().enumerate().map(held).collect(), solved)
+    let hold = |modes: &mut dyn Iterator<Item = (usize, Mode)>, solved: Solved| {
+        let held = |(i, mode): (usize, Mode)| Held { touch: touches[i].clone(), mode, slip: young(i) };
+        let mut held: Vec<Held> = modes.map(held).collect();
+        let aligned = if held.len() == touches.len() { slip::align(gathered, &mut held) } else { None };
+        Decision::Holds(held, aligned.unwrap_or(solved))
     };
     if touches.len() <= MANY
         && let Some((modes, solved)) = goes_on_or_slides(gathered, &modes)
     {
-        return hold(&modes, solved);
+        return hold(&mut modes.into_iter().enumerate(), solved);
     }
     match by_law(gathered, &modes, work) {
-        Law::Holds(now, solved) => {
-            let held = now.into_iter().map(|(i, mode)| Held { touch: touches[i].clone(), mode, slip: young(i) });
-            Decision::Holds(held.collect(), solved)
-        }
+        Law::Holds(now, solved) => hold(&mut now.into_iter(), solved),
         Law::Jams => Decision::Jams,
         Law::Unsolved => Decision::Unsolved,
     }
@@ -235,9 +235,7 @@ pub fn margin(model: &Model, state: &State, held: &[Held], gathered: &mut Gather
     }
     let largest = solved.largest();
     if largest == 0.0 {
-        // Coulomb's law of a young slip does not pull: it lets go.
-        let lets_go = gathered.problem.blocks.iter().take(held.len()).any(|block| block.b.x > 0.0);
-        return Margin { least: if lets_go { -1.0 } else { 0.0 }, solved };
+        return Margin { least: 0.0, solved };
     }
     let margin = held.iter().zip(&solved.p).map(|(held, p)| match held.mode {
         Mode::Stick => p.x.min(held.touch.friction() * p.x - p.yz().norm()),

@@ -5,63 +5,20 @@
 //! What holds is kept by accelerations; what drifts in a step, some part of its error, is taken off at its end by the
 //! smallest displacement and change of velocity (E. Eich 1993; `project`).
 
+use super::field::Field;
 use super::forces::{Gathered, Held};
-use super::law::hold;
-use super::motion::{Bounds, ClosedMotion, Motion};
+use super::motion::Bounds;
+use super::radau_tableau::{NODES, STAGES};
+use super::stiff;
 use crate::integrate::dop853_tableau::{D, EXTRA};
 use crate::integrate::dop853_try;
 use crate::integrate::field::{advanced, sum};
 use crate::integrate::phase::{Phase, phase, state};
 use crate::integrate::rotation::exponential;
-use crate::math::full_pivot::Selection;
 use crate::model::{Body, Model};
 use crate::solve::Impulse;
-use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
-use crate::work::Work;
-use nalgebra::{Quaternion, Vector3};
-
-/// The right side ẏ = f(t, y), with what it needs.
-pub struct Field<'a> {
-    pub model: &'a Model,
-    pub motions: &'a [Motion],
-    pub held: &'a [Held],
-    pub gathered: &'a mut Gathered,
-    /// All bodies; those of the island are written over.
-    pub state: &'a mut State,
-    pub choice: Selection,
-    pub work: &'a mut Work,
-}
-
-impl Field<'_> {
-    fn at(&mut self, t_s: f64, bodies: &[usize], y: &[Phase], rates: &mut [Phase]) {
-        self.state.time_s = t_s;
-        for (i, motion) in self.motions.iter().enumerate() {
-            if let Motion::Closed(course @ ClosedMotion::Driven(..)) = motion {
-                self.state.bodies[i] = course.at(t_s);
-            }
-        }
-        bodies.iter().zip(y).for_each(|(i, y)| self.state.bodies[*i] = state(y));
-        self.gathered.gather(self.model, self.state, self.held.iter().map(|held| &held.touch));
-        let solved = hold(self.gathered, self.held, self.choice, self.work);
-        self.work.gyroscopic += 1;
-        for ((i, y), rate) in bodies.iter().zip(y).zip(rates) {
-            *rate = rate_of(&self.state.bodies[*i], y, &solved.acceleration(self.gathered, *i));
-        }
-    }
-}
-
-/// ṗ = v, v̇ = a, ω̇ in body axes (d/dt ω_B = R⁻¹ ω̇_W), q̇ = ½ q ω.
-fn rate_of(at: &BodyState, y: &Phase, acceleration: &Twist) -> Phase {
-    let mut rate = Phase::zeros();
-    rate.fixed_rows_mut::<3>(0).copy_from(&y.fixed_rows::<3>(3));
-    rate.fixed_rows_mut::<3>(3).copy_from(&acceleration.v);
-    rate.fixed_rows_mut::<3>(6).copy_from(&at.q_WB.inverse_transform_vector(&acceleration.w));
-    let q = Quaternion::from(y.fixed_rows::<4>(9).into_owned());
-    let turning = q * Quaternion::from_imag(y.fixed_rows::<3>(6).into_owned()) / 2.0;
-    rate.fixed_rows_mut::<4>(9).copy_from(&turning.coords);
-    rate
-}
+use nalgebra::Vector3;
 
 /// The bodies of an integrator, and its last step; most often there is none.
 #[derive(Clone, Debug, Default)]
@@ -78,6 +35,8 @@ pub struct Dense {
     k: Vec<Vec<Phase>>,
     /// Coefficients of the continuous extension.
     spline: Vec<[Phase; 8]>,
+    /// Of a stiff step; else empty.
+    stages: Vec<Vec<Phase>>,
 }
 
 /// A step shorter than this part of the time is none.
@@ -97,6 +56,9 @@ const FLIGHT: f64 = 1e-3;
 const SAFETY: f64 = 0.9;
 const SHORTER: f64 = 1.0 / 5.0;
 const LONGER: f64 = 4.0;
+
+/// A slip that turns at so many radians in a step, toward where it is to go, is stiff: order 8 is stable up to 6.
+const STIFF: f64 = 3.0;
 
 /// So little more than a step is no reason for another one.
 const LITTLE_MORE: f64 = 1.01;
@@ -121,6 +83,7 @@ impl Dense {
             end: vec![Phase::zeros(); n],
             k: vec![vec![Phase::zeros(); n]; 16],
             spline: vec![[Phase::zeros(); 8]; n],
+            stages: Vec::new(),
         }
     }
 
@@ -138,17 +101,22 @@ impl Dense {
         }
     }
 
-    /// One step that meets the tolerance, not beyond `end_s` and no longer than `most_s`. False: there is none.
-    pub fn step(&mut self, field: &mut Field, end_s: f64, most_s: f64) -> bool {
-        field.at(self.t_s, &self.bodies, &self.y, &mut self.k[0]);
+    /// One step that meets the tolerance, not beyond `end_s` and no longer than so; `stiff_hz`: the fastest rate at
+    /// which a slip turns. False: there is none.
+    pub fn step(&mut self, field: &mut Field, end_s: f64, (most_s, stiff_hz): (f64, f64)) -> bool {
         let left_s = end_s - self.t_s;
+        let is_stiff = stiff_hz * self.wanted_s.min(most_s).min(left_s) > STIFF && field.can_be_stiff();
+        self.stages.clear();
+        if !is_stiff {
+            field.at(self.t_s, &self.bodies, &self.y, &mut self.k[0]);
+        }
         let mut failed = false;
         loop {
             let wanted_s = self.wanted_s.min(most_s);
             let tried_s = if left_s <= LITTLE_MORE * wanted_s { left_s } else { wanted_s };
-            let error = self.attempt(field, tried_s);
-            let eighth_root = error.sqrt().sqrt().sqrt();
-            let factor = (SAFETY / eighth_root).clamp(SHORTER, if failed { 1.0 } else { LONGER });
+            let error = if is_stiff { self.attempt_stiff(field, tried_s) } else { self.attempt(field, tried_s) };
+            let root = if is_stiff { libm::pow(error, 1.0 / STAGES as f64) } else { error.sqrt().sqrt().sqrt() };
+            let factor = (SAFETY / root).clamp(SHORTER, if failed { 1.0 } else { LONGER });
             if error <= 1.0 {
                 field.work.inner_steps += 1;
                 if tried_s == wanted_s || factor < 1.0 {
@@ -171,8 +139,25 @@ impl Dense {
     /// The same step, ended earlier.
     pub fn shorten(&mut self, field: &mut Field, end_s: f64) {
         let h = end_s - self.t_s;
-        self.attempt(field, h);
+        if !self.stages.is_empty() {
+            // The same polynomial.
+            self.stages = NODES.map(|x| (0..self.y.len()).map(|i| self.phase(i, x * h / self.h)).collect()).to_vec();
+            self.end.clone_from(&self.stages[STAGES - 1]);
+        } else {
+            self.attempt(field, h);
+        }
         self.finish(field, h);
+    }
+
+    /// The same of a step that is stiff. Infinite: there is none so long.
+    fn attempt_stiff(&mut self, field: &mut Field, h: f64) -> f64 {
+        let tolerance = self.tolerance;
+        let scale = |size: f64| tolerance * (1.0 + size);
+        let tried = stiff::attempt(field, &self.bodies, [self.t_s, h], &self.y, scale);
+        let Some((stages, error)) = tried else { return f64::INFINITY };
+        self.end.clone_from(&stages[STAGES - 1]);
+        self.stages = stages;
+        error
     }
 
     /// Puts the end of a try into `end`; its error over the tolerance.
@@ -185,6 +170,9 @@ impl Dense {
     /// The continuous extension.
     fn finish(&mut self, field: &mut Field, h: f64) {
         self.h = h;
+        if !self.stages.is_empty() {
+            return stiff::polynomial(&self.y, &self.stages, &mut self.spline);
+        }
         field.at(self.t_s + h, &self.bodies, &self.end, &mut self.k[12]);
         let mut place = vec![Phase::zeros(); self.y.len()];
         for (i, row) in EXTRA.iter().enumerate() {
@@ -204,15 +192,17 @@ impl Dense {
     /// The body at a place of this integrator, within the last step.
     pub fn at(&self, place: usize, t_s: f64) -> BodyState {
         let x = if self.h > 0.0 { ((t_s - self.t_s) / self.h).clamp(0.0, 1.0) } else { 0.0 };
-        if x == 1.0 {
-            return state(&self.end[place]);
-        }
+        if x == 1.0 { state(&self.end[place]) } else { state(&self.phase(place, x)) }
+    }
+
+    /// By the continuous extension.
+    fn phase(&self, place: usize, x: f64) -> Phase {
         let c = &self.spline[place];
         let mut y = c[7];
         for (j, c) in c[..7].iter().enumerate().rev() {
             y = y * if j % 2 == 0 { x } else { 1.0 - x } + c;
         }
-        state(&y)
+        y
     }
 
     /// Of the body at a place in this step: its polynomial about the middle, coefficient by coefficient.

@@ -61,13 +61,6 @@ pub fn lasts_s(
     if are_lawful(0.0) {
         return 0.0;
     }
-    // No share of the forces among redundant contacts is known that makes pushes of all: the law of contact finds one.
-    let sum = |of: &[Vector3<f64>]| contacts.iter().zip(of).map(|(contact, of)| contact.normal.dot(of)).sum::<f64>();
-    let shared_s = || {
-        let pulls = contacts.iter().zip(&impulses).map(|(contact, p)| contact.normal.dot(p).abs()).sum::<f64>();
-        let over_s = if least_s > 0.0 { 2.0 * pulls / sum(&forces).max(0.0) } else { 0.0 };
-        if over_s <= longest_s { over_s } else { 0.0 }
-    };
     // Well within the cones, not on their edge.
     let mut over_s = if least_s > 0.0 { 2.0 * least_s } else { longest_s * f64::EPSILON };
     while over_s <= longest_s {
@@ -76,22 +69,39 @@ pub fn lasts_s(
         }
         over_s *= 2.0;
     }
-    shared_s()
+    shared_s(&contacts, &impulses, &forces).min(longest_s)
+}
+
+/// Times the least in which all forces together could make up for all impulses.
+const SHARED: f64 = 4.0;
+
+/// Where redundant contacts share impulses and forces otherwise than the law would: the law itself says then what they
+/// are, over a time in which the weight can make them.
+fn shared_s(contacts: &[Contact], impulses: &[Vector3<f64>], forces: &[Vector3<f64>]) -> f64 {
+    let needed = |(contact, p): (&Contact, &Vector3<f64>)| {
+        let pushes = contact.normal.dot(p);
+        let rubs = (p - contact.normal * pushes).norm();
+        pushes.abs() + if contact.friction > 0.0 { rubs / contact.friction } else { 0.0 }
+    };
+    let needed: f64 = contacts.iter().zip(impulses).map(needed).sum();
+    let presses: f64 = contacts.iter().zip(forces).map(|(contact, f)| contact.normal.dot(f).max(0.0)).sum();
+    if presses > 0.0 { SHARED * needed / presses } else { 0.0 }
 }
 
 /// Puts all impulses of a step where a smooth motion has led, so that velocities are those of what holds; `kicked`
-/// becomes the state that they act on. What they are.
+/// becomes the state that they act on. `others`: contacts that touch there and are not held. What they are.
 pub fn end(
     model: &Model,
-    kicked: &mut State,
-    state: &mut State,
+    [kicked, state]: [&mut State; 2],
     held: &[Held],
+    others: &[Contact],
     gathered: &mut Gathered,
     work: &mut Work,
 ) -> Vec<SolvedContact> {
     let step_s = state.time_s - kicked.time_s;
     let is_held = |i: usize| {
-        let touches = held.iter().any(|held| held.touch.bodies().any(|body| body == i));
+        let touches = held.iter().any(|held| held.touch.bodies().any(|body| body == i))
+            || others.iter().any(|contact| contact.ends().any(|(body, ..)| body == i));
         !model.bodies[i].driven && (touches || model.pins.iter().any(|pin| pin.holds(i)))
     };
     let bodies: Vec<usize> = (0..model.bodies.len()).filter(|i| is_held(*i)).collect();
@@ -102,9 +112,9 @@ pub fn end(
         let (v, w) = model.gained(i, kicked.time_s, &kicked.bodies[i], step_s);
         (to.v_WB, to.w_WB) = (kicked.bodies[i].v_WB + v, w_WB + w);
     }
-    let without_rebound =
-        |held: &Held| Contact { restitution: 0.0, tangential_restitution: 0.0, ..held.touch.here(state).contact };
-    let contacts: Vec<Contact> = held.iter().map(without_rebound).collect();
+    let without_rebound = |contact: Contact| Contact { restitution: 0.0, tangential_restitution: 0.0, ..contact };
+    let held = held.iter().map(|held| held.touch.here(state).contact);
+    let contacts: Vec<Contact> = held.chain(others.iter().copied()).map(without_rebound).collect();
     gathered.gather_plain(model, state, &contacts);
     let mut p = vec![Impulse::zeros(); gathered.problem.blocks.len()];
     if !plastic(&gathered.problem, &mut p, gathered.deadline, work) {

@@ -13,11 +13,11 @@ use crate::deadline::Deadline;
 use crate::integrate::rotation::gyroscopic_torque_B;
 use crate::math::full_pivot::{Eliminated, Selection};
 use crate::model::{Body, Model};
+use crate::solve::Impulse;
 use crate::solve::block::Block;
 use crate::solve::pins::{self, Pin, PinEnd};
 use crate::solve::problem::ContactProblem;
 use crate::solve::twist::Twist;
-use crate::solve::{Impulse, exact_contact};
 use crate::state::{BodyState, State};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -29,14 +29,15 @@ pub enum Mode {
     Slide(Vector3<f64>),
 }
 
-/// How far a slip is from its beginning and its end, where its direction is stiff: it turns toward that of the
-/// acceleration at the rate μ f/(m |s|), which has no bound as s → 0.
+/// What the direction of a slip is in a step (`slip`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Slip {
+    /// At every moment its own.
     Fast,
-    /// It has just begun: of one contact the slip is along its own acceleration, Coulomb's law with accelerations for
-    /// velocities; what this leaves out grows with the fifth power of time. Of several it keeps its direction.
-    Young,
+    /// It has just begun: up to this speed (m/s), the one in which it began.
+    Young(f64),
+    /// It follows a line, and keeps its direction; beyond its end, too, so that an integrator may step over it.
+    Straight,
     /// It ends at once, and keeps its direction.
     Fading,
 }
@@ -176,16 +177,15 @@ impl Gathered {
 
     /// Forces for what holds, pins with it.
     pub fn hold(&self, held: &[Held], choice: Selection) -> Solved {
-        if let ([only], [block]) = (held, &self.problem.blocks[..])
-            && only.slip == Slip::Young
-            && only.slides().is_some()
-        {
-            let p = exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
-            return self.solved(vec![p], true);
-        }
-        let rows = self.rows(self.modes(held));
+        self.hold_as(self.modes(held), choice)
+    }
+
+    /// Forces for contacts of these modes, pins with them.
+    pub fn hold_as(&self, modes: impl ExactSizeIterator<Item = Mode>, choice: Selection) -> Solved {
+        let contacts = modes.len();
+        let rows = self.rows(modes);
         let solved = self.solve(&rows, choice);
-        if choice == Selection::Any || !solved.holds { solved } else { self.push_only(rows, solved, held.len()) }
+        if choice == Selection::Any || !solved.holds { solved } else { self.push_only(rows, solved, contacts) }
     }
 
     /// Forces of these modes, and of all pins, each contact pulling as it may.
@@ -213,7 +213,7 @@ impl Gathered {
     }
 
     /// Modes of what is held, slips along what they are now.
-    pub fn modes<'a>(&'a self, held: &'a [Held]) -> impl Iterator<Item = Mode> + 'a {
+    pub fn modes<'a>(&'a self, held: &'a [Held]) -> impl ExactSizeIterator<Item = Mode> + 'a {
         held.iter().zip(&self.here).map(|(held, here)| match held.mode {
             Mode::Stick => Mode::Stick,
             Mode::Slide(_) => Mode::Slide(direction(held, here)),
@@ -278,16 +278,25 @@ pub fn edge(friction: f64, frame: &[Vector3<f64>; 3], d_W: &Vector3<f64>) -> Vec
     Vector3::new(1.0, -friction * frame[1].dot(d_W), -friction * frame[2].dot(d_W))
 }
 
-/// Of a slip: beyond zero it goes on smoothly, so that an integrator may step over the end of the slip, which is found
-/// afterwards.
+/// Of a slip: beyond zero it goes on smoothly, so that an integrator may try a step over its end.
 pub fn direction(held: &Held, here: &Here) -> Vector3<f64> {
     let Some(from) = held.slides() else { return Vector3::zeros() };
     let slip = here.slip_W();
     let speed = slip.norm();
-    if held.slip != Slip::Fast || speed == 0.0 {
-        return from;
+    let is_kept = match held.slip {
+        Slip::Fast => speed == 0.0,
+        Slip::Young(until_m_s) => speed <= until_m_s,
+        Slip::Straight | Slip::Fading => true,
+    };
+    if is_kept {
+        return along(&from, &here.contact.normal);
     }
     if slip.dot(&from) >= 0.0 { slip / speed } else { -slip / speed }
+}
+
+/// The direction in the plane of contact.
+pub fn along(d: &Vector3<f64>, normal: &Vector3<f64>) -> Vector3<f64> {
+    (d - normal * normal.dot(d)).try_normalize(0.0).unwrap_or(*d)
 }
 
 /// V̇ of a body by gravity, loads and its own rotation.

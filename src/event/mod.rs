@@ -4,8 +4,8 @@
 //! - `touch`: a point of contact in any state, and its rates; `shown`: which parts of two bodies meet there
 //! - `forces`: the forces that keep what is in contact together
 //! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once
-//! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion; `slip`: where that is
-//!   stiff
+//! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion, `field`: its equations;
+//!   `slip`: where that is stiff; `stiff`: its steps there
 //! - `caps`: of cylinders, that lie flat, fall flat and tip
 //! - `change`: when a contact that holds stops doing so
 //! - `watch`: when the next gap closes, and the proof that none was missed
@@ -22,13 +22,16 @@ pub mod change;
 pub mod decide;
 pub mod dense;
 pub mod ending;
+pub mod field;
 pub mod forces;
 pub mod impact;
 pub mod law;
 pub mod motion;
+pub mod radau_tableau;
 pub mod settle;
 pub mod shown;
 pub mod slip;
+pub mod stiff;
 pub mod touch;
 pub mod watch;
 pub mod which;

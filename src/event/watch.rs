@@ -102,8 +102,9 @@ impl Look {
         s.min(self.known_s)
     }
 
+    /// What comes nearer by rounding alone, the impact would not see either, however deep it is.
     fn is_touching(&self, delta_m: f64, slow_m_s: f64) -> bool {
-        (self.gap_m <= delta_m && self.rate_m_s < -slow_m_s) || (self.gap_m < -delta_m && self.rate_m_s < 0.0)
+        self.gap_m <= delta_m && self.rate_m_s < -slow_m_s
     }
 }
 

@@ -48,12 +48,12 @@ impl Zeno {
         height_m <= left * left * self.negligible_m(model, contact) || height_m <= delta_at_m(model, contact)
     }
 
-    /// The speed below which a contact that leaves is at rest: what has lost its restitution may rock on, and at last
-    /// it rests.
+    /// The speed below which a contact that leaves is at rest: what rebounds no more may rock on, by the impulses of
+    /// others, and at last it rests.
     pub fn rests_m_s(&self, model: &Model, contact: &Contact) -> f64 {
-        let falling = falling_m_s2(model, contact);
-        let rocks = contact.restitution == 0.0 && falling > 0.0;
-        if rocks { (2.0 * falling * self.negligible_m(model, contact)).sqrt() } else { 0.0 }
+        let (falling, left) = (falling_m_s2(model, contact), 1.0 - contact.restitution);
+        let rocks = left > 0.0 && falling > 0.0;
+        if rocks { left * (2.0 * falling * self.negligible_m(model, contact)).sqrt() } else { 0.0 }
     }
 
     /// A height that does not matter.

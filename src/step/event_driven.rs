@@ -3,7 +3,6 @@
 //! A step is one of both. The clock means nothing here but its end: where a recorder looks is read off the motion, so
 //! that the run is the same with or without it.
 
-use super::moments::moments;
 use super::stretch::{self, Stretch};
 use crate::collide::approach::Approach;
 use crate::collide::closed::{MARGIN, is_closed_to_delta};
@@ -12,14 +11,14 @@ use crate::deadline::Deadline;
 use crate::event::caps::{self, Sinking};
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
-use crate::event::dense::{Dense, Field, project};
+use crate::event::dense::{Dense, project};
 use crate::event::ending::{self, is_lawful};
+use crate::event::field::Field;
 use crate::event::forces::{Gathered, Held, NO_SLIP, Solved};
 use crate::event::impact;
-use crate::event::law::hold;
 use crate::event::motion::Motion;
 use crate::event::settle::{Forces, settle};
-use crate::event::slip::{self, Slow};
+use crate::event::slip::{self, Pace, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch::{self, Paths, Window};
 use crate::event::which;
@@ -29,7 +28,7 @@ use crate::math::full_pivot::Selection;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::plan::Plan;
-use crate::shown::{Acted, ContactForce, Moment, Passage, Smooth};
+use crate::shown::{Acted, Passage};
 use crate::state::State;
 use crate::work::Work;
 use nalgebra::Vector3;
@@ -52,7 +51,7 @@ enum Event {
 
 /// What the last step was.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Span {
+pub(super) enum Span {
     /// An impact, which takes no time.
     Blow,
     /// A smooth motion whose beginning puts to rest what is left of a rocking.
@@ -72,25 +71,27 @@ pub struct EventDriven {
     stretch_s: f64,
     law: Impact,
     contact: bool,
-    motions: Vec<Motion>,
-    held: Vec<Held>,
+    pub(super) motions: Vec<Motion>,
+    pub(super) held: Vec<Held>,
     /// Their forces, world axes, while no body needs the integrator: closed forms have constant ones. None where they
     /// are shared so that some contact would pull: redundant ones move the same.
-    steady_W: Vec<Vector3<f64>>,
-    dense: Dense,
+    pub(super) steady_W: Vec<Vector3<f64>>,
+    pub(super) dense: Dense,
     /// Ends of slips that are known in closed form.
     ends_s: Option<f64>,
     next: Event,
     detector: Detector,
     found: Vec<Contact>,
     /// Looked into from outside between two steps, too.
-    gathered: RefCell<Gathered>,
+    pub(super) gathered: RefCell<Gathered>,
     zeno: Zeno,
     /// Of the projection.
     placing: Gathered,
     /// The state before what holds was put to rest, and the time that this takes.
     kicked: State,
     ending_s: Option<f64>,
+    /// How the next step of the integrator may be made.
+    pace: Pace,
     scratch: State,
     /// Events without any time between them; and when counting of events began, with how many.
     at_once: u32,
@@ -99,9 +100,9 @@ pub struct EventDriven {
     trouble: bool,
     /// Steps of equal length instead.
     stretch: Option<Stretch>,
-    span: Span,
+    pub(super) span: Span,
     /// A step that takes longer is not made.
-    deadline: Deadline,
+    pub(super) deadline: Deadline,
     pub(super) stalled: Option<Criterion>,
     pub(super) solved: Vec<SolvedContact>,
     pub(super) work: Work,
@@ -145,6 +146,7 @@ impl EventDriven {
             placing: Gathered::default(),
             kicked: start.clone(),
             ending_s: None,
+            pace: Pace::FREE,
             scratch: start.clone(),
             at_once: 0,
             counted_from: (start.time_s, 0),
@@ -351,8 +353,8 @@ impl EventDriven {
         let placed = project(model, state, &self.held, &mut self.placing);
         let gathered = self.gathered.get_mut();
         if placed.moved || self.held.len() != gathered.here.len() {
-            gathered.gather(model, state, self.held.iter().map(|held| &held.touch));
-            solved = hold(gathered, &self.held, Selection::Least, &mut self.work);
+            // Those of the law, where redundant contacts could share them otherwise.
+            Margin { solved, .. } = margin(model, state, &self.held, gathered, &mut self.work);
         }
         if ending::changes(model, [&self.kicked, state], ending::NOTHING) {
             self.ending_s = Some(ending::lasts_s(model, (&self.placing, &placed.p), (gathered, &solved)));
@@ -382,20 +384,34 @@ impl EventDriven {
 
     /// Smooth motion, with what had to be put to rest before it. True: that took no time, and is all of the step.
     fn go_on(&mut self, model: &Model, state: &mut State, ending_s: Option<f64>, end_s: f64) -> bool {
-        let Some(over_s) = ending_s else {
+        self.look_at_slips(model, state, true);
+        let fades_s = if ending_s.is_none() { self.pace.ends_s } else { None };
+        let Some(over_s) = ending_s.or(fades_s) else {
             self.advance(model, state, end_s);
             return false;
         };
+        if fades_s.is_some() {
+            self.kicked.copy_from(state);
+        }
         let from_s = state.time_s;
         let at_once = from_s + over_s <= from_s;
+        let mut others = Vec::new();
         if !at_once {
-            self.advance(model, state, end_s.min(from_s + over_s));
+            let to_s = end_s.min(from_s + over_s);
+            self.advance(model, state, to_s);
+            if state.time_s == from_s && !self.trouble {
+                // What is put to rest is so against others that touch: they take part.
+                self.motion_to(model, state, to_s);
+                self.detect(model, state);
+                let is_held = |contact: &Contact| self.held.iter().any(|held| held.touch.key() == contact.key());
+                others.extend(self.found.iter().filter(|contact| !is_held(contact)).copied());
+            }
         }
         self.scratch.copy_from(state);
-        let (kicked, gathered) = (&mut self.kicked, &mut self.placing);
-        self.solved = ending::end(model, kicked, state, &self.held, gathered, &mut self.work);
-        if ending::changes(model, [&self.scratch, state], ending::NOTHING) {
-            // Not all of it holds.
+        let (states, gathered) = ([&mut self.kicked, &mut *state], &mut self.placing);
+        self.solved = ending::end(model, states, &self.held, &others, gathered, &mut self.work);
+        if fades_s.is_some() || !others.is_empty() || ending::changes(model, [&self.scratch, state], ending::NOTHING) {
+            // Not all of it holds, or slides on.
             self.next = Event::Change(Change::default());
         }
         self.span = if at_once { Span::Blow } else { Span::Ending { step_s: state.time_s - from_s } };
@@ -440,7 +456,8 @@ impl EventDriven {
         if let Some(t_s) = self.ends_s.filter(|t_s| *t_s <= to_s) {
             (to_s, self.next) = (t_s, Event::Change(Change::default()));
         }
-        if self.held.iter().any(|held| !self.dense.is_empty() || held.touch.is_bounded()) {
+        let fades = self.pace.ends_s.is_some();
+        if !fades && self.held.iter().any(|held| !self.dense.is_empty() || held.touch.is_bounded()) {
             let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
             let (gathered, at, work) = (self.gathered.get_mut(), &mut self.scratch, &mut self.work);
             let mut looking = Looking { paths, held: &self.held, gathered, at, work };
@@ -460,23 +477,58 @@ impl EventDriven {
         self.end_at(model, state, to_s);
     }
 
+    /// Smooth motion, whatever comes in its way.
+    fn motion_to(&mut self, model: &Model, state: &mut State, to_s: f64) {
+        self.next = Event::Step;
+        if !self.integrate(model, state, to_s) {
+            self.trouble = true;
+            return;
+        }
+        let to_s = if self.dense.is_empty() { to_s } else { to_s.min(self.dense.t_s + self.dense.h) };
+        self.end_at(model, state, to_s);
+    }
+
     /// A step of the integrator, if a body needs one.
     fn integrate(&mut self, model: &Model, state: &State, end_s: f64) -> bool {
         if self.dense.is_empty() {
             return true;
         }
+        let mut good = self.dense_step(model, state, end_s);
+        if good && slip::leaves_lines(model, &self.dense_end(model, state), &self.held) {
+            self.look_at_slips(model, state, false);
+            good = self.dense_step(model, state, end_s);
+        }
+        good
+    }
+
+    fn dense_step(&mut self, model: &Model, state: &State, end_s: f64) -> bool {
         let mut dense = std::mem::take(&mut self.dense);
         self.scratch.copy_from(state);
-        let mut most_s = self.longest_s.min(caps::longest_s(model, &self.held, state));
-        if self.held.iter().any(|held| held.slides().is_some()) {
-            let gathered = self.gathered.get_mut();
-            let Margin { solved, .. } = margin(model, state, &self.held, gathered, &mut self.work);
-            most_s = most_s.min(slip::look(&self.slow, &mut self.held, state, gathered, &solved));
-        }
         dense.restart(state);
-        let good = dense.step(&mut self.field(model), end_s, most_s);
+        let most_s = self.longest_s.min(caps::longest_s(model, &self.held, state));
+        let pace = (self.pace.most_s.min(most_s), self.pace.stiff_hz);
+        let good = dense.step(&mut self.field(model), end_s, pace);
         self.dense = dense;
         good
+    }
+
+    /// What slips of bodies without closed form are from here on. `lines`: some may follow lines.
+    fn look_at_slips(&mut self, model: &Model, state: &State, lines: bool) {
+        self.pace = Pace::FREE;
+        if !self.dense.is_empty() && self.held.iter().any(|held| held.slides().is_some()) {
+            let gathered = self.gathered.get_mut();
+            let Margin { solved, .. } = margin(model, state, &self.held, gathered, &mut self.work);
+            self.pace = slip::look(&self.slow, (model, state), &mut self.held, (gathered, &solved), lines);
+        }
+    }
+
+    /// The end of the integrator's last step.
+    fn dense_end(&self, model: &Model, state: &State) -> State {
+        let mut end = state.clone();
+        end.time_s = self.dense.t_s + self.dense.h;
+        let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
+        (0..end.bodies.len()).for_each(|i| end.bodies[i] = paths.at(i, end.time_s));
+        end
     }
 
     fn field<'a>(&'a mut self, model: &'a Model) -> Field<'a> {
@@ -536,49 +588,4 @@ fn steady(gathered: &Gathered, solved: &Solved, contacts: usize) -> Vec<Vector3<
     let blocks = || gathered.problem.blocks.iter().zip(&solved.p).take(contacts);
     let are_lawful = blocks().all(|(block, p)| is_lawful(&block.in_world(p), &block.frame[0], block.friction));
     if are_lawful { blocks().map(|(block, p)| block.in_world(p)).collect() } else { Vec::new() }
-}
-
-impl Passage for EventDriven {
-    /// Within the last stretch.
-    fn state_at(&self, model: &Model, state: &mut State) {
-        let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
-        if !self.motions.is_empty() {
-            (0..state.bodies.len()).for_each(|i| state.bodies[i] = paths.at(i, state.time_s));
-        }
-    }
-
-    fn forces_at(&self, model: &Model, state: &State) -> Vec<ContactForce> {
-        if let Span::Short { step_s } = self.span {
-            return self.solved.iter().map(|solved| ContactForce::mean(solved, step_s)).collect();
-        }
-        // What a step holds that was not made is not known.
-        if self.held.is_empty() || self.stalled == Some(Criterion::Limit) {
-            return Vec::new();
-        }
-        if self.dense.is_empty() && self.steady_W.len() == self.held.len() {
-            let force = |(held, force_W): (&Held, &Vector3<f64>)| ContactForce {
-                contact: held.touch.here(state).contact,
-                force_W: *force_W,
-            };
-            return self.held.iter().zip(&self.steady_W).map(force).collect();
-        }
-        let mut gathered = self.gathered.borrow_mut();
-        let Margin { solved, .. } = margin(model, state, &self.held, &mut gathered, &mut Work::default());
-        let Gathered { here, problem, .. } = &*gathered;
-        let of = here.iter().zip(&problem.blocks).zip(&solved.p);
-        of.map(|((here, block), p)| ContactForce { contact: here.contact, force_W: block.in_world(p) }).collect()
-    }
-}
-
-impl Smooth for EventDriven {
-    fn moments(&self, model: &Model, [before, after]: [&State; 2]) -> Vec<Moment> {
-        let span_s = after.time_s - before.time_s;
-        if span_s <= 0.0 || (self.held.is_empty() && !model.has_loads() && !model.has_driven_pins()) {
-            return Vec::new();
-        }
-        moments(before, span_s, |state| {
-            self.state_at(model, state);
-            self.forces_at(model, state)
-        })
-    }
 }

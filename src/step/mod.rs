@@ -6,6 +6,7 @@
 mod blow;
 mod drift;
 mod event_driven;
+mod event_passage;
 mod foreseen;
 mod free;
 mod lecture;

@@ -1,7 +1,7 @@
 //! How far bodies may come in a step: by themselves, and by impulses that others put on them.
 
 use super::closed::MARGIN;
-use super::detector::{Limits, Reach};
+use super::limits::{Limits, Reach};
 use crate::model::Model;
 use crate::state::State;
 use nalgebra::Vector3;

@@ -2,43 +2,17 @@
 
 use super::ahead::Ahead;
 use super::broad::{Bounds, Broad};
-use super::closed::unresolved_m;
 use super::doubt::Doubts;
+use super::limits::{Limits, Reach};
+use super::two::{of_pair, pose};
 use super::{Contact, faces};
 use crate::model::surface::Surface;
 use crate::model::{Body, Model};
 use crate::shape::pair::{Apart, touches};
-use crate::shape::solid::{Meeting, Pose};
-use crate::state::{BodyState, State};
+use crate::shape::solid::Meeting;
+use crate::state::State;
 use crate::work::Work;
 use nalgebra::Vector3;
-
-/// Gap that still is a contact wherever bodies move, of the body's bounding radius: what touches with gap zero is one
-/// whatever its last bit says.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reach {
-    pub margin: f64,
-}
-
-impl Reach {
-    /// Reach of what is inside.
-    pub const INSIDE: Reach = Reach { margin: 0.0 };
-
-    /// Reach of one body, in metres.
-    pub(super) fn margin_m(&self, body: &Body, at: &BodyState) -> f64 {
-        if self.margin == 0.0 { 0.0 } else { self.margin * body.bounding_radius_m + unresolved_m(at.p_WB.amax()) }
-    }
-}
-
-/// Gaps up to which a contact test looks, in metres.
-pub(super) trait Limits {
-    /// Of a body and a face with this normal.
-    fn face_m(&self, body: usize, normal: &Vector3<f64>) -> f64;
-    /// Of two bodies.
-    fn pair_m(&self, pair: [usize; 2]) -> f64;
-    /// Around a body, for the search of pairs: two of them cover `pair_m`.
-    fn around_m(&self, body: usize) -> f64;
-}
 
 /// A reach, of the bodies as they stand.
 struct Here<'a> {
@@ -166,24 +140,6 @@ impl Detector {
     }
 }
 
-/// A point of contact of two bodies as they stand.
-pub(super) fn of_pair(model: &Model, state: &State, pair: [usize; 2], touch: &Meeting) -> Contact {
-    let Surface { friction, restitution, tangential_restitution } = model.pair(pair[0], Some(pair[1]));
-    Contact {
-        body: pair[0],
-        other: Some(pair[1]),
-        feature: touch.feature,
-        r_BC_W: touch.p_W - state.bodies[pair[0]].p_WB,
-        r_OC_W: touch.p_W - state.bodies[pair[1]].p_WB,
-        p_WC: touch.p_W,
-        normal: touch.normal,
-        gap_m: touch.gap_m,
-        friction,
-        restitution,
-        tangential_restitution,
-    }
-}
-
 fn with_container(model: &Model, state: &State, limits: &impl Limits, contacts: &mut Vec<Contact>, work: &mut Work) {
     let Some(container) = &model.container else { return };
     for (index, (body, at)) in model.bodies.iter().zip(&state.bodies).enumerate() {
@@ -210,10 +166,6 @@ fn with_container(model: &Model, state: &State, limits: &impl Limits, contacts: 
             });
         }
     }
-}
-
-pub(super) fn pose(centre: &Vector3<f64>, at: &BodyState) -> Pose {
-    Pose { p_W: at.p_WB + at.q_WB * centre, q_W: at.q_WB }
 }
 
 /// The contact whose point is deepest, the first of equals; none if nothing is inside anything.

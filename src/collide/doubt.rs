@@ -12,7 +12,7 @@
 
 use super::Contact;
 use super::closed::{closed_m, unresolved_m};
-use super::detector::{of_pair, pose};
+use super::two::{of_pair, pose};
 use crate::model::{Body, Model};
 use crate::shape::pair::{Apart, along, apart, touches};
 use crate::shape::solid::{Meeting, Pose, Solid};
@@ -35,19 +35,21 @@ const STEADY: f64 = 0.25;
 /// Of that width: how far away what hits is, and how deep inside what has turned through.
 const AFAR: f64 = 1e-3;
 const DEEP: f64 = 0.005;
+/// Cosine of the angle within which an axis is the same at the end of a step as where bodies meet in it.
+const SAME_AXIS: f64 = 0.99;
 /// Of that width: a way inside that leads through.
 const THROUGH: f64 = 0.3;
 
 /// A pair in doubt in this step.
 #[derive(Clone, Debug)]
-pub struct Doubt {
+pub struct DoubtfulPair {
     pub pair: [usize; 2],
     /// Whether its points are asked to stay apart.
     pub is_imposed: bool,
     pub points: Vec<Contact>,
 }
 
-impl Doubt {
+impl DoubtfulPair {
     /// Axis of the points.
     pub fn normal(&self) -> Vector3<f64> {
         self.points.first().map_or_else(Vector3::zeros, |point| point.normal)
@@ -57,7 +59,7 @@ impl Doubt {
 /// All pairs in doubt, in the order of their bodies; what was allocated is kept.
 #[derive(Clone, Debug, Default)]
 pub struct Doubts {
-    all: Vec<Doubt>,
+    all: Vec<DoubtfulPair>,
     used: usize,
 }
 
@@ -66,11 +68,11 @@ impl Doubts {
         self.used = 0;
     }
 
-    pub fn list(&self) -> &[Doubt] {
+    pub fn list(&self) -> &[DoubtfulPair] {
         &self.all[..self.used]
     }
 
-    pub fn list_mut(&mut self) -> &mut [Doubt] {
+    pub fn list_mut(&mut self) -> &mut [DoubtfulPair] {
         &mut self.all[..self.used]
     }
 
@@ -91,7 +93,7 @@ impl Doubts {
         }
 
         if self.used == self.all.len() {
-            self.all.push(Doubt { pair, is_imposed: false, points: Vec::new() });
+            self.all.push(DoubtfulPair { pair, is_imposed: false, points: Vec::new() });
         }
         let doubt = &mut self.all[self.used];
         self.used += 1;
@@ -301,15 +303,19 @@ impl<'a> Way<'a> {
         (r + v * time_s).norm_squared() > reach_m * reach_m
     }
 
-    /// Fills `points` with the contacts of the two as they meet: arms from one point as the step begins, so that
-    /// momentum is kept, the lighter body's as it will be; gaps such that at the end of the step none is left below
-    /// zero.
-    pub fn points(&self, meet_s: f64, found: &mut Vec<Meeting>, points: &mut Vec<Contact>) {
-        let [pose_a, pose_b] = self.poses(meet_s);
-        let left_m = self.speed * (self.step_s - meet_s) + band_m(self.model, self.pair, &self.at(0, meet_s));
-        found.clear();
-        touches(self.solids[0].0, &pose_a, self.solids[1].0, &pose_b, left_m, found);
-        let moved = [0, 1].map(|k| self.moving[k][0] * meet_s);
+    /// Fills `points` with the contacts of the two at the end of the step, if they meet along the same axis there, else
+    /// as they meet: arms from one point as the step begins, so that momentum is kept, the lighter body's as it will
+    /// be; gaps such that at the end of the step none is left below zero.
+    pub fn points(&self, meet_s: f64, points: &mut Vec<Contact>, work: &mut Work) {
+        let [met, ended] = [meet_s, self.step_s].map(|time_s| self.apart(time_s, work).normal);
+        let is_same_axis = met.dot(&ended) > SAME_AXIS && !self.is_through(meet_s);
+        let time_s = if is_same_axis { self.step_s } else { meet_s };
+        let [pose_a, pose_b] = self.poses(time_s);
+        // What is apart on this way may not be so on that with the pair's impulses.
+        let left_m = self.most_m() + band_m(self.model, self.pair, &self.at(0, time_s));
+        let mut found = Vec::new();
+        touches(self.solids[0].0, &pose_a, self.solids[1].0, &pose_b, left_m, &mut found);
+        let moved = [0, 1].map(|k| self.moving[k][0] * time_s);
         let lightness = |k: usize| {
             let body = &self.model.bodies[self.pair[k]];
             if body.driven { 0.0 } else { 1.0 / body.mass_kg }
@@ -318,9 +324,9 @@ impl<'a> Way<'a> {
         let back = (moved[0] * a + moved[1] * b) / (a + b);
         points.clear();
         points.extend(found.iter().map(|touch| {
-            let arms = [0, 1].map(|k| touch.p_W - self.at(k, meet_s).p_WB);
+            let arms = [0, 1].map(|k| touch.p_W - self.at(k, time_s).p_WB);
             let rate = |k: usize| self.moving[k][0] + self.moving[k][1].cross(&arms[k]);
-            let gap_m = touch.gap_m - meet_s * touch.normal.dot(&(rate(0) - rate(1)));
+            let gap_m = touch.gap_m - time_s * touch.normal.dot(&(rate(0) - rate(1)));
             of_pair(self.model, self.state, self.pair, &Meeting { p_W: touch.p_W - back, gap_m, ..*touch })
         }));
     }

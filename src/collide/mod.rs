@@ -13,8 +13,11 @@ mod contact;
 pub mod detector;
 pub mod doubt;
 pub mod faces;
+mod limits;
 pub mod reduce;
+mod two;
 
 pub use ahead::Ahead;
 pub use contact::{Contact, Key, SolvedContact};
-pub use detector::{Detector, Reach, deepest};
+pub use detector::{Detector, deepest};
+pub use limits::Reach;

@@ -1,8 +1,8 @@
 //! All axes along which two solids are as far apart as along the best one, within a band.
 //!
-//! Convex bodies are apart as long as one axis separates them. Where two bodies share an edge or a corner alone, several
-//! do so equally, by nothing; which of them is the last to close says what the bodies do to each other, not which of
-//! them rounding calls the largest. The directions of all separating axes of such a pair are a cone, and along its
+//! Convex bodies are apart as long as one axis separates them. Where two bodies share an edge or a corner alone,
+//! several do so equally, by nothing; which of them is the last to close says what the bodies do to each other, not
+//! which of them rounding calls the largest. The directions of all separating axes of such a pair are a cone, and along its
 //! extreme rays a face of one body, or an edge of each, is across the axis.
 
 use super::axis::{Axis, Face, axis, separation};

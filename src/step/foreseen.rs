@@ -14,7 +14,6 @@ use crate::collide::closed::rounding_m;
 use crate::collide::doubt::{Doubts, Way, band_m};
 use crate::collide::{Ahead, Contact, Key};
 use crate::model::Model;
-use crate::shape::solid::Meeting;
 use crate::solve::Impulse;
 use crate::solve::twist::Twist;
 use crate::state::State;
@@ -74,7 +73,6 @@ pub(super) struct Foreseen {
     fall_m: Vec<f64>,
     slack_m: Vec<f64>,
     depths: Vec<Depth>,
-    meetings: Vec<Meeting>,
     points: Vec<Contact>,
     round: u32,
     /// The last impulses ask for other contacts still.
@@ -93,6 +91,19 @@ fn note_earlier(hit_s: &mut Option<f64>, other_s: f64) {
 }
 
 impl Foreseen {
+    /// With room for so many contacts and bodies, so that no step allocates.
+    pub(super) fn with_capacity(contacts: usize, bodies: usize) -> Self {
+        Foreseen {
+            contacts: Vec::with_capacity(contacts),
+            may_close: Vec::with_capacity(contacts),
+            asked: Vec::with_capacity(contacts),
+            fall_m: Vec::with_capacity(bodies),
+            slack_m: Vec::with_capacity(bodies),
+            depths: Vec::with_capacity(bodies),
+            ..Foreseen::default()
+        }
+    }
+
     /// Looks at what may come in the step. `last`: impulses of the step before, in the order of contacts.
     pub(super) fn look(
         &mut self,
@@ -253,7 +264,7 @@ impl Foreseen {
         scratch: &mut Scratch,
         (approach, step_s): (Approach, f64),
     ) -> bool {
-        let Foreseen { doubts, depths, meetings, points, hit_s, is_whole, round, .. } = self;
+        let Foreseen { doubts, depths, points, hit_s, is_whole, round, .. } = self;
         *hit_s = None;
         let Scratch { free, response, problem, found, impulses, work, .. } = scratch;
         let mut changed = false;
@@ -287,7 +298,7 @@ impl Foreseen {
                 note_earlier(hit_s, meet_s);
                 continue;
             }
-            way.points(meet_s, meetings, points);
+            way.points(meet_s, points, work);
             if points.is_empty() {
                 continue;
             }

@@ -90,7 +90,7 @@ impl TimeStepping {
             position_correction: settings.position_correction,
             last: Vec::with_capacity(scratch.contacts()),
             solved: Vec::with_capacity(scratch.contacts()),
-            foreseen: Foreseen::default(),
+            foreseen: Foreseen::with_capacity(scratch.contacts(), scratch.free.capacity()),
             left_s: None,
             parts: 0,
             before_s: None,
@@ -127,10 +127,12 @@ impl TimeStepping {
         loop {
             // 1. Contact test.
             self.foreseen.is_whole = self.parts >= MOST_PARTS;
+            // Until the next kick.
+            let ahead_s = if self.made_s < left_s { self.made_s - before_s } else { self.made_s };
             self.scratch.free_velocities(model, state, self.made_s);
-            self.foreseen.look(model, state, &mut self.scratch, &self.last, self.made_s);
+            self.foreseen.look(model, state, &mut self.scratch, &self.last, ahead_s);
             // 2. Contact impulses, until they ask for no other contacts; displacements that remove penetration.
-            self.solve_rounds(model, state, self.made_s);
+            self.solve_rounds(model, state, self.made_s, ahead_s);
             let after_s = self.made_s - before_s;
             let cut_s = self.foreseen.cut_s(after_s).filter(|_| !self.foreseen.is_whole && !self.is_cut);
             let Some(hit_s) = cut_s else { break };
@@ -170,11 +172,11 @@ impl TimeStepping {
         }
     }
 
-    fn solve_rounds(&mut self, model: &Model, state: &State, step_s: f64) {
+    fn solve_rounds(&mut self, model: &Model, state: &State, step_s: f64, ahead_s: f64) {
         let unsolved = self.scratch.work.unsolved;
         self.solved.clear();
         self.solve_contacts(model, state, step_s);
-        while !self.is_cut && self.foreseen.revise(model, state, &mut self.scratch, (self.approach, step_s)) {
+        while !self.is_cut && self.foreseen.revise(model, state, &mut self.scratch, (self.approach, ahead_s)) {
             self.scratch.work.unsolved = unsolved;
             self.solve_contacts(model, state, step_s);
         }

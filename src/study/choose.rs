@@ -34,6 +34,8 @@ const FINER: f64 = 100.0;
 const ROUGHER: u32 = 4;
 const SAFETY_OF_STEPS: f64 = 2.0;
 const SAFETY_OF_TOLERANCES: f64 = 5.0;
+/// Of the tolerance of a run that integrates: what it has in common with a finer one is not seen in their difference.
+const COMMON: f64 = 1e-4;
 /// Rounding of an estimate, of the largest coordinate.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Number of steps to begin with, where the file has none.
@@ -176,7 +178,8 @@ impl Asked<'_> {
             if !is_whole(&fine) {
                 break;
             }
-            let estimate_m = self.estimate_m(&run, &fine, SAFETY_OF_TOLERANCES);
+            let integrated = if run.work.inner_steps > 0 { COMMON * tolerance } else { 0.0 };
+            let estimate_m = self.estimate_m(&run, &fine, SAFETY_OF_TOLERANCES) + integrated;
             // Or half of it is rounding, and there is no more to be had.
             if estimate_m <= self.tolerance.max(2.0 * rounding_m(&fine.state)) {
                 return (candidate(tolerance, estimate_m), true);

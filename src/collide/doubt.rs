@@ -86,7 +86,10 @@ impl Doubts {
         points: impl Iterator<Item = Contact>,
     ) -> bool {
         let rounding_m = closed_m(smaller_m(model, pair), at.p_WB.amax() + model.bodies[pair[0]].bounding_radius_m);
-        let touches = apart.gap_m <= rounding_m;
+        // Between smooth bodies, which have no edges, a plane stands for them as far as it is one within the step.
+        let are_smooth = pair.iter().all(|i| model.bodies[*i].solid().is_some_and(|(solid, _)| solid.is_smooth()));
+        let plane_m = if are_smooth { limit_m * limit_m / smaller_m(model, pair) } else { 0.0 };
+        let touches = apart.gap_m <= rounding_m.max(plane_m);
         let stays = apart.is_flat || (touches && limit_m < smaller_m(model, pair));
         if apart.second_m < -limit_m && stays {
             return false;
@@ -303,13 +306,16 @@ impl<'a> Way<'a> {
         (r + v * time_s).norm_squared() > reach_m * reach_m
     }
 
-    /// Fills `points` with the contacts of the two at the end of the step, if they meet along the same axis there, else
-    /// as they meet: arms from one point as the step begins, so that momentum is kept, the lighter body's as it will
+    /// Fills `points` with the contacts of the two as they meet, or of smooth bodies, whose axis turns steadily, at the
+    /// end of the step: arms from one point as the step begins, so that momentum is kept, the lighter body's as it will
     /// be; gaps such that at the end of the step none is left below zero.
     pub fn points(&self, meet_s: f64, points: &mut Vec<Contact>, work: &mut Work) {
-        let [met, ended] = [meet_s, self.step_s].map(|time_s| self.apart(time_s, work).normal);
-        let is_same_axis = met.dot(&ended) > SAME_AXIS && !self.is_through(meet_s);
-        let time_s = if is_same_axis { self.step_s } else { meet_s };
+        let is_smooth = self.solids.iter().all(|(solid, _)| solid.is_smooth()) && !self.is_through(meet_s);
+        let is_same_axis = |work: &mut Work| {
+            let [met, ended] = [meet_s, self.step_s].map(|time_s| self.apart(time_s, work).normal);
+            met.dot(&ended) > SAME_AXIS
+        };
+        let time_s = if is_smooth && is_same_axis(work) { self.step_s } else { meet_s };
         let [pose_a, pose_b] = self.poses(time_s);
         // What is apart on this way may not be so on that with the pair's impulses.
         let left_m = self.most_m() + band_m(self.model, self.pair, &self.at(0, time_s));

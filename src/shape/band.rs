@@ -2,8 +2,8 @@
 //!
 //! Convex bodies are apart as long as one axis separates them. Where two bodies share an edge or a corner alone,
 //! several do so equally, by nothing; which of them is the last to close says what the bodies do to each other, not
-//! which of them rounding calls the largest. The directions of all separating axes of such a pair are a cone, and along its
-//! extreme rays a face of one body, or an edge of each, is across the axis.
+//! which of them rounding calls the largest. The directions of all separating axes of such a pair are a cone, and
+//! along its extreme rays a face of one body, or an edge of each, is across the axis.
 
 use super::axis::{Axis, Face, axis, separation};
 use super::manifold::{Opposite, closest_parts, of_face, of_lines};

@@ -67,7 +67,8 @@ pub fn along(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose, normal: &Vector
     separation(&a, &b, normal) - a.radius_m() - b.radius_m()
 }
 
-/// The axis between two cores, what else it may be where no face lies opposite (`axis::axis`), and the solids' distance.
+/// The axis between two cores, what else it may be where no face lies opposite (`axis::axis`), and the solids'
+/// distance.
 fn of_cores(placed: &[Placed; 2], reach_m: f64) -> (Axis, Vector3<f64>, Apart) {
     let [a, b] = placed;
     let is_capsules = matches!((a.solid, b.solid), (Solid::Capsule { .. }, Solid::Capsule { .. }));

@@ -93,6 +93,11 @@ impl Solid {
         }
     }
 
+    /// Whether its surface has one normal everywhere.
+    pub fn is_smooth(&self) -> bool {
+        matches!(self, Solid::Sphere { .. } | Solid::Capsule { .. } | Solid::Ellipsoid { .. })
+    }
+
     /// Width across its thinnest, in metres; of a hull between two parallel planes of which one holds a face.
     pub fn least_width_m(&self) -> f64 {
         match self {

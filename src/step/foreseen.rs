@@ -28,6 +28,8 @@ const SETTLING: u32 = 8;
 const MOST: u32 = 16;
 /// Of a step: one that bodies turn too far in is cut by this at least.
 const SHORTER: f64 = 0.9;
+/// Of a step that ends where bodies hit each other: its end.
+const AT_THE_END: f64 = 1.0 - 1e-6;
 /// Of a slack: a lead beyond it that is rounding.
 const LED: f64 = 1.0 + 1e-6;
 /// Of an overlap that others leave: what may come of it at another place of the same bodies.
@@ -81,6 +83,8 @@ pub(super) struct Foreseen {
     hit_s: Option<f64>,
     /// The first time at which bodies have turned too far beside each other for their way to be known.
     turned_s: Option<f64>,
+    /// The step ends where bodies hit each other: what meets then is the next one's.
+    pub(super) is_up_to_hit: bool,
     /// The step is not to be cut any more: what hits is asked to stay apart from afar.
     pub(super) is_whole: bool,
 }
@@ -264,7 +268,7 @@ impl Foreseen {
         scratch: &mut Scratch,
         (approach, step_s): (Approach, f64),
     ) -> bool {
-        let Foreseen { doubts, depths, points, hit_s, is_whole, round, .. } = self;
+        let Foreseen { doubts, depths, points, hit_s, is_whole, is_up_to_hit, round, .. } = self;
         *hit_s = None;
         let Scratch { free, response, problem, found, impulses, work, .. } = scratch;
         let mut changed = false;
@@ -296,6 +300,9 @@ impl Foreseen {
             };
             if !doubt.is_imposed && way.is_hit(meet_s) && !*is_whole {
                 note_earlier(hit_s, meet_s);
+                continue;
+            }
+            if !doubt.is_imposed && *is_up_to_hit && meet_s > AT_THE_END * step_s {
                 continue;
             }
             way.points(meet_s, points, work);

@@ -117,6 +117,9 @@ impl TimeStepping {
         let mut before_s = 0.0;
         self.approach = if self.parts == 0 { self.scheme } else { Approach::Start };
         if self.approach == Approach::Middle {
+            if state.step == 0 {
+                self.before_s = self.hit_s(model, state, left_s / 2.0);
+            }
             before_s = self.before_s.take().map_or(left_s / 2.0, |hit_s| hit_s.min(left_s / 2.0));
         }
         drift(model, state, before_s, &mut self.scratch.work);
@@ -126,6 +129,7 @@ impl TimeStepping {
         self.made_s = left_s;
         loop {
             // 1. Contact test.
+            self.foreseen.is_up_to_hit = self.made_s < left_s;
             self.foreseen.is_whole = self.parts >= MOST_PARTS;
             // Until the next kick.
             let ahead_s = if self.made_s < left_s { self.made_s - before_s } else { self.made_s };
@@ -170,6 +174,17 @@ impl TimeStepping {
             self.parts = 0;
             clock.advance(state);
         }
+    }
+
+    /// The time at which bodies hit each other on their way to the first kick, which no step before has seen.
+    fn hit_s(&mut self, model: &Model, state: &State, before_s: f64) -> Option<f64> {
+        self.scratch.free_velocities(model, state, 0.0);
+        self.foreseen.look(model, state, &mut self.scratch, &self.last, before_s);
+        self.scratch.found.clear();
+        self.scratch.response.clear();
+        self.scratch.response.resize(model.bodies.len(), Twist::ZERO);
+        self.foreseen.revise(model, state, &mut self.scratch, (self.approach, before_s));
+        self.foreseen.cut_s(before_s)
     }
 
     fn solve_rounds(&mut self, model: &Model, state: &State, step_s: f64, ahead_s: f64) {

@@ -20,6 +20,7 @@ mod pins_by_hand;
 mod reference;
 mod residual;
 mod scenes;
+mod seams;
 mod skipping;
 mod symmetries;
 mod taylor;

@@ -2,8 +2,8 @@
 //! other bodies (`shape/pair.rs`, found by `broad.rs`).
 //!
 //! A point is a contact when its gap, n·(u_c − u_p) for a face, is below a margin and what the gap may close by in the
-//! step: the law of contact then keeps it from closing further than to zero. Contacts come in a stable order: body,
-//! other body, feature.
+//! step: the law of contact then keeps it from closing further than to zero. Which of two bodies' axes that is, where
+//! there are several, is for `doubt.rs`. Contacts come in a stable order: body, other body, feature.
 
 mod ahead;
 pub mod approach;

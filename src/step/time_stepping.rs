@@ -2,11 +2,12 @@
 //!
 //! As the lecture's constraint method, but every contact is put back into its cone right after its rows (projected
 //! Gauss–Seidel; or another solver of the same law), started from last step's impulses. Contacts are foreseen: a gap
-//! may close to zero in a step and no further (`collide::approach`). Between impulses bodies turn freely, in closed
-//! form.
+//! may close to zero in a step and no further (`collide::approach`); what its impulses show of others is asked for in
+//! further rounds (`foreseen.rs`). Between impulses bodies turn freely, in closed form.
 //!
 //! A step is a motion, a kick and a motion: `semi-implicit` kicks first and moves for the whole step, `moreau` kicks
-//! half-way (J. J. Moreau, Comput. Methods Appl. Mech. Engrg 177 (1999) 329).
+//! half-way (J. J. Moreau, Comput. Methods Appl. Mech. Engrg 177 (1999) 329). A step of the clock is made in parts where
+//! bodies hit each other that would be through by its end.
 
 use super::blow::Blow;
 use super::drift::drift;

@@ -131,7 +131,8 @@ fn latin_square() -> Vec<String> {
 
 #[test]
 fn falls_of_cans_hold_at_every_tolerance() {
-    let left = latin_square().par_iter().map(|text| {
+    let falls = latin_square();
+    let left = falls.par_iter().map(|text| {
         let ended = measured(text, &[]);
         is_sound(&ended);
         let [fine, coarse] = ["1e-9", "1e-6"]

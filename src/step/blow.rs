@@ -16,7 +16,7 @@ use crate::state::State;
 
 pub struct Blow {
     law: Law,
-    approach: Approach,
+    pub approach: Approach,
     problem: ContactProblem,
     /// Those that take part, their places among all, their restitution.
     contacts: Vec<Contact>,

@@ -17,6 +17,7 @@ use crate::model::Model;
 use crate::solve::Impulse;
 use crate::solve::twist::Twist;
 use crate::state::State;
+use nalgebra::Vector3;
 
 /// Sine of the angle by which an axis may turn that stays the same.
 const SAME_AXIS: f64 = 1e-3;
@@ -92,6 +93,12 @@ pub(super) struct Foreseen {
 /// The earlier of two times.
 fn note_earlier(hit_s: &mut Option<f64>, other_s: f64) {
     *hit_s = Some(hit_s.map_or(other_s, |first_s| first_s.min(other_s)));
+}
+
+/// Velocities of a body with the step's forces and impulses.
+fn moving(Scratch { free, response, .. }: &Scratch, body: usize) -> [Vector3<f64>; 2] {
+    let (free, u) = (&free[body], &response[body]);
+    [free.v + u.v, free.w + u.w]
 }
 
 impl Foreseen {
@@ -223,10 +230,7 @@ impl Foreseen {
 
     /// Contacts that were left out and close by what the others do.
     fn ask_what_closes(&mut self, model: &Model, scratch: &Scratch, step_s: f64) -> bool {
-        let velocity = |i: usize| {
-            let (free, u) = (&scratch.free[i], &scratch.response[i]);
-            [free.v + u.v, free.w + u.w]
-        };
+        let velocity = |i: usize| moving(scratch, i);
         let mut changed = false;
         for (contact, may_close) in self.contacts.iter().zip(&mut self.may_close).filter(|(_, may_close)| !**may_close)
         {
@@ -243,10 +247,7 @@ impl Foreseen {
     fn measure_depths(&mut self, model: &Model, scratch: &Scratch, step_s: f64) {
         self.depths.clear();
         self.depths.resize(model.bodies.len(), Depth::default());
-        let velocity = |i: usize| {
-            let (free, u) = (&scratch.free[i], &scratch.response[i]);
-            [free.v + u.v, free.w + u.w]
-        };
+        let velocity = |i: usize| moving(scratch, i);
         for contact in &scratch.found {
             let moved_m = step_s * contact.normal.dot(&contact.velocity(velocity));
             let depth_m = -(contact.gap_m + moved_m.min(0.0));
@@ -327,9 +328,9 @@ impl Foreseen {
     /// Bodies that turn too far beside each other for their way to be known, and pairs that are asked to stay apart
     /// where they meet, and turn through each other elsewhere.
     fn watch_what_turns(&mut self, model: &Model, state: &State, scratch: &mut Scratch, step_s: f64) {
-        let Scratch { free, response, work, .. } = scratch;
         for doubt in self.doubts.list() {
-            let moving = doubt.pair.map(|i| [free[i].v + response[i].v, free[i].w + response[i].w]);
+            let moving = doubt.pair.map(|i| moving(scratch, i));
+            let work = &mut scratch.work;
             let Some(way) = Way::new(model, state, doubt.pair, moving, step_s) else { continue };
             let turned_s = way.turned_s().or_else(|| doubt.is_imposed.then(|| way.deep_s(work)).flatten());
             turned_s.into_iter().for_each(|turned_s| note_earlier(&mut self.turned_s, turned_s));

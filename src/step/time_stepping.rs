@@ -6,8 +6,8 @@
 //! further rounds (`foreseen.rs`). Between impulses bodies turn freely, in closed form.
 //!
 //! A step is a motion, a kick and a motion: `semi-implicit` kicks first and moves for the whole step, `moreau` kicks
-//! half-way (J. J. Moreau, Comput. Methods Appl. Mech. Engrg 177 (1999) 329). A step of the clock is made in parts where
-//! bodies hit each other that would be through by its end.
+//! half-way (J. J. Moreau, Comput. Methods Appl. Mech. Engrg 177 (1999) 329). A step of the clock is made in parts
+//! where bodies hit each other that would be through by its end.
 
 use super::blow::Blow;
 use super::drift::drift;
@@ -117,6 +117,7 @@ impl TimeStepping {
         let left_s = self.left_s.unwrap_or(clock.step_s);
         let mut before_s = 0.0;
         self.approach = if self.parts == 0 { self.scheme } else { Approach::Start };
+        self.blow.iter_mut().for_each(|blow| blow.approach = self.approach);
         if self.approach == Approach::Middle {
             if state.step == 0 {
                 self.before_s = self.hit_s(model, state, left_s / 2.0);

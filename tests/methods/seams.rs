@@ -135,17 +135,18 @@ fn what_flies_fast_passes_nothing_and_keeps_momentum() {
                 "- {{ name: plate, shape: {{ box: {{ size_m: [{thick_m}, 4, 4] }} }}, mass_kg: 3, position_m: [0, 0, 0] }}"
             );
             let ball = format!(
-                "shape: {{ sphere: {{ radius_m: 0.025 }} }}, position_m: [{}, 0.1, 0], velocity_m_s: [{speed}, 0, 0]",
+                "shape: {{ sphere: {{ radius_m: 0.025 }} }}, position_m: [{}, 0, 0], velocity_m_s: [{speed}, 0, 0]",
                 -0.026 - thick_m / 2.0 - 0.0217 * speed
             );
             let text = scene(&plate, &ball, &format!("gravity_m_s2: [0, 0, 0]\n  restitution: {restitution}"));
             let scheme = format!("method.time-stepping.scheme={scheme}");
             let ended = measured(&text, &[&scheme, "time.step_s=0.01", "time.end_s=0.1"]);
             assert_eq!(ended.passed_through, Some(0), "{speed}, {thick_m}, {restitution}");
-            // Measured: 2 % of the thinnest plate, 1e-15, 5.0e-9 (what is inside by turning is put out).
-            assert!(ended.penetration_max_m.unwrap() < 0.05 * thick_m);
+            // Measured: 2.3e-11, 1e-15, 0. (What turns after a blow off the centre is put out of what it turns into,
+            // which takes some angular momentum: `.ci/shots.py`.)
+            assert!(ended.penetration_max_m.unwrap() < 1e-9, "{:?}", ended.penetration_max_m);
             assert!(ended.linear_momentum_drift_rel.unwrap().abs() < 1e-12);
-            assert!(ended.angular_momentum_drift_rel.unwrap().abs() < 1e-7);
+            assert!(ended.angular_momentum_drift_rel.unwrap().abs() < 1e-12);
         }
     }
 }

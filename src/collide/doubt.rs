@@ -37,8 +37,9 @@ const AFAR: f64 = 1e-3;
 const DEEP: f64 = 0.005;
 /// Cosine of the angle within which an axis is the same at the end of a step as where bodies meet in it.
 const SAME_AXIS: f64 = 0.99;
-/// Of that width: a way inside that leads through.
-const THROUGH: f64 = 0.3;
+/// Of that width: a way that leads deep inside. Of half of the widths of both: one that leads through.
+const INSIDE: f64 = 0.3;
+const THROUGH: f64 = 0.9;
 
 /// A pair in doubt in this step.
 #[derive(Clone, Debug)]
@@ -223,14 +224,20 @@ impl<'a> Way<'a> {
         None
     }
 
-    /// Whether the way that is left after they meet leads them through each other, or deep inside.
-    pub fn is_through(&self, meet_s: f64) -> bool {
-        self.speed * (self.step_s - meet_s) > THROUGH * self.width_m()
+    /// Whether the way that is left after they meet leads them deep inside each other, or through.
+    pub fn is_deep(&self, meet_s: f64) -> bool {
+        self.speed * (self.step_s - meet_s) > INSIDE * self.width_m()
     }
 
-    /// Whether they hit each other: they come from afar, and would be through by the end.
-    pub fn is_hit(&self, meet_s: f64) -> bool {
-        self.speed * meet_s > AFAR * self.width_m() && self.is_through(meet_s)
+    /// Whether it leads them so far that they would come out on the other side.
+    pub fn is_through(&self, meet_s: f64) -> bool {
+        let half_m: f64 = self.solids.iter().map(|(solid, _)| 0.5 * solid.least_width_m()).sum();
+        self.speed * (self.step_s - meet_s) > THROUGH * half_m
+    }
+
+    /// Whether they come from afar.
+    pub fn is_from_afar(&self, meet_s: f64) -> bool {
+        self.speed * meet_s > AFAR * self.width_m()
     }
 
     /// The time in which one of two bodies that come together turns as far as its way is a steady turn; if it turns
@@ -247,12 +254,10 @@ impl<'a> Way<'a> {
         (fastest * self.step_s > steady && !self.spheres_pass()).then(|| steady / fastest)
     }
 
-    /// The time at which they are deep inside each other, if they may be through by the end.
+    /// The time at which they are deep inside each other, if they are on this way.
     pub fn deep_s(&self, work: &mut Work) -> Option<f64> {
         let band_m = band_m(self.model, self.pair, &self.at(0, 0.0));
-        let is_far = self.is_through(0.0);
-        let deep_s = is_far.then(|| self.deeper_s(DEEP * self.width_m(), band_m, work)).flatten()?;
-        (self.speed * deep_s > AFAR * self.width_m()).then_some(deep_s)
+        self.deeper_s(DEEP * self.width_m(), band_m, work).filter(|deep_s| self.is_from_afar(*deep_s))
     }
 
     /// Between a time at which they are apart and one at which they overlap, as far as the band tells.
@@ -310,7 +315,7 @@ impl<'a> Way<'a> {
     /// end of the step: arms from one point as the step begins, so that momentum is kept, the lighter body's as it will
     /// be; gaps such that at the end of the step none is left below zero.
     pub fn points(&self, meet_s: f64, points: &mut Vec<Contact>, work: &mut Work) {
-        let is_smooth = self.solids.iter().all(|(solid, _)| solid.is_smooth()) && !self.is_through(meet_s);
+        let is_smooth = self.solids.iter().all(|(solid, _)| solid.is_smooth()) && !self.is_deep(meet_s);
         let is_same_axis = |work: &mut Work| {
             let [met, ended] = [meet_s, self.step_s].map(|time_s| self.apart(time_s, work).normal);
             met.dot(&ended) > SAME_AXIS

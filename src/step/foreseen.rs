@@ -190,7 +190,7 @@ impl Foreseen {
             changed |= self.judge(model, state, scratch, (approach, step_s));
         }
         if !changed {
-            self.watch_what_turns(model, state, scratch, step_s);
+            self.watch_what_turns(model, state, scratch, (approach, step_s));
         }
         self.is_given_up = changed && self.round == MOST;
         if changed && !self.is_given_up {
@@ -299,7 +299,10 @@ impl Foreseen {
                 }
                 continue;
             };
-            if !doubt.is_imposed && way.is_hit(meet_s) && !*is_whole {
+            // What is inside at the middle of a step is sent back from there, unless it is through by then.
+            let is_half_way = approach == Approach::Middle;
+            let is_far = if is_half_way { way.is_through(meet_s) } else { way.is_deep(meet_s) };
+            if !doubt.is_imposed && way.is_from_afar(meet_s) && is_far && !*is_whole {
                 note_earlier(hit_s, meet_s);
                 continue;
             }
@@ -314,8 +317,7 @@ impl Foreseen {
             if is_same || (doubt.is_imposed && *round >= SETTLING) {
                 continue;
             }
-            // What bounces at the middle of a step waits until it is inside: not if it would be through by then.
-            if approach == Approach::Middle && way.is_through(meet_s) {
+            if is_half_way && is_far {
                 points.iter_mut().filter(|point| point.restitution > 0.0).for_each(|point| point.gap_m = 0.0);
             }
             doubt.points.clone_from(points);
@@ -327,12 +329,20 @@ impl Foreseen {
 
     /// Bodies that turn too far beside each other for their way to be known, and pairs that are asked to stay apart
     /// where they meet, and turn through each other elsewhere.
-    fn watch_what_turns(&mut self, model: &Model, state: &State, scratch: &mut Scratch, step_s: f64) {
+    fn watch_what_turns(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scratch: &mut Scratch,
+        (approach, step_s): (Approach, f64),
+    ) {
         for doubt in self.doubts.list() {
             let moving = doubt.pair.map(|i| moving(scratch, i));
             let work = &mut scratch.work;
             let Some(way) = Way::new(model, state, doubt.pair, moving, step_s) else { continue };
-            let turned_s = way.turned_s().or_else(|| doubt.is_imposed.then(|| way.deep_s(work)).flatten());
+            let is_far = if approach == Approach::Middle { way.is_through(0.0) } else { way.is_deep(0.0) };
+            let deep_s = || (doubt.is_imposed && is_far).then(|| way.deep_s(work)).flatten();
+            let turned_s = way.turned_s().or_else(deep_s);
             turned_s.into_iter().for_each(|turned_s| note_earlier(&mut self.turned_s, turned_s));
         }
     }

@@ -20,8 +20,8 @@ use crate::collide::{Contact, Key, SolvedContact};
 use crate::deadline::Deadline;
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
 use crate::integrate::rotation::{exponential, w_from_momentum};
-use crate::model::Model;
 use crate::model::pins::Pin as Joint;
+use crate::model::{Body, Model};
 use crate::plan::Plan;
 use crate::solve::Impulse;
 use crate::solve::gauss_seidel::{Sweeps, Variant};
@@ -30,12 +30,15 @@ use crate::solve::position::Push;
 use crate::solve::problem::ContactProblem;
 use crate::solve::solver::ContactSolver;
 use crate::solve::twist::Twist;
-use crate::state::State;
+use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
 /// Of the greatest friction: what is below it sticks.
 const STUCK: f64 = 1.0 - 1e-9;
 
+/// A way in a step, of the least width of all bodies, or a turn in radians, from which bodies are looked at before a
+/// step whose kick is half-way.
+const FAST: f64 = 0.25;
 /// Most cuts of a step of the clock.
 const MOST_PARTS: u32 = 1_000;
 
@@ -57,6 +60,8 @@ pub struct TimeStepping {
     parts: u32,
     /// Time from the start of the next one to its kick, if bodies hit each other before its middle.
     before_s: Option<f64>,
+    /// Least width of all bodies.
+    width_m: f64,
     /// Length of the last step.
     pub(super) made_s: f64,
     pins: Vec<Pin>,
@@ -95,6 +100,7 @@ impl TimeStepping {
             left_s: None,
             parts: 0,
             before_s: None,
+            width_m: f64::INFINITY,
             made_s: 0.0,
             pins: Vec::new(),
             last_pins: Vec::new(),
@@ -114,14 +120,16 @@ impl TimeStepping {
     /// A step of the clock, or a part of it: up to where bodies hit each other that would be through by its end. What
     /// is left of a step goes on with a kick at its start, whatever the scheme.
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
+        if state.step == 0 {
+            let widths_m = model.bodies.iter().filter_map(|body| Some(body.solid()?.0.least_width_m()));
+            self.width_m = widths_m.fold(f64::INFINITY, f64::min);
+        }
         let left_s = self.left_s.unwrap_or(clock.step_s);
         let mut before_s = 0.0;
-        self.approach = if self.parts == 0 { self.scheme } else { Approach::Start };
+        let is_half_way = self.parts == 0 && self.scheme == Approach::Middle && !self.is_hit(model, state, left_s);
+        self.approach = if is_half_way { Approach::Middle } else { Approach::Start };
         self.blow.iter_mut().for_each(|blow| blow.approach = self.approach);
         if self.approach == Approach::Middle {
-            if state.step == 0 {
-                self.before_s = self.hit_s(model, state, left_s / 2.0);
-            }
             before_s = self.before_s.take().map_or(left_s / 2.0, |hit_s| hit_s.min(left_s / 2.0));
         }
         drift(model, state, before_s, &mut self.scratch.work);
@@ -178,15 +186,24 @@ impl TimeStepping {
         }
     }
 
-    /// The time at which bodies hit each other on their way to the first kick, which no step before has seen.
-    fn hit_s(&mut self, model: &Model, state: &State, before_s: f64) -> Option<f64> {
+    /// Whether bodies that are fast hit each other in the step, or turn too far beside each other: a kick half-way would
+    /// come too late, or too seldom.
+    fn is_hit(&mut self, model: &Model, state: &State, step_s: f64) -> bool {
+        let is_fast = |(body, at): (&Body, &BodyState)| {
+            let turns = if body.is_centred_ball() { 0.0 } else { at.w_WB.norm() };
+            let way_m = step_s * (at.v_WB.norm() + turns * body.bounding_radius_m);
+            body.solid().is_some() && (way_m > FAST * self.width_m || step_s * turns > FAST)
+        };
+        if !model.touching_pairs || !model.bodies.iter().zip(&state.bodies).any(is_fast) {
+            return false;
+        }
         self.scratch.free_velocities(model, state, 0.0);
-        self.foreseen.look(model, state, &mut self.scratch, &self.last, before_s);
+        self.foreseen.look(model, state, &mut self.scratch, &self.last, step_s);
         self.scratch.found.clear();
         self.scratch.response.clear();
         self.scratch.response.resize(model.bodies.len(), Twist::ZERO);
-        self.foreseen.revise(model, state, &mut self.scratch, (self.approach, before_s));
-        self.foreseen.cut_s(before_s)
+        self.foreseen.revise(model, state, &mut self.scratch, (Approach::Middle, step_s));
+        self.foreseen.cut_s(step_s).is_some()
     }
 
     fn solve_rounds(&mut self, model: &Model, state: &State, step_s: f64, ahead_s: f64) {

@@ -186,8 +186,8 @@ impl TimeStepping {
         }
     }
 
-    /// Whether bodies that are fast hit each other in the step, or turn too far beside each other: a kick half-way would
-    /// come too late, or too seldom.
+    /// Whether bodies that are fast hit each other in the step, or turn too far beside each other: a kick half-way
+    /// would come too late, or too seldom.
     fn is_hit(&mut self, model: &Model, state: &State, step_s: f64) -> bool {
         let is_fast = |(body, at): (&Body, &BodyState)| {
             let turns = if body.is_centred_ball() { 0.0 } else { at.w_WB.norm() };

@@ -21,9 +21,7 @@ impl Ahead<'_> {
     /// The way of a body's points beside its centre's free way.
     fn beside_m(&self, body: usize) -> f64 {
         let [_, w] = (self.free)(body);
-        let of = &self.model.bodies[body];
-        let turning_m = if of.is_centred_ball() { 0.0 } else { self.step_s * w.norm() * of.bounding_radius_m };
-        turning_m + self.slack_m[body]
+        self.step_s * self.model.bodies[body].turning_m_s(&w) + self.slack_m[body]
     }
 
     fn margin_m(&self, body: usize) -> f64 {

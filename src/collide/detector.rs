@@ -4,10 +4,10 @@ use super::ahead::Ahead;
 use super::broad::{Bounds, Broad};
 use super::doubt::Doubts;
 use super::limits::{Limits, Reach};
-use super::two::{of_pair, pose};
+use super::two::of_pair;
 use super::{Contact, faces};
 use crate::model::surface::Surface;
-use crate::model::{Body, Model};
+use crate::model::{Body, Model, pose_of_solid};
 use crate::shape::pair::{Apart, touches};
 use crate::shape::solid::Meeting;
 use crate::state::State;
@@ -121,7 +121,7 @@ impl Detector {
             work.contact_tests += 1;
             self.touches.clear();
             let limit_m = limits.pair_m(pair);
-            let (pose_a, pose_b) = (pose(centre_a, at[0]), pose(centre_b, at[1]));
+            let (pose_a, pose_b) = (pose_of_solid(centre_a, at[0]), pose_of_solid(centre_b, at[1]));
             let apart = touches(solid_a, &pose_a, solid_b, &pose_b, limit_m, &mut self.touches);
             visit(pair, &self.touches, apart, limit_m);
         }

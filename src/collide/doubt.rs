@@ -12,16 +12,15 @@
 
 use super::Contact;
 use super::closed::{closed_m, unresolved_m};
-use super::two::{of_pair, pose};
-use crate::model::{Body, Model};
+use super::two::of_pair;
+use crate::model::{Model, pose_of_solid};
+use crate::shape::band::BAND;
 use crate::shape::pair::{Apart, along, apart, touches};
 use crate::shape::solid::{Meeting, Pose, Solid};
 use crate::state::{BodyState, State};
 use crate::work::Work;
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// Band of separations that count alike, of the smaller body's bounding radius: what overlaps by less is apart.
-const BAND: f64 = 1e-9;
 /// Shortest advance, of the thinner body's least width: what overlaps for a shorter way does not meet.
 const LEAST: f64 = 0.02;
 /// Of that width: how deep a motion along an arc may lead beside its chord.
@@ -113,7 +112,7 @@ fn smaller_m(model: &Model, pair: [usize; 2]) -> f64 {
     pair.map(|i| model.bodies[i].bounding_radius_m).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Overlap up to which two bodies are apart.
+/// Overlap up to which two bodies are apart: the band within which separations count alike.
 pub fn band_m(model: &Model, pair: [usize; 2], at: &BodyState) -> f64 {
     BAND * smaller_m(model, pair) + unresolved_m(at.p_WB.amax() + model.bodies[pair[0]].bounding_radius_m)
 }
@@ -143,10 +142,7 @@ impl<'a> Way<'a> {
         step_s: f64,
     ) -> Option<Self> {
         let [Some(solid_a), Some(solid_b)] = pair.map(|i| model.bodies[i].solid()) else { return None };
-        let turning = |k: usize| {
-            let body: &Body = &model.bodies[pair[k]];
-            if body.is_centred_ball() { 0.0 } else { moving[k][1].norm() * body.bounding_radius_m }
-        };
+        let turning = |k: usize| model.bodies[pair[k]].turning_m_s(&moving[k][1]);
         let speed = (moving[0][0] - moving[1][0]).norm() + turning(0) + turning(1);
         let free = [0, 1].map(|k| model.bodies[pair[k]].torque_free(&state.bodies[pair[k]], &moving[k][1]));
         Some(Way { model, state, pair, solids: [solid_a, solid_b], moving, turning: free, step_s, speed })
@@ -167,7 +163,7 @@ impl<'a> Way<'a> {
     }
 
     fn poses(&self, time_s: f64) -> [Pose; 2] {
-        [0, 1].map(|k| pose(self.solids[k].1, &self.at(k, time_s)))
+        [0, 1].map(|k| pose_of_solid(self.solids[k].1, &self.at(k, time_s)))
     }
 
     fn apart(&self, time_s: f64, work: &mut Work) -> Apart {

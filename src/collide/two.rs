@@ -3,9 +3,8 @@
 use super::Contact;
 use crate::model::Model;
 use crate::model::surface::Surface;
-use crate::shape::solid::{Meeting, Pose};
-use crate::state::{BodyState, State};
-use nalgebra::Vector3;
+use crate::shape::solid::Meeting;
+use crate::state::State;
 
 /// A point of contact of two bodies as they stand.
 pub(super) fn of_pair(model: &Model, state: &State, pair: [usize; 2], touch: &Meeting) -> Contact {
@@ -23,9 +22,4 @@ pub(super) fn of_pair(model: &Model, state: &State, pair: [usize; 2], touch: &Me
         restitution,
         tangential_restitution,
     }
-}
-
-/// Pose of a body's solid, whose centre lies so far from the centre of mass in body axes.
-pub(super) fn pose(centre: &Vector3<f64>, at: &BodyState) -> Pose {
-    Pose { p_W: at.p_WB + at.q_WB * centre, q_W: at.q_WB }
 }

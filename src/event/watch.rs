@@ -18,7 +18,7 @@ use crate::collide::closed::delta_m;
 use crate::collide::faces;
 use crate::deadline::Deadline;
 use crate::model::container::Face;
-use crate::model::{Body, Geometry, Model};
+use crate::model::{Body, Geometry, Model, pose_of_solid};
 use crate::shape::band::{Along, BAND, touches_beside};
 use crate::shape::cylinder::FLAT;
 use crate::shape::solid::{Meeting as Found, Pose, Solid};
@@ -377,7 +377,7 @@ impl<'a> Two<'a> {
         let at = self.pair.map(|i| self.paths.at(i, t_s));
         work.contact_tests += 1;
         let speeds = [0, 1].map(|k| speed_m_s(self.paths.model, self.bodies[k], &at[k]));
-        let pose = |k: usize| Pose { p_W: at[k].p_WB + at[k].q_WB * self.centres[k], q_W: at[k].q_WB };
+        let pose = |k: usize| pose_of_solid(self.centres[k], &at[k]);
         Now {
             at,
             poses: [0, 1].map(pose),

@@ -10,7 +10,7 @@ use super::forces::{Gathered, NO_SLIP, meeting_m_s};
 use super::touch::Touch;
 use crate::collide::Contact;
 use crate::collide::closed::is_closed_to_delta;
-use crate::model::Model;
+use crate::model::{Model, pose_of_solid};
 use crate::shape::band::{Along, axes, band_m, touches_beside};
 use crate::shape::solid::{Meeting, Pose, Solid};
 use crate::solve::twist::Twist;
@@ -64,8 +64,7 @@ fn posed<'a>(model: &'a Model, pair: [usize; 2], at: [&BodyState; 2]) -> Option<
     let [Some((solid_a, centre_a)), Some((solid_b, centre_b))] = pair.map(|i| model.bodies[i].solid()) else {
         return None;
     };
-    let pose = |at: &BodyState, centre: &Vector3<f64>| Pose { p_W: at.p_WB + at.q_WB * centre, q_W: at.q_WB };
-    Some([(solid_a, pose(at[0], centre_a)), (solid_b, pose(at[1], centre_b))])
+    Some([(solid_a, pose_of_solid(centre_a, at[0])), (solid_b, pose_of_solid(centre_b, at[1]))])
 }
 
 /// Contact at a point, of the bodies and surfaces of another one.

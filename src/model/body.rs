@@ -3,7 +3,7 @@
 use super::loads::Drag;
 use super::surface::Surface;
 use crate::shape::mesh::TetMesh;
-use crate::shape::solid::Solid;
+use crate::shape::solid::{Pose, Solid};
 use crate::state::BodyState;
 use nalgebra::{Matrix3, Vector3};
 
@@ -50,7 +50,18 @@ impl Geometry {
     }
 }
 
+/// Pose of a body's solid, whose centre lies so far from the centre of mass in body axes.
+pub fn pose_of_solid(centre_B: &Vector3<f64>, at: &BodyState) -> Pose {
+    Pose { p_W: at.p_WB + at.q_WB * centre_B, q_W: at.q_WB }
+}
+
 impl Body {
+    /// Greatest speed of its points against its centre of mass at an angular velocity, in m/s; a ball about its centre
+    /// looks the same however it turns.
+    pub fn turning_m_s(&self, w_WB: &Vector3<f64>) -> f64 {
+        if self.is_centred_ball() { 0.0 } else { w_WB.norm() * self.bounding_radius_m }
+    }
+
     /// Inertia in the world, I = R ᴼI Rᵀ (L10; the slide prints Rᵀ ᴼI R).
     pub fn I_W(&self, state: &BodyState) -> Matrix3<f64> {
         self.turned(&self.I_B, state)

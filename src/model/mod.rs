@@ -13,5 +13,5 @@ mod model;
 pub mod pins;
 pub mod surface;
 
-pub use body::{Body, Geometry};
+pub use body::{Body, Geometry, pose_of_solid};
 pub use model::Model;

@@ -43,9 +43,8 @@ pub fn axes(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose) -> Vec<Along> {
     if is_smooth(a) || is_smooth(b) || (is_capsule(a) && is_capsule(b)) {
         return Vec::new();
     }
-    let origin_W = pose_b.p_W;
-    let [a, b] = [Placed::new(a, pose_a, &origin_W), Placed::new(b, pose_b, &origin_W)];
-    Axes { a: &a, b: &b, origin_W }.within(band_m(a.solid, b.solid))
+    let [a, b] = Placed::pair(a, pose_a, b, pose_b);
+    Axes { a: &a, b: &b, origin_W: pose_b.p_W }.within(band_m(a.solid, b.solid))
 }
 
 /// Adds the points of two solids whose gap is below the margin, as `pair::touches`; but what is round and beside a face
@@ -61,9 +60,8 @@ pub fn touches_beside(
     let is_round = |solid: &Solid| matches!(solid, Solid::Capsule { .. } | Solid::Cylinder { .. });
     let has_corners = |solid: &Solid| matches!(solid, Solid::Box { .. } | Solid::Convex(_));
     if (is_round(a) && has_corners(b)) || (is_round(b) && has_corners(a)) {
-        let origin_W = pose_b.p_W;
-        let [a, b] = [Placed::new(a, pose_a, &origin_W), Placed::new(b, pose_b, &origin_W)];
-        let axes = Axes { a: &a, b: &b, origin_W };
+        let [a, b] = Placed::pair(a, pose_a, b, pose_b);
+        let axes = Axes { a: &a, b: &b, origin_W: pose_b.p_W };
         if let Some(n) = axes.beside() {
             out.extend(axes.of_lines(&n).into_iter().filter(|meeting| meeting.gap_m < margin_m));
             return true;

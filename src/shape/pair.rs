@@ -40,10 +40,9 @@ pub fn touches(
         out.extend((apart.gap_m < margin_m).then_some(meeting));
         return Some(apart);
     }
-    let origin_W = pose_b.p_W;
-    let placed = [Placed::new(a, pose_a, &origin_W), Placed::new(b, pose_b, &origin_W)];
+    let placed = Placed::pair(a, pose_a, b, pose_b);
     let (axis, otherwise, apart) = of_cores(&placed, reach_m);
-    let mut collect = Collect { placed: &placed, origin_W, margin_m, visited: false, out };
+    let mut collect = Collect { placed: &placed, origin_W: pose_b.p_W, margin_m, visited: false, out };
     if apart.gap_m < margin_m {
         collect.all(&axis, &otherwise, reach_m);
     }
@@ -55,15 +54,12 @@ pub fn apart(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose) -> Apart {
     if let Some((apart, _)) = of_any_sphere(a, pose_a, b, pose_b) {
         return apart;
     }
-    let origin_W = pose_b.p_W;
-    let placed = [Placed::new(a, pose_a, &origin_W), Placed::new(b, pose_b, &origin_W)];
-    of_cores(&placed, a.bounding_radius_m() + b.bounding_radius_m()).2
+    of_cores(&Placed::pair(a, pose_a, b, pose_b), a.bounding_radius_m() + b.bounding_radius_m()).2
 }
 
 /// Separation of two solids along a unit direction from b to a, in metres.
 pub fn along(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose, normal: &Vector3<f64>) -> f64 {
-    let origin_W = pose_b.p_W;
-    let [a, b] = [Placed::new(a, pose_a, &origin_W), Placed::new(b, pose_b, &origin_W)];
+    let [a, b] = Placed::pair(a, pose_a, b, pose_b);
     separation(&a, &b, normal) - a.radius_m() - b.radius_m()
 }
 

@@ -23,6 +23,11 @@ impl<'a> Placed<'a> {
         Placed { solid, p: pose.p_W - origin_W, R: pose.q_W.to_rotation_matrix().into_inner() }
     }
 
+    /// Two solids about the centre of the second.
+    pub fn pair(a: &'a Solid, pose_a: &Pose, b: &'a Solid, pose_b: &Pose) -> [Self; 2] {
+        [Placed::new(a, pose_a, &pose_b.p_W), Placed::new(b, pose_b, &pose_b.p_W)]
+    }
+
     /// Radius of the ball around the core.
     pub fn radius_m(&self) -> f64 {
         match self.solid {

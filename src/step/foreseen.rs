@@ -101,6 +101,11 @@ fn moving(Scratch { free, response, .. }: &Scratch, body: usize) -> [Vector3<f64
     [free.v + u.v, free.w + u.w]
 }
 
+/// How far a gap opens in the step, in metres.
+fn opens_m(scratch: &Scratch, contact: &Contact, step_s: f64) -> f64 {
+    step_s * contact.normal.dot(&contact.velocity(|i| moving(scratch, i)))
+}
+
 impl Foreseen {
     /// With room for so many contacts and bodies, so that no step allocates.
     pub(super) fn with_capacity(contacts: usize, bodies: usize) -> Self {
@@ -230,11 +235,10 @@ impl Foreseen {
 
     /// Contacts that were left out and close by what the others do.
     fn ask_what_closes(&mut self, model: &Model, scratch: &Scratch, step_s: f64) -> bool {
-        let velocity = |i: usize| moving(scratch, i);
         let mut changed = false;
         for (contact, may_close) in self.contacts.iter().zip(&mut self.may_close).filter(|(_, may_close)| !**may_close)
         {
-            let end_m = contact.gap_m + step_s * contact.normal.dot(&contact.velocity(velocity));
+            let end_m = contact.gap_m + opens_m(scratch, contact, step_s);
             if end_m < -rounding_m(model, contact) {
                 *may_close = true;
                 changed = true;
@@ -247,10 +251,8 @@ impl Foreseen {
     fn measure_depths(&mut self, model: &Model, scratch: &Scratch, step_s: f64) {
         self.depths.clear();
         self.depths.resize(model.bodies.len(), Depth::default());
-        let velocity = |i: usize| moving(scratch, i);
         for contact in &scratch.found {
-            let moved_m = step_s * contact.normal.dot(&contact.velocity(velocity));
-            let depth_m = -(contact.gap_m + moved_m.min(0.0));
+            let depth_m = -(contact.gap_m + opens_m(scratch, contact, step_s).min(0.0));
             if depth_m > 0.0 {
                 let other = contact.other;
                 self.depths[contact.body].note(other, depth_m);

@@ -64,6 +64,7 @@ impl Lecture {
             let settled = iterate(&s.problem, &sweeps, &mut s.impulses, &mut self.iteration, &mut s.work);
             self.is_cut = !settled && self.deadline.is_over();
         }
+        s.problem.response(&s.impulses, &mut s.response);
         s.take_solution();
     }
 }

@@ -62,7 +62,7 @@ impl Scratch {
         }));
     }
 
-    /// Contacts of this step with their impulses in world axes, and the response M⁻¹ Jᵀ p to just these.
+    /// Contacts of this step with their impulses in world axes.
     pub(super) fn take_solution(&mut self) {
         self.work.contacts += self.found.len() as u64;
         self.work.contact_solves += u64::from(!self.found.is_empty());
@@ -71,7 +71,6 @@ impl Scratch {
         self.solved.extend(
             solved.map(|((contact, block), p)| SolvedContact { contact: *contact, impulse_W: block.in_world(p) }),
         );
-        self.problem.response(&self.impulses, &mut self.response);
     }
 }
 

@@ -2,7 +2,9 @@
 //!
 //! A skip follows from a property that is checked, never from one mesh or scene, and changes no bit of the motion.
 
-use crate::experiment::types::{Approach, ContactModel, Facts, Impact, Method, PositionCorrection};
+use crate::experiment::types::{
+    Approach, ContactModel, Facts, Impact, Method, PositionCorrection, Solver, rule_of_auto,
+};
 use crate::model::Model;
 
 /// Stages of a run, decided once.
@@ -48,6 +50,7 @@ impl Plan {
             loads(model),
             pins(model),
         ];
+        stages.extend(facts.solver.map(|solver| contact_solver(solver, has_contact)));
         stages.extend(facts.follows_events.then(|| events(model)));
         stages.extend(facts.tolerance.filter(|_| facts.chooses).map(choice));
         let newton = method.impact() == Impact::Newton;
@@ -124,6 +127,17 @@ fn position_correction(by: Option<PositionCorrection>, contact: bool) -> Stage {
         Some(PositionCorrection::Projection) => stage(name, true, "only in steps that would end with a contact inside"),
         Some(PositionCorrection::None) => stage(name, false, "position_correction: none"),
         None => stage(name, false, "the method has none"),
+    }
+}
+
+fn contact_solver(solver: Solver, contact: bool) -> Stage {
+    let name = "contact solver";
+    match solver {
+        _ if !contact => stage(name, false, "no contact test"),
+        Solver::Auto => stage(name, true, rule_of_auto()),
+        Solver::Pgs | Solver::Nncg | Solver::Newton => {
+            stage(name, true, format!("{}: {}", solver.word(), solver.facts().about))
+        }
     }
 }
 

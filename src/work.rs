@@ -22,6 +22,16 @@ columns! {
         /// Contact solves that missed their tolerance. A method that has no tolerance to miss has none.
         #[serde(rename = "work_unsolved")]
         pub unsolved: u64,
+        /// Solves of the solver `auto`, of a step or of an island of it, for which the last step's impulses were taken as
+        /// they were.
+        #[serde(rename = "work_kept_solves")]
+        pub kept_solves: u64,
+        /// The same that it solved exactly.
+        #[serde(rename = "work_exact_solves")]
+        pub exact_solves: u64,
+        /// Islands that it left to an iteration.
+        #[serde(rename = "work_iterated_solves")]
+        pub iterated_solves: u64,
         /// Linear systems of an island's velocities that the exact contact solver (`newton`) solved.
         #[serde(rename = "work_newton_steps")]
         pub newton_steps: u64,

@@ -73,7 +73,7 @@ fn no_step_allocates() {
         "{lecture: {iteration: jacobi}}",
         "{lecture: {correction: per-contact, rotation: momentum}}",
         "{penalty: {stiffness_n_m: 1e4}}",
-        "{time-stepping: {local: exact, order: shuffled, relaxation: 0.5, contacts_per_face: 4}}",
+        "{time-stepping: {solver: pgs, local: exact, order: shuffled, relaxation: 0.5, contacts_per_face: 4}}",
     ];
     for method in with_solver.chain(others.map(String::from)) {
         for mesh in ["nodes_per_edge: 2", "nodes_per_edge: 5"] {

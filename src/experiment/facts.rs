@@ -4,6 +4,7 @@ use super::accuracy::Accuracy;
 use super::checks::Result;
 use super::integrator::Integrator;
 use super::key_path::Path;
+use super::solver::Solver;
 use super::variants::{Impact, PositionCorrection};
 use serde::Serialize;
 
@@ -34,6 +35,8 @@ pub struct Facts {
     pub gyroscopic: bool,
     /// Position correction; None where the method has no such setting.
     pub position_correction: Option<PositionCorrection>,
+    /// Contact solver; None where the method has no choice of them.
+    pub solver: Option<Solver>,
     /// Integrator of the method. The integrators are methods of their own below it: they say its accuracy, and their
     /// word its name.
     pub integrator: Option<Integrator>,

@@ -158,6 +158,7 @@ impl MethodSettings for Free {
             tangents_anyway: None,
             gyroscopic: true,
             position_correction: None,
+            solver: None,
             integrator: Some(self.integrator),
         }
     }
@@ -245,6 +246,7 @@ impl MethodSettings for Lecture {
             tangents_anyway: Some("the lecture corrects after the sweep: tangent rows are felt inside it"),
             gyroscopic: self.rotation != Rotation::Literal,
             position_correction: None,
+            solver: None,
             integrator: None,
         }
     }
@@ -294,6 +296,7 @@ impl MethodSettings for Penalty {
             tangents_anyway: None,
             gyroscopic: self.rotation != Rotation::Literal,
             position_correction: None,
+            solver: None,
             integrator: None,
         }
     }
@@ -355,7 +358,7 @@ fn is_one(x: &f64) -> bool {
 impl Default for TimeStepping {
     fn default() -> Self {
         TimeStepping {
-            solver: Solver::Pgs,
+            solver: Solver::Auto,
             scheme: Scheme::SemiImplicit,
             impact: Impact::Newton,
             sweeps: None,
@@ -363,16 +366,16 @@ impl Default for TimeStepping {
             position_correction: PositionCorrection::Projection,
             local: Local::Common,
             relaxation: 1.0,
-            order: Order::Fixed,
+            order: Order::ForthAndBack,
             contacts_per_face: None,
         }
     }
 }
 
 impl TimeStepping {
-    /// Most sweeps of a step: those given, or the solver's own.
-    pub fn sweeps(&self) -> u32 {
-        self.sweeps.unwrap_or(self.solver.facts().sweeps)
+    /// Most sweeps of a step: those given, or the solver's own; none: the solver counts for itself.
+    pub fn sweeps(&self) -> Option<u32> {
+        self.sweeps.or(self.solver.facts().sweeps)
     }
 
     /// Tolerance of the solver: the one given, or the solver's own.
@@ -380,8 +383,18 @@ impl TimeStepping {
         self.tolerance.unwrap_or(self.solver.facts().tolerance)
     }
 
-    /// Settings of sweeps mean nothing to a solver of all contacts at once.
+    /// Settings of sweeps mean nothing to a solver of all contacts at once, nor their number to one that counts for
+    /// itself.
     fn only_what_the_solver_reads(&self, at: Path) -> Result<()> {
+        if self.sweeps.is_some() && self.solver.facts().sweeps.is_none() {
+            let counted = Solver::ALL.iter().filter(|solver| solver.facts().sweeps.is_some());
+            let expected = format!(
+                "nothing, as the solver `{}` counts for itself ({} take a number of sweeps)",
+                self.solver.word(),
+                listed(counted.map(|solver| solver.word()))
+            );
+            return Err(unexpected(at.key("sweeps"), &expected, "a number of sweeps"));
+        }
         let TimeStepping { local, relaxation, order, .. } = Default::default();
         let given = [
             ("local", self.local != local),
@@ -424,6 +437,7 @@ impl MethodSettings for TimeStepping {
             tangents_anyway: None,
             gyroscopic: true,
             position_correction: Some(self.position_correction),
+            solver: Some(self.solver),
             integrator: None,
         }
     }
@@ -442,7 +456,7 @@ impl MethodSettings for TimeStepping {
 
     fn unless_set(&self, setting: &str) -> String {
         match setting {
-            "sweeps" => Solver::default_of(|solver| solver.sweeps.to_string()),
+            "sweeps" => Solver::default_of(|solver| solver.sweeps.map_or("its own".to_string(), |most| most.to_string())),
             "tolerance" => Solver::default_of(|solver| format!("{:e}", solver.tolerance)),
             _ => "all".to_string(),
         }
@@ -489,6 +503,7 @@ impl MethodSettings for EventDriven {
             tangents_anyway: None,
             gyroscopic: true,
             position_correction: None,
+            solver: None,
             integrator: None,
         }
     }

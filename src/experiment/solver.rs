@@ -7,6 +7,8 @@ use strum::{IntoStaticStr, VariantArray};
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Solver {
+    /// The exact one where it is affordable, else the best iteration: for each island, in each step, by counts.
+    Auto,
     /// Projected Gauss–Seidel, disc per contact.
     Pgs,
     /// Nonlinear conjugate gradients: the sweeps of `pgs` as gradients.
@@ -15,11 +17,26 @@ pub enum Solver {
     Newton,
 }
 
+/// Products of 6×6 blocks that the factors of an island's linear system may take for `auto` to solve it exactly, and
+/// bodies that it may have: a stack of 1000 cubes takes 10³, a pile of 1000 about 10⁵. Beyond, the exact solution
+/// takes seconds a step.
+pub const AFFORDABLE_PRODUCTS: usize = 200_000;
+pub const AFFORDABLE_BODIES: usize = 5_000;
+
+/// The rule of `auto`, for people.
+pub fn rule_of_auto() -> String {
+    format!(
+        "auto: impulses of the last step that meet the tolerance still are taken as they are; else an island whose \
+         linear system has at most {AFFORDABLE_BODIES} bodies and takes at most {AFFORDABLE_PRODUCTS} products of \
+         6×6 blocks is solved exactly (newton), any other by nncg"
+    )
+}
+
 /// Facts of a solver, whatever the contacts.
 #[derive(Clone, Copy, Debug)]
 pub struct SolverFacts {
-    /// Most sweeps of a step, where `sweeps` is not given.
-    pub sweeps: u32,
+    /// Most sweeps of a step, where `sweeps` is not given; none: the solver counts for itself.
+    pub sweeps: Option<u32>,
     /// Tolerance, where `tolerance` is not given.
     pub tolerance: f64,
     /// Whether the solver goes from contact to contact: `local`, `relaxation` and `order` say how.
@@ -43,9 +60,10 @@ impl Solver {
     /// met even where 400 contacts share a force or masses are 1 : 10⁶, and it mostly ends at 1e-15.
     pub fn facts(self) -> SolverFacts {
         let (sweeps, tolerance, by_contact, allocates, about) = match self {
-            Solver::Pgs => (50, 1e-12, true, false, "projected Gauss–Seidel"),
-            Solver::Nncg => (50, 1e-12, true, false, "its conjugate gradients"),
-            Solver::Newton => (500, 1e-10, false, true, "the exact law of contact"),
+            Solver::Auto => (None, 1e-10, false, true, "the exact solver where it is affordable"),
+            Solver::Pgs => (Some(50), 1e-12, true, false, "projected Gauss–Seidel"),
+            Solver::Nncg => (Some(50), 1e-12, true, false, "its conjugate gradients"),
+            Solver::Newton => (Some(500), 1e-10, false, true, "the exact law of contact"),
         };
         SolverFacts { sweeps, tolerance, by_contact, allocates, about }
     }

@@ -12,7 +12,7 @@ pub use super::limits::{Limits, ReferenceRun};
 pub use super::loads::*;
 pub use super::method::*;
 pub use super::scene::*;
-pub use super::solver::{Solver, SolverFacts};
+pub use super::solver::{AFFORDABLE_BODIES, AFFORDABLE_PRODUCTS, Solver, SolverFacts, rule_of_auto};
 pub use super::variants::*;
 use crate::clock::Clock;
 use serde::{Deserialize, Serialize};

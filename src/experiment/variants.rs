@@ -129,8 +129,11 @@ pub enum Local {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Order {
-    /// Order of the contact test.
+    /// Order of the contact test, every other sweep backwards: what a sweep prefers the next one takes back, and a
+    /// stack leans less.
     #[default]
+    ForthAndBack,
+    /// Order of the contact test.
     Fixed,
     /// Order that is another one every sweep, the same in every step.
     Shuffled,

@@ -23,6 +23,12 @@ pub struct Pattern {
 impl Pattern {
     /// Pattern of a number of bodies; `pairs` are those that are coupled.
     pub fn new(bodies: usize, pairs: impl Iterator<Item = (usize, usize)>) -> Self {
+        Pattern::within(bodies, pairs, usize::MAX).unwrap_or_default()
+    }
+
+    /// The same; None where factors take more products of blocks.
+    pub fn within(bodies: usize, pairs: impl Iterator<Item = (usize, usize)>, most_products: usize) -> Option<Self> {
+        let mut products = 0;
         let mut near = vec![std::collections::BTreeSet::new(); bodies];
         for (a, b) in pairs.filter(|(a, b)| a != b) {
             near[a].insert(b);
@@ -34,6 +40,10 @@ impl Pattern {
             let Some(body) = left.min_by_key(|body| near[*body].len()) else { break };
             place[body] = now;
             let front = std::mem::take(&mut near[body]);
+            products += front.len() * (front.len() + 1);
+            if products > most_products {
+                return None;
+            }
             for a in &front {
                 near[*a].remove(&body);
                 near[*a].extend(front.iter().filter(|b| *b != a));
@@ -52,7 +62,12 @@ impl Pattern {
         };
         let first: Vec<usize> = later.iter().scan(0, before).collect();
         let blocks = later.iter().map(Vec::len).sum();
-        Pattern { place, later, first, blocks }
+        Some(Pattern { place, later, first, blocks })
+    }
+
+    /// Whether it is that of so many bodies.
+    pub fn has_bodies(&self, bodies: usize) -> bool {
+        self.place.len() == bodies
     }
 
     /// Place of the block of places i < j.

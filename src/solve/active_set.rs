@@ -12,6 +12,10 @@ use super::law::{self, Law, Place};
 use nalgebra::{Matrix3, RowVector3, Vector3};
 
 const ETA: f64 = 1e-8;
+const LARGEST_ETA: f64 = 1e-2;
+
+/// Some units of rounding of a velocity, of what residuals are compared with.
+const NOISE: f64 = 1e-15;
 
 /// Steps without an improvement before it is given up, and after the tolerance is met.
 const PATIENCE: usize = 6;
@@ -23,6 +27,23 @@ const ROUNDING: f64 = 1e-14;
 
 /// Improves `p`, or leaves it. Its residual.
 pub fn improve(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
+    improve_with(|_| ETA, island, p, tolerance, steps)
+}
+
+/// The same from impulses that are near already. What rounds a velocity is felt as 1/η of it in impulses that redundant
+/// contacts share, and pushes those at the side of their cone out of it: η is so large that this is less than what is
+/// to be mended.
+pub fn improve_near(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
+    improve_with(|residual| (NOISE / residual).clamp(ETA, LARGEST_ETA), island, p, tolerance, steps)
+}
+
+fn improve_with(
+    eta: impl Fn(f64) -> f64,
+    island: &Island,
+    p: &mut Vec<Impulse>,
+    tolerance: f64,
+    steps: &mut u64,
+) -> f64 {
     let mut best = island.residual(p);
     let (mut now, mut worse) = (p.clone(), 0);
     for _ in 0..MOST {
@@ -30,7 +51,7 @@ pub fn improve(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mu
             break;
         }
         *steps += 1;
-        let Some(next) = step(island, &now, false) else { break };
+        let Some(next) = step(island, &now, Some(eta(best))) else { break };
         now = next;
         let residual = island.residual(&now);
         if residual < best {
@@ -56,7 +77,7 @@ pub fn even(island: &Island, p: &mut Vec<Impulse>, rounds: usize, tolerance: f64
     let mut residual = island.residual(p);
     for _ in 0..rounds {
         *steps += 1;
-        let Some(mut next) = step(island, p, true) else { break };
+        let Some(mut next) = step(island, p, None) else { break };
         let reached = improve(island, &mut next, tolerance, steps);
         if reached > residual.max(tolerance).max(island.rounding(&next)) {
             break;
@@ -88,18 +109,18 @@ struct Linear {
 }
 
 impl Linear {
-    fn new(touch: &Share, p: &Impulse, u: &Vector3<f64>) -> Self {
+    fn new(touch: &Share, p: &Impulse, u: &Vector3<f64>, eta: f64) -> Self {
         let friction = touch.law.friction();
         let normal = RowVector3::new(1.0, 0.0, 0.0);
         let stay = |K| Linear { jump: Impulse::zeros(), K, slips: false };
         match law::place(&(p - law::dual(u, touch.law)), touch.law) {
             Place::Tip => Linear { jump: -p, K: Matrix3::zeros(), slips: false },
-            _ if touch.law == Law::Pin => stay(Matrix3::identity() / ETA),
-            _ if friction == 0.0 => stay(normal.transpose() * normal / ETA),
-            Place::Inside => stay(Matrix3::identity() / ETA),
+            _ if touch.law == Law::Pin => stay(Matrix3::identity() / eta),
+            _ if friction == 0.0 => stay(normal.transpose() * normal / eta),
+            Place::Inside => stay(Matrix3::identity() / eta),
             Place::Side { t, .. } => {
                 let edge = law::edge(&t, friction);
-                let K = edge * normal / ETA + turning(p, u, &t, friction);
+                let K = edge * normal / eta + turning(p, u, &t, friction, eta);
                 Linear { jump: edge * p.x.max(0.0) - p, K, slips: true }
             }
         }
@@ -111,38 +132,41 @@ impl Linear {
         let normal = RowVector3::new(1.0, 0.0, 0.0);
         let slip = (u.y * u.y + u.z * u.z).sqrt();
         let t = match law::place(&(p - law::dual(u, touch.law)), touch.law) {
-            _ if touch.law == Law::Pin || friction == 0.0 => return Linear::new(touch, p, u),
+            _ if touch.law == Law::Pin || friction == 0.0 => return Linear::new(touch, p, u, ETA),
             // It touches without a force: it may have one.
-            Place::Tip if u.x > small || slip <= small => return Linear::new(touch, p, u),
+            Place::Tip if u.x > small || slip <= small => return Linear::new(touch, p, u, ETA),
             Place::Tip => Vector3::new(0.0, -u.y / slip, -u.z / slip),
             Place::Inside => return Linear { jump: -p, K: Matrix3::identity() / eta, slips: false },
             Place::Side { t, .. } => t,
         };
-        Linear { jump: -p, K: law::edge(&t, friction) * normal / eta + turning(p, u, &t, friction), slips: true }
+        Linear { jump: -p, K: law::edge(&t, friction) * normal / eta + turning(p, u, &t, friction, ETA), slips: true }
     }
 }
 
 /// Of what slips across: p turns with it.
-fn turning(p: &Impulse, u: &Vector3<f64>, t: &Vector3<f64>, friction: f64) -> Matrix3<f64> {
+fn turning(p: &Impulse, u: &Vector3<f64>, t: &Vector3<f64>, friction: f64, eta: f64) -> Matrix3<f64> {
     let across = law::across(t);
     let slip = (u.y * u.y + u.z * u.z).sqrt();
     let E = if p.x > 0.0 { slip / (friction * p.x) } else { f64::INFINITY };
-    across * across.transpose() / (E + ETA)
+    across * across.transpose() / (E + eta)
 }
 
-fn step(island: &Island, p: &[Impulse], even: bool) -> Option<Vec<Impulse>> {
-    let u = island.velocities(&island.pushed(p));
+/// `eta`: none, to even shares.
+fn step(island: &Island, p: &[Impulse], eta: Option<f64>) -> Option<Vec<Impulse>> {
+    let y = island.pushed(p);
+    let u = island.velocities(&y);
     let touches = || island.touches.iter().zip(p).zip(&u);
-    let linear: Vec<Linear> = if even {
-        let small = ROUNDING.sqrt() * island.scale(p);
+    let linear: Vec<Linear> = if let Some(eta) = eta {
+        touches().map(|((touch, p), u)| Linear::new(touch, p, u, eta)).collect()
+    } else {
+        let small = island.scales(p, &y).into_iter().map(|scale| ROUNDING.sqrt() * scale);
         let largest = island.touches.iter().map(|touch| touch.scale).fold(0.0, f64::max);
         let eta = |touch: &Share| {
             let part = touch.scale / largest;
             EVEN_ETA * part * part
         };
-        touches().map(|((touch, p), u)| Linear::even(touch, p, u, eta(touch), small / touch.scale)).collect()
-    } else {
-        touches().map(|((touch, p), u)| Linear::new(touch, p, u)).collect()
+        let even = |(((touch, p), u), small)| Linear::even(touch, p, u, eta(touch), small);
+        touches().zip(small).map(even).collect()
     };
     let K: Vec<Matrix3<f64>> = linear.iter().map(|linear| linear.K).collect();
     let at_rest: Vec<Impulse> = linear.iter().zip(&u).map(|(linear, u)| linear.jump - linear.K * u).collect();

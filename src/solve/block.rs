@@ -131,6 +131,11 @@ impl Block {
         self.frame[1] * v.y + self.frame[2] * v.z
     }
 
+    /// An impulse of world axes in the contact's.
+    pub fn in_frame(&self, impulse_W: &Vector3<f64>) -> Impulse {
+        Impulse::new(self.frame[0].dot(impulse_W), self.frame[1].dot(impulse_W), self.frame[2].dot(impulse_W))
+    }
+
     /// An impulse in world axes.
     pub fn in_world(&self, p: &Impulse) -> Vector3<f64> {
         self.frame[0] * p.x + self.frame[1] * p.y + self.frame[2] * p.z

@@ -45,6 +45,16 @@ impl End {
         End { body, rows }
     }
 
+    /// Distance of the contact from the centre of mass: Σ|r×e|² over three orthonormal e is 2 r².
+    pub(super) fn arm_m(&self) -> f64 {
+        (self.rows.iter().map(|row| row.j.w.norm_squared()).sum::<f64>() / 2.0).sqrt()
+    }
+
+    /// Trace of the body's part of J M⁻¹ Jᵀ.
+    pub(super) fn compliance(&self) -> f64 {
+        self.rows.iter().map(|row| row.along(&row.response)).sum()
+    }
+
     /// J u.
     pub(super) fn motion(&self, u: &Twist) -> Vector3<f64> {
         Vector3::new(self.rows[0].along(u), self.rows[1].along(u), self.rows[2].along(u))

@@ -8,6 +8,7 @@ use super::Impulse;
 use super::block::Block;
 use super::end::{End, Inertia};
 use super::law::{self, Law};
+use super::missed::{Acted, Speeds, relative};
 use super::problem::ContactProblem;
 use crate::deadline::Deadline;
 use crate::math::block_lu::{BlockMatrix, Factors, Pattern};
@@ -19,6 +20,10 @@ struct Side {
     /// Where the body's six numbers begin in y.
     at: usize,
     rows: Matrix3x6<f64>,
+    /// From the centre of mass to the contact.
+    arm_m: f64,
+    /// The body's part of the trace of the contact's block.
+    part: f64,
 }
 
 /// A contact without units.
@@ -40,6 +45,9 @@ pub struct Island {
     pub touches: Vec<Share>,
     /// Of y: six a body.
     pub unknowns: usize,
+    bodies: Vec<Mover>,
+    /// As `ContactProblem` has it.
+    cancelling: f64,
     pattern: Pattern,
     /// Nothing goes on later.
     pub deadline: Deadline,
@@ -47,6 +55,15 @@ pub struct Island {
 
 /// All islands that something can move, in the order of their first bodies; until when they may be worked on.
 pub fn islands(problem: &ContactProblem, deadline: Deadline) -> Vec<Island> {
+    let mut islands = islands_without_pattern(problem, deadline);
+    for island in &mut islands {
+        island.pattern = Pattern::new(island.unknowns / 6, island.touches.iter().filter_map(Share::pair));
+    }
+    islands
+}
+
+/// The same, none of which can make a linear system yet.
+pub fn islands_without_pattern(problem: &ContactProblem, deadline: Deadline) -> Vec<Island> {
     let whitened: Vec<Whitened> = problem.inertias.iter().map(Whitened::new).collect();
     let moves = |end: &&End| whitened[end.body].moves;
     let mut root_of: Vec<usize> = (0..whitened.len()).collect();
@@ -65,20 +82,24 @@ pub fn islands(problem: &ContactProblem, deadline: Deadline) -> Vec<Island> {
         let first = root(&root_of, body);
         if first == body {
             island_of[body] = islands.len();
-            islands.push(Island { touches: Vec::new(), unknowns: 0, pattern: Pattern::default(), deadline });
+            islands.push(Island {
+                touches: Vec::new(),
+                unknowns: 0,
+                bodies: Vec::new(),
+                cancelling: problem.cancelling,
+                pattern: Pattern::default(),
+                deadline,
+            });
         }
         let island = &mut islands[island_of[first]];
         at[body] = island.unknowns;
         island.unknowns += 6;
+        island.bodies.push(Mover { whitened: whitened[body], speeds: problem.speeds[body] });
     }
     for (index, block) in problem.blocks.iter().enumerate() {
         if let Some(end) = block.ends().find(moves) {
             islands[island_of[root(&root_of, end.body)]].touches.push(Share::new(index, block, &whitened, &at));
         }
-    }
-    for island in &mut islands {
-        let pairs = island.touches.iter().filter_map(Share::pair);
-        island.pattern = Pattern::new(island.unknowns / 6, pairs);
     }
     islands
 }
@@ -91,7 +112,15 @@ fn root(root_of: &[usize], mut body: usize) -> usize {
     body
 }
 
+/// A body of an island.
+#[derive(Clone, Copy, Debug)]
+struct Mover {
+    whitened: Whitened,
+    speeds: Speeds,
+}
+
 /// L of one body: M⁻¹ = L Lᵀ.
+#[derive(Clone, Copy, Debug)]
 struct Whitened {
     moves: bool,
     linear: f64,
@@ -115,7 +144,8 @@ impl Share {
                 rows.fixed_view_mut::<1, 3>(i, 0).copy_from(&(row.j.v.transpose() * (*linear * scale)));
                 rows.fixed_view_mut::<1, 3>(i, 3).copy_from(&(angular.tr_mul(&row.j.w).transpose() * scale));
             }
-            whitened[end.body].moves.then_some(Side { at: at[end.body], rows })
+            let part = rows.norm_squared();
+            whitened[end.body].moves.then_some(Side { at: at[end.body], rows, arm_m: end.arm_m(), part })
         };
         let sides = [side(&block.end), block.other.as_ref().and_then(side)];
         Share { index, law: block.law(), scale, b: block.b * scale, sides }
@@ -142,6 +172,20 @@ impl Share {
 }
 
 impl Island {
+    /// Gets the pattern of its linear systems, if it has no more bodies and factors take no more products of blocks.
+    pub fn is_affordable(&mut self, most_bodies: usize, most_products: usize) -> bool {
+        let bodies = self.unknowns / 6;
+        let pairs = || self.touches.iter().filter_map(Share::pair);
+        let pattern = (bodies <= most_bodies).then(|| Pattern::within(bodies, pairs(), most_products)).flatten();
+        self.pattern = pattern.unwrap_or_default();
+        self.pattern.has_bodies(bodies)
+    }
+
+    /// Whether a residual is the tolerance, or rounding; a tolerance of 0 asks for more than there is.
+    pub fn is_enough(&self, residual: f64, tolerance: f64, p: &[Impulse]) -> bool {
+        residual <= tolerance || (tolerance > 0.0 && residual <= self.rounding(p))
+    }
+
     /// Gᵀ p.
     pub fn pushed(&self, p: &[Impulse]) -> DVector<f64> {
         let mut y = DVector::zeros(self.unknowns);
@@ -183,36 +227,58 @@ impl Island {
         self.touches.iter().zip(p).for_each(|(touch, p)| all[touch.index] = p * touch.scale);
     }
 
-    /// What impulses (with units) are compared with: the largest; without any, what would stop an approach; but not
-    /// less than 10⁻⁵ of what the velocities amount to, as the judge has it.
-    pub fn scale(&self, p: &[Impulse]) -> f64 {
-        const SMALL: f64 = 1e-5;
-        let most = |of: &dyn Fn((&Share, &Impulse)) -> f64| self.touches.iter().zip(p).map(of).fold(0.0, f64::max);
-        let largest = most(&|(touch, p)| touch.scale * p.norm());
-        let stopping =
-            most(&|(touch, _)| touch.scale * if touch.law == Law::Pin { touch.b.norm() } else { -touch.b.x });
-        (if largest > 0.0 { largest } else { stopping }).max(SMALL * self.moving())
+    /// What the impulse of every contact (without units) is compared with, as the judge has it: the least, over the
+    /// bodies that it can move, of what would do to the body there what the step does (`Acted`). So a light body under a
+    /// heavy one counts.
+    pub fn scales(&self, p: &[Impulse], y: &DVector<f64>) -> Vec<f64> {
+        self.scales_with(self.cancelling, p, y)
     }
 
-    /// What the velocities amount to.
-    fn moving(&self) -> f64 {
-        self.touches.iter().map(|touch| touch.scale * touch.b.norm()).fold(0.0, f64::max)
+    /// `cancelling`: part of Σ|p|/m that counts beside what all impulses together change.
+    fn scales_with(&self, cancelling: f64, p: &[Impulse], y: &DVector<f64>) -> Vec<f64> {
+        let mut pressed = vec![0.0; self.bodies.len()];
+        for (touch, p) in self.touches.iter().zip(p) {
+            touch.sides.iter().flatten().for_each(|side| pressed[side.at / 6] += touch.scale * p.norm());
+        }
+        let acted = |(i, Mover { whitened, speeds }): (usize, &Mover)| {
+            let [v, w] = [y.fixed_rows::<3>(6 * i), y.fixed_rows::<3>(6 * i + 3)];
+            let changed = [whitened.linear * v.norm(), (whitened.angular * w).norm()];
+            Acted { speeds: *speeds, changed, pressed: cancelling * pressed[i] * whitened.linear * whitened.linear }
+        };
+        let acted: Vec<Acted> = self.bodies.iter().enumerate().map(acted).collect();
+        let least = |touch: &Share| {
+            let sides = touch.sides.iter().flatten().filter(|side| side.part > 0.0);
+            let of = |side: &Side| touch.scale * acted[side.at / 6].at(side.arm_m) / side.part;
+            sides.map(of).fold(f64::INFINITY, f64::min)
+        };
+        self.touches.iter().map(least).collect()
     }
 
     /// A residual that rounding of the velocities leaves: impulses may be next to nothing beside a slip.
     pub fn rounding(&self, p: &[Impulse]) -> f64 {
-        let scale = self.scale(p);
-        if scale > 0.0 { 4.0 * f64::EPSILON * self.moving() / scale } else { 0.0 }
+        let scales = self.scales(p, &self.pushed(p));
+        let of = |(touch, scale): (&Share, &f64)| relative(4.0 * f64::EPSILON * touch.b.norm(), *scale);
+        self.touches.iter().zip(&scales).map(of).fold(0.0, f64::max)
     }
 
     /// How far the worst contact is from the law: the judge's residual.
     pub fn residual(&self, p: &[Impulse]) -> f64 {
-        let u = self.velocities(&self.pushed(p));
-        let missed = |((touch, p), u): ((&Share, &Impulse), &Vector3<f64>)| {
-            let missed = touch.scale * law::missed(p, u, touch.law);
+        self.residual_with(self.cancelling, p)
+    }
+
+    /// The same by what every body gets alone, however much presses it: what bodies that rest may be left with for
+    /// ever.
+    pub fn strict_residual(&self, p: &[Impulse]) -> f64 {
+        self.residual_with(0.0, p)
+    }
+
+    fn residual_with(&self, cancelling: f64, p: &[Impulse]) -> f64 {
+        let y = self.pushed(p);
+        let (u, scales) = (self.velocities(&y), self.scales_with(cancelling, p, &y));
+        let missed = |(((touch, p), u), scale): (((&Share, &Impulse), &Vector3<f64>), &f64)| {
+            let missed = relative(law::missed(p, u, touch.law), *scale);
             if missed.is_nan() { f64::INFINITY } else { missed }
         };
-        let worst = self.touches.iter().zip(p).zip(&u).map(missed).fold(0.0, f64::max);
-        if worst == 0.0 { 0.0 } else { worst / self.scale(p) }
+        self.touches.iter().zip(p).zip(&u).zip(&scales).map(missed).fold(0.0, f64::max)
     }
 }

@@ -1,6 +1,7 @@
 //! Contact solvers: a `ContactProblem` (plain data) becomes impulses, one method a file, each owning its scratch.
 
 mod active_set;
+pub mod auto;
 pub mod block;
 mod coupling;
 pub mod end;
@@ -11,6 +12,7 @@ mod impulse;
 mod interior;
 pub mod island;
 pub mod law;
+mod missed;
 pub mod newton;
 pub mod nncg;
 pub mod pins;

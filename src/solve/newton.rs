@@ -22,7 +22,7 @@ use crate::work::Work;
 /// helps.
 const SWEEPS: u32 = 20;
 const SWEEPS_OF_FEW: u32 = 100;
-const MORE_SWEEPS: u32 = 300;
+pub(super) const MORE_SWEEPS: u32 = 300;
 
 /// η of the first proximal problem and least, contacts having blocks of trace 1 (rounding of a velocity is felt as 1/η
 /// of it); what it is multiplied by when the problem was solved, and when it was not.
@@ -35,11 +35,23 @@ const BACK: f64 = 4.0;
 const EVEN_ETA: f64 = 1e-3;
 
 /// Rounds toward impulses that contacts that slip share evenly: those of a step begin with the last step's.
-const ONCE: usize = 1;
+pub(super) const ONCE: usize = 1;
 const UNTIL_EVEN: usize = 6;
 
+/// Proximal problems in vain after which a residual that is below this is what rounding leaves (masses 1 : 10⁷).
+const NEARLY: f64 = 1e-6;
+const PATIENCE: u32 = 100;
+
 /// A residual from which Newton's method is worth a try before anything else.
-const NEAR: f64 = 1e-2;
+pub(super) const NEAR: f64 = 1e-2;
+
+/// How redundant contacts get even shares: in how many rounds of those that slip, and up to which residual the
+/// smallest of all impulses are taken, though others come nearer to the law.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shares {
+    pub(super) rounds: usize,
+    pub(super) within: f64,
+}
 
 /// Improves `p` until the residual of every island is below the tolerance, by at most `sweeps.most` proximal problems
 /// each, and makes it the smallest. Whether it is solved, to the tolerance or to rounding.
@@ -50,7 +62,8 @@ pub fn solve(
     scratch: &mut gauss_seidel::Scratch,
     work: &mut Work,
 ) -> bool {
-    improve(problem, &islands(problem, sweeps.deadline), sweeps, p, ONCE, scratch, work)
+    let shares = Shares { rounds: ONCE, within: sweeps.tolerance };
+    improve(problem, &islands(problem, sweeps.deadline), sweeps, p, shares, scratch, work)
 }
 
 fn improve(
@@ -58,7 +71,7 @@ fn improve(
     islands: &[Island],
     sweeps: &Sweeps,
     p: &mut [Impulse],
-    rounds: usize,
+    shares: Shares,
     scratch: &mut gauss_seidel::Scratch,
     work: &mut Work,
 ) -> bool {
@@ -81,7 +94,7 @@ fn improve(
             sweep(&mut others, MORE_SWEEPS, shuffled, work);
             *own = island.impulses(&others);
         };
-        solved &= solve_island(island, sweeps, &mut own, rounds, more, work);
+        solved &= solve_island(island, sweeps, &mut own, shares, more, work);
         island.put(&own, p);
     }
     solved
@@ -109,7 +122,8 @@ pub fn solve_evenly(problem: &ContactProblem, goal: &Sweeps, p: &mut [Impulse], 
         island.put(&evenly(island, work), p);
     }
     let mut scratch = gauss_seidel::Scratch::with_capacity(p.len(), 0);
-    improve(problem, &islands, goal, p, UNTIL_EVEN, &mut scratch, work)
+    let shares = Shares { rounds: UNTIL_EVEN, within: goal.tolerance };
+    improve(problem, &islands, goal, p, shares, &mut scratch, work)
 }
 
 fn evenly(island: &Island, work: &mut Work) -> Vec<Impulse> {
@@ -123,19 +137,17 @@ fn evenly(island: &Island, work: &mut Work) -> Vec<Impulse> {
     p
 }
 
-fn solve_island(
+/// By at most `goal.most` proximal problems; `sweep` goes on where nothing else helps. Whether it is solved.
+pub(super) fn solve_island(
     island: &Island,
     goal: &Sweeps,
     p: &mut Vec<Impulse>,
-    rounds: usize,
+    shares: Shares,
     mut sweep: impl FnMut(&mut Vec<Impulse>, &mut Work),
     work: &mut Work,
 ) -> bool {
     let mut best = island.residual(p);
-    // A tolerance of 0 asks for more than there is.
-    let is_enough = |residual: f64, p: &[Impulse]| {
-        residual <= goal.tolerance || (goal.tolerance > 0.0 && residual <= island.rounding(p))
-    };
+    let is_enough = |residual: f64, p: &[Impulse]| island.is_enough(residual, goal.tolerance, p);
     let keep = |best: &mut f64, p: &mut Vec<Impulse>, mut tried: Vec<Impulse>, work: &mut Work| {
         let residual = active_set::improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
         if residual < *best {
@@ -151,8 +163,12 @@ fn solve_island(
         keep(&mut best, p, found, work);
     }
     let (mut centre, mut eta) = (p.clone(), FIRST_ETA);
+    let (mut last, mut in_vain) = (best, 0);
     for _ in 0..goal.most {
-        if is_enough(best, p) || island.deadline.is_over() {
+        in_vain = if best < last { 0 } else { in_vain + 1 };
+        last = best;
+        let is_rounding = best <= NEARLY && in_vain > PATIENCE;
+        if is_enough(best, p) || is_rounding || island.deadline.is_over() {
             break;
         }
         if let Some(next) = proximal::solve(island, &centre, &centre, eta, &mut work.newton_steps) {
@@ -165,12 +181,13 @@ fn solve_island(
         keep(&mut best, p, centre.clone(), work);
     }
     if is_enough(best, p) && active_set::may_be_shared(island, p) {
-        best = active_set::even(island, p, rounds, goal.tolerance, &mut work.newton_steps);
+        best = active_set::even(island, p, shares.rounds, goal.tolerance, &mut work.newton_steps);
     }
     // A velocity that so exact impulses leave is rounding.
     let small = (100.0 * best).clamp(1e-13, 1e-10);
     let (least, residual) = smallest::impulses(island, p, small, &mut work.newton_steps);
-    if residual <= best || is_enough(residual, &least) {
+    let within = if goal.tolerance > 0.0 { shares.within.max(island.rounding(&least)) } else { 0.0 };
+    if residual <= best.max(within) {
         (best, *p) = (residual, least);
     }
     is_enough(best, p)

@@ -11,7 +11,7 @@ use crate::work::Work;
 /// The solver's memory between steps, to spare the allocator.
 #[derive(Clone, Debug)]
 pub struct Scratch {
-    sweeps: gauss_seidel::Scratch,
+    pub(super) sweeps: gauss_seidel::Scratch,
     direction: Vec<Impulse>,
 }
 

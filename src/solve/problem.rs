@@ -9,6 +9,7 @@ use super::Impulse;
 use super::block::Block;
 use super::coupling::{Dense, Memory, ThroughBodies};
 use super::end::{End, Inertia};
+use super::missed::Speeds;
 use super::pins::Pin;
 use super::twist::Twist;
 use crate::collide::Contact;
@@ -23,6 +24,10 @@ pub struct ContactProblem {
     pub blocks: Vec<Block>,
     bodies: usize,
     pub(super) inertias: Vec<Inertia>,
+    /// Of every body, what residuals are compared with.
+    pub(super) speeds: Vec<Speeds>,
+    /// Part of Σ|p|/m of a body that counts beside what it changes, though impulses cancel.
+    pub(super) cancelling: f64,
     /// Empty for many contacts.
     A_blocks: Vec<Matrix3<f64>>,
 }
@@ -30,12 +35,18 @@ pub struct ContactProblem {
 /// Contacts up to which A is worked out. A sweep costs 9 L² products with A and 36 L (in long chains) without it.
 const DENSE: usize = 32;
 
+/// Part of the impulses of a step that counts though they cancel: a light body under one that is up to 10⁴ times as
+/// heavy is solved by its own weight (as the judge has it, `measure::exchange`).
+const CANCELLING: f64 = 1e-4;
+
 impl ContactProblem {
     pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
         ContactProblem {
             blocks: Vec::with_capacity(contacts),
             bodies: 0,
             inertias: Vec::with_capacity(bodies),
+            speeds: Vec::with_capacity(bodies),
+            cancelling: 0.0,
             A_blocks: Vec::with_capacity(contacts.min(DENSE) * contacts.min(DENSE)),
         }
     }
@@ -56,6 +67,11 @@ impl ContactProblem {
         if !contacts.is_empty() {
             self.inertias.extend(model.bodies.iter().zip(&state.bodies).map(|(body, at)| Inertia::of(body, at)));
         }
+        // Impacts and forces at an instant go through a body at rest; a step's are judged by its own weight as well.
+        let is_instant = approach == Approach::Touching;
+        self.cancelling = if is_instant { 1.0 } else { CANCELLING };
+        self.speeds.clear();
+        self.speeds.extend(state.bodies.iter().zip(free).map(|(at, free)| Speeds::of(at, free, is_instant)));
         contacts.retain(|contact| {
             let block = Block::new(contact, model, &state.bodies, free, &self.inertias, (approach, step_s));
             self.blocks.extend(block);
@@ -138,6 +154,14 @@ impl ContactProblem {
     /// b as it was before the bodies' velocities changed by `u`.
     pub fn take_off(&mut self, u: &[Twist]) {
         self.blocks.iter_mut().for_each(|block| block.b -= block.motion(u));
+    }
+
+    /// Some of its contacts, for iterations alone.
+    pub(super) fn part(&self, contacts: impl Iterator<Item = usize>) -> ContactProblem {
+        let blocks = contacts.map(|i| self.blocks[i]).collect();
+        let mut part = ContactProblem { blocks, bodies: self.bodies, ..ContactProblem::default() };
+        part.couple();
+        part
     }
 
     /// The same contacts once their bodies' velocities have changed by `u`: b is now c.

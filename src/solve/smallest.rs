@@ -113,9 +113,9 @@ impl<'a> Faces<'a> {
     fn new(island: &'a Island, p: &[Impulse], small: f64) -> Self {
         let wanted = island.pushed(p);
         let u = island.velocities(&wanted);
-        let scale = small * island.scale(p);
-        let face = |(touch, u): (&Share, &Vector3<f64>)| Face::new(touch, u, scale / touch.scale);
-        let faces = island.touches.iter().zip(&u).map(face).collect();
+        let scales = island.scales(p, &wanted);
+        let face = |((touch, u), scale): ((&Share, &Vector3<f64>), &f64)| Face::new(touch, u, small * scale);
+        let faces = island.touches.iter().zip(&u).zip(&scales).map(face).collect();
         let smallest = island.touches.iter().map(|touch| touch.scale).fold(f64::INFINITY, f64::min);
         let weights = island.touches.iter().map(|touch| (smallest / touch.scale) * (smallest / touch.scale)).collect();
         Faces { island, faces, weights, wanted }

@@ -14,7 +14,6 @@ use crate::collide::closed::rounding_m;
 use crate::collide::doubt::{Doubts, Way, band_m};
 use crate::collide::{Ahead, Contact, Key};
 use crate::model::Model;
-use crate::solve::Impulse;
 use crate::solve::twist::Twist;
 use crate::state::State;
 use nalgebra::Vector3;
@@ -126,7 +125,7 @@ impl Foreseen {
         model: &Model,
         state: &State,
         scratch: &mut Scratch,
-        last: &[(Key, Impulse)],
+        last: &[(Key, Vector3<f64>)],
         step_s: f64,
     ) {
         (self.round, self.is_given_up, self.hit_s, self.turned_s) = (0, false, None, None);
@@ -143,7 +142,7 @@ impl Foreseen {
             let [a, b] = doubt.pair;
             let first = last.partition_point(|(key, _)| (key.0, key.1) < (a, Some(b)));
             let own = last[first..].iter().take_while(|(key, _)| (key.0, key.1) == (a, Some(b)));
-            doubt.is_imposed |= own.fold(false, |pushed, (_, p)| pushed || *p != Impulse::zeros());
+            doubt.is_imposed |= own.fold(false, |pushed, (_, p)| pushed || *p != Vector3::zeros());
         }
         self.ask(&mut scratch.found);
     }
@@ -282,7 +281,7 @@ impl Foreseen {
             let mut without = [a, b].map(|i| Twist { v: free[i].v + response[i].v, w: free[i].w + response[i].w });
             let mut pushed = false;
             for (block, p) in problem.blocks[first..first + own].iter().zip(&impulses[first..first + own]) {
-                pushed |= *p != Impulse::zeros();
+                pushed |= *p != Vector3::zeros();
                 for (without, end) in without.iter_mut().zip(block.ends()) {
                     end.take_off(p, without);
                 }

@@ -50,10 +50,10 @@ pub struct TimeStepping {
     sweeps: Sweeps,
     reduction: Option<Reduction>,
     position_correction: PositionCorrection,
-    /// Which contact had which impulse in the last step, in the order of contacts.
-    last: Vec<(Key, Impulse)>,
+    /// Which contact had which impulse in the last step, in world axes and in the order of contacts.
+    last: Vec<(Key, Vector3<f64>)>,
     /// The same of this step, as far as it is solved.
-    solved: Vec<(Key, Impulse)>,
+    solved: Vec<(Key, Vector3<f64>)>,
     foreseen: Foreseen,
     /// What is left of a step of the clock of which a part is made, and how often it was cut.
     left_s: Option<f64>,
@@ -81,7 +81,7 @@ impl TimeStepping {
             iteration: Iteration::GaussSeidel,
             correction: Correction::PerContact,
             cone: Cone::Disc,
-            most: settings.sweeps(),
+            most: settings.sweeps().unwrap_or(u32::MAX),
             tolerance: settings.tolerance(),
             friction: plan.friction,
             variant: Variant { local: settings.local, relaxation: settings.relaxation, order: settings.order },
@@ -252,32 +252,38 @@ impl TimeStepping {
             go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s));
             Some(blow)
         });
-        warm_start(&s.found, &self.last, &mut s.impulses);
+        warm_start(&s.found, &s.problem, &self.last, &mut s.impulses);
         if self.approach == Approach::Middle && struck.is_none() {
             hold_half_way(&mut s.problem, &s.impulses);
         }
         if !self.solved.is_empty() {
-            warm_start(&s.found, &self.solved, &mut s.impulses);
+            warm_start(&s.found, &s.problem, &self.solved, &mut s.impulses);
         }
         s.impulses.extend(&self.last_pins);
         s.impulses.resize(s.problem.blocks.len(), Impulse::zeros());
-        s.problem.response(&s.impulses, &mut s.response);
-        // Projected Gauss–Seidel only descends: from a start that adds energy it might not come below zero in time.
-        if s.problem.energy(&s.impulses, &s.response) > 0.0 {
-            s.impulses.fill(Impulse::zeros());
-        }
         if !s.problem.blocks.is_empty() && !self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work) {
-            self.is_cut |= self.sweeps.deadline.is_over();
-            s.work.unsolved += 1;
             s.problem.response(&s.impulses, &mut s.response);
-            s.problem.take_back(&mut s.impulses, &s.response);
+            let adds_energy = s.problem.energy(&s.impulses, &s.response) > 0.0;
+            // Projected Gauss–Seidel only descends: from a start that adds energy it may not come below zero in time.
+            // That is seen at the end alone: a stack at rest needs such a start, when it has just been held too well.
+            let solved = adds_energy && {
+                s.impulses.fill(Impulse::zeros());
+                self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work)
+            };
+            if !solved {
+                self.is_cut |= self.sweeps.deadline.is_over();
+                s.work.unsolved += 1;
+                s.problem.response(&s.impulses, &mut s.response);
+                s.problem.take_back(&mut s.impulses, &s.response);
+            }
         }
         if let Some(blow) = struck {
             s.problem.take_off(&blow.response);
             s.impulses.iter_mut().zip(&blow.impulses).for_each(|(p, blow)| *p += blow);
         }
         self.solved.clear();
-        self.solved.extend(s.found.iter().zip(&s.impulses).map(|(c, p)| (c.key(), *p)));
+        let solved = s.found.iter().zip(&s.problem.blocks).zip(&s.impulses);
+        self.solved.extend(solved.map(|((contact, block), p)| (contact.key(), block.in_world(p))));
         s.problem.response(&s.impulses, &mut s.response);
     }
 
@@ -321,14 +327,20 @@ fn show(left_out: &[Contact], solved: &mut Vec<SolvedContact>) {
     solved.sort_unstable_by_key(|s| s.contact.key());
 }
 
-/// Last step's impulse of every contact that is still there, else 0. Both lists are in the order of contacts.
-fn warm_start(found: &[Contact], last: &[(Key, Impulse)], impulses: &mut Vec<Impulse>) {
+/// Last step's impulse of every contact that is still there, else 0. Both lists are in the order of contacts. `last`:
+/// in world axes, as a contact's frame may turn over with the last bit of its normal.
+fn warm_start(
+    found: &[Contact],
+    problem: &ContactProblem,
+    last: &[(Key, Vector3<f64>)],
+    impulses: &mut Vec<Impulse>,
+) {
     impulses.clear();
     let mut last = last.iter().peekable();
-    for contact in found {
+    for (contact, block) in found.iter().zip(&problem.blocks) {
         let key = contact.key();
         while last.next_if(|(known, _)| *known < key).is_some() {}
         let same = last.next_if(|(known, _)| *known == key);
-        impulses.push(same.map_or_else(Impulse::zeros, |(_, p)| *p));
+        impulses.push(same.map_or_else(Impulse::zeros, |(_, impulse_W)| block.in_frame(impulse_W)));
     }
 }

@@ -77,6 +77,7 @@ struct Searched {
 impl Chosen {
     /// Fills the columns that say what was chosen.
     pub fn describe(&self, measured: &mut Measured) {
+        measured.solver_used = self.experiment.method.facts().solver.and_then(|solver| solver_used(solver, &measured.work));
         let Some(Searched { tolerance_m, error_estimate_m, search_s }) = self.searched else { return };
         let is_met = measured.outcome == Outcome::Finished && error_estimate_m.is_some_and(|m| m <= tolerance_m);
         measured.tolerance_met = Some(if is_met { "yes" } else { "no" }.to_string());
@@ -85,6 +86,20 @@ impl Chosen {
         measured.error_estimate_m = error_estimate_m;
         measured.wall_search_s = finite(search_s);
     }
+}
+
+/// Solvers that had contacts to solve.
+fn solver_used(solver: Solver, work: &Work) -> Option<String> {
+    let used = match solver {
+        Solver::Auto => {
+            let by = [(Solver::Newton, work.exact_solves), (Solver::Nncg, work.iterated_solves)];
+            let used: Vec<&str> = by.into_iter().filter(|(_, times)| *times > 0).map(|(by, _)| by.word()).collect();
+            used.join("+")
+        }
+        Solver::Pgs | Solver::Nncg | Solver::Newton if work.contact_solves > 0 => solver.word().to_string(),
+        Solver::Pgs | Solver::Nncg | Solver::Newton => String::new(),
+    };
+    (!used.is_empty()).then_some(used)
 }
 
 /// The method of an experiment; where it leaves that to `auto`, the one that follows this scene to its tolerance.

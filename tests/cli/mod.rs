@@ -269,7 +269,7 @@ fn listed_settings_and_defaults_are_those_of_the_method() {
     assert_eq!(setting("penalty", "stiffness_n_m")["default"], "needed");
     assert_eq!(setting("penalty", "slip_speed_m_s")["default"]["is"], 0.01);
     assert_eq!(setting("time-stepping", "relaxation")["default"]["is"], 1.0);
-    assert_eq!(setting("time-stepping", "sweeps")["default"]["is"], "50 (newton: 500)");
+    assert_eq!(setting("time-stepping", "sweeps")["default"]["is"], "its own (pgs: 50, nncg: 50, newton: 500)");
 }
 
 #[test]

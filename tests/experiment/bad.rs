@@ -59,6 +59,7 @@ const ROWS: &[Row] = &[
     ("a vertex that is no number", "shape: none", "shape: { convex: { vertices_m: [[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, .nan, 3]] } }", 13, "scene.bodies.point.shape.convex.vertices_m.3.1", "expected a finite number, found .nan"),
     ("a mesh of a capsule", "shape: { box: { size_m: [1, 1, 1] } }", "shape: { capsule: { radius_m: 1, height_m: 1 } }", 9, "scene.bodies.cube.mesh", "expected no mesh, as only a `box` and a `sphere` can have one"),
     ("sweeps of a solver without", LECTURE, "method: { time-stepping: { solver: newton, order: shuffled } }\n", 16, "method.time-stepping.order", "`newton` solves all contacts at once"),
+    ("sweeps for who counts himself", LECTURE, "method: { time-stepping: { sweeps: 50 } }\n", 16, "method.time-stepping.sweeps", "expected nothing, as the solver `auto` counts for itself (`pgs`, `nncg` and `newton` take a number of sweeps), found a number of sweeps"),
     ("no relaxation", LECTURE, "method: { time-stepping: { relaxation: 0 } }\n", 16, "method.time-stepping.relaxation", "expected a number between 0 and 2, found 0"),
     ("too much of it", LECTURE, "method: { time-stepping: { relaxation: 2 } }\n", 16, "method.time-stepping.relaxation", "expected a number between 0 and 2, found 2"),
     ("two contacts a face", LECTURE, "method: { time-stepping: { contacts_per_face: 2 } }\n", 16, "method.time-stepping.contacts_per_face", "at least 3, as fewer contacts hold no face, found 2"),

@@ -5,6 +5,7 @@ mod auto;
 mod cone;
 mod contact;
 mod cycles;
+mod default;
 mod divergence;
 mod free;
 mod impact;

@@ -281,6 +281,7 @@ fn what_is_not_solved_is_counted_and_gains_nothing() {
     // No residual is below 0.
     assert_eq!(given_up("{ solver: newton, sweeps: 1, tolerance: 0 }"), 1);
     for solver in Solver::ALL {
-        assert_eq!(given_up(&format!("{{ solver: {}, sweeps: 1000 }}", solver.word())), 0, "{solver:?}");
+        let sweeps = if solver.facts().sweeps.is_some() { ", sweeps: 1000" } else { "" };
+        assert_eq!(given_up(&format!("{{ solver: {}{sweeps} }}", solver.word())), 0, "{solver:?}");
     }
 }

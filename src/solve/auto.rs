@@ -1,0 +1,158 @@
+//! The solver `auto`: every island, in every step, by the exact solver or, where that is too dear, by the best
+//! iteration. Counts decide, never a clock: the products of blocks that the factors of its linear system take
+//! (`AFFORDABLE_PRODUCTS`; `rule_of_auto` says it to people).
+//!
+//! Impulses of the last step that meet the tolerance, and more, are taken as they are: bodies at rest cost a look. From
+//! where they are near, Newton's method goes on alone, and what redundant contacts share stays as it was. Few contacts
+//! are mostly near after some sweeps; only what is left then goes the whole way of the exact solver. Islands that are too large are left to conjugate gradients, whose starts survive from step to
+//! step, and say so where they miss the tolerance.
+
+use super::gauss_seidel::{self, Sweeps, Variant};
+use super::island::{Island, islands_without_pattern};
+use super::missed::strict_residual;
+use super::problem::ContactProblem;
+use super::twist::Twist;
+use super::{Impulse, active_set, newton, nncg};
+use crate::experiment::types::{AFFORDABLE_BODIES, AFFORDABLE_PRODUCTS, Local, Order, Solver};
+use crate::work::Work;
+
+/// Sweeps before a look whether impulses are near enough for Newton's method: of few contacts, and of many.
+const SWEEPS_OF_FEW: [u32; 4] = [0, 8, 16, 32];
+/// The same of few contacts, before anything else is made: what mostly settles within some of them.
+const FIRST_SWEEPS: u32 = 8;
+const SWEEPS: [u32; 2] = [0, 20];
+/// The same of an island that is too large for anything else.
+const MANY_SWEEPS: [u32; 8] = [50; 8];
+
+/// Of the tolerance: impulses that are kept. Forces that stay the same hold no body for long (one that carries others
+/// tips with e^(t √(m g/I r))): what they leave must be nothing beside the gaps that are closed, 1e-12 of a body.
+const KEPT: f64 = 1e-2;
+
+/// A residual of impulses that bodies at rest keep for thousands of steps.
+const LASTING: f64 = 1e-13;
+
+/// Improves `p` until the residual of every island is below the tolerance. Whether it is.
+pub fn solve(
+    problem: &ContactProblem,
+    goal: &Sweeps,
+    p: &mut [Impulse],
+    scratch: &mut Scratch,
+    work: &mut Work,
+) -> bool {
+    let lasts = |p: &[Impulse], u: &mut Vec<Twist>| {
+        problem.response(p, u);
+        strict_residual(problem, p, u) <= KEPT * goal.tolerance
+    };
+    if lasts(p, &mut scratch.u) {
+        work.kept_solves += 1;
+        return true;
+    }
+    if problem.is_dense() {
+        let sweeps = Sweeps { most: FIRST_SWEEPS, tolerance: LASTING, ..*goal };
+        gauss_seidel::iterate(problem, &sweeps, p, &mut scratch.nncg.sweeps, work);
+        if lasts(p, &mut scratch.u) {
+            work.exact_solves += 1;
+            return true;
+        }
+    }
+    let goal = Sweeps { most: Solver::Newton.facts().sweeps.unwrap_or(goal.most), ..*goal };
+    let mut islands = islands_without_pattern(problem, goal.deadline);
+    let alone = islands.len() == 1 && islands[0].touches.len() == problem.blocks.len();
+    let mut solved = true;
+    for island in &mut islands {
+        let mut own = island.impulses(p);
+        if island.is_enough(island.strict_residual(&own), KEPT * goal.tolerance, &own) {
+            work.kept_solves += 1;
+            continue;
+        }
+        let part = (!alone).then(|| problem.part(island.touches.iter().map(|touch| touch.index)));
+        let problem = part.as_ref().unwrap_or(problem);
+        solved &= Part { problem, goal, scratch: &mut scratch.nncg }.solve(island, &mut own, work);
+        island.put(&own, p);
+    }
+    solved
+}
+
+/// The solver's memory between steps.
+#[derive(Clone, Debug)]
+pub struct Scratch {
+    nncg: nncg::Scratch,
+    u: Vec<Twist>,
+}
+
+impl Scratch {
+    pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
+        Scratch { nncg: nncg::Scratch::with_capacity(contacts, bodies), u: Vec::with_capacity(bodies) }
+    }
+}
+
+/// An island's contacts, and what sweeps over them need.
+struct Part<'a> {
+    problem: &'a ContactProblem,
+    goal: Sweeps,
+    scratch: &'a mut nncg::Scratch,
+}
+
+impl Part<'_> {
+    fn solve(&mut self, island: &mut Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
+        let is_affordable = island.is_affordable(AFFORDABLE_BODIES, AFFORDABLE_PRODUCTS);
+        *(if is_affordable { &mut work.exact_solves } else { &mut work.iterated_solves }) += 1;
+        if !is_affordable {
+            return self.sweep_until_solved(island, own, work);
+        }
+        let sweeps: &[u32] = if self.problem.is_dense() { &SWEEPS_OF_FEW } else { &SWEEPS };
+        for most in sweeps {
+            if *most > 0 {
+                self.sweep(island, own, *most, work);
+            }
+            if self.goes_on(island, own, work) {
+                return true;
+            }
+        }
+        let goal = self.goal;
+        let shuffled = Variant { local: Local::Exact, order: Order::Shuffled, ..Variant::default() };
+        let more = |own: &mut Vec<Impulse>, work: &mut Work| {
+            let sweeps = Sweeps { most: newton::MORE_SWEEPS, tolerance: 0.0, variant: shuffled, ..goal };
+            let mut p = with_units(island, own);
+            gauss_seidel::iterate(self.problem, &sweeps, &mut p, &mut self.scratch.sweeps, work);
+            *own = without_units(island, &p);
+        };
+        newton::solve_island(island, &goal, own, newton::Shares { rounds: newton::ONCE, within: LASTING }, more, work)
+    }
+
+    /// By Newton's method, from impulses that are near. Whether that was enough.
+    fn goes_on(&self, island: &Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
+        island.residual(own) <= newton::NEAR && {
+            active_set::improve_near(island, own, self.goal.tolerance, &mut work.newton_steps);
+            self.is_enough(island, own)
+        }
+    }
+
+    fn is_enough(&self, island: &Island, own: &[Impulse]) -> bool {
+        island.is_enough(island.strict_residual(own), self.goal.tolerance, own)
+    }
+
+    /// By conjugate gradients.
+    fn sweep(&mut self, island: &Island, own: &mut Vec<Impulse>, most: u32, work: &mut Work) {
+        let mut p = with_units(island, own);
+        let sweeps = Sweeps { most, tolerance: 0.0, ..self.goal };
+        nncg::iterate(self.problem, &sweeps, &mut p, self.scratch, work);
+        *own = without_units(island, &p);
+    }
+
+    /// Looks after every batch of sweeps.
+    fn sweep_until_solved(&mut self, island: &Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
+        MANY_SWEEPS.iter().any(|most| {
+            self.sweep(island, own, *most, work);
+            self.is_enough(island, own)
+        })
+    }
+}
+
+fn with_units(island: &Island, own: &[Impulse]) -> Vec<Impulse> {
+    island.touches.iter().zip(own).map(|(touch, p)| p * touch.scale).collect()
+}
+
+fn without_units(island: &Island, p: &[Impulse]) -> Vec<Impulse> {
+    island.touches.iter().zip(p).map(|(touch, p)| p / touch.scale).collect()
+}

@@ -1,0 +1,92 @@
+//! The default method: what stands stands, a light body carries a heavy one, what is too large is left to an iteration
+//! and says so.
+
+use crate::yaml::measured;
+
+const HEAVY_ON_LIGHT: &str = "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  friction: 0.5
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies:
+    - { name: light, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, position_m: [0, 0.5, 0] }
+    - { name: heavy, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 100, position_m: [0, 1.5, 0] }
+time: { step_s: 0.005, end_s: 0.5 }
+exact: rest
+";
+
+#[test]
+fn a_light_cube_carries_a_heavy_one() {
+    for mass_kg in ["1", "100", "1e4", "1e6"] {
+        let m = measured(HEAVY_ON_LIGHT, &[&format!("scene.bodies.heavy.mass_kg={mass_kg}")]);
+        // measured: 3.3e-17, 2.8e-17, 2.2e-14, 2.0e-13
+        assert!(m.error_position_m.unwrap() < 1e-12, "{mass_kg}: {:?}", m.error_position_m);
+        assert_eq!((m.work.unsolved, m.solver_used.as_deref()), (0, Some("newton")), "{mass_kg}");
+        // measured: 7e-12
+        assert!(m.residual_max.unwrap() <= 1e-10, "{mass_kg}: {:?}", m.residual_max);
+    }
+}
+
+/// f64 leaves ε times the ratio of the masses.
+#[test]
+fn a_ratio_that_cannot_be_told_is_flagged() {
+    let m = measured(HEAVY_ON_LIGHT, &["scene.bodies.heavy.mass_kg=1e9", "time.end_s=0.1"]);
+    assert!(m.work.unsolved > 0 || m.residual_max.unwrap() > 1e-6, "{} {:?}", m.work.unsolved, m.residual_max);
+}
+
+const STACK: &str = "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  friction: 0.5
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies: [{ name: s, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, position_m: [0, 0.5, 0], copies: { count: 20, step_m: [0, 1, 0] } }]
+time: { step_s: 0.016666666666666666, end_s: 5 }
+exact: rest
+";
+
+/// Impulses that hold are kept: most steps solve nothing.
+#[test]
+fn a_stack_stands_and_mostly_costs_a_look() {
+    let m = measured(STACK, &[]);
+    // measured: 8.4e-13; residual 1.0e-12
+    assert!(m.error_position_m.unwrap() < 1e-11, "{:?}", m.error_position_m);
+    assert!(m.residual_max.unwrap() < 1e-11, "{:?}", m.residual_max);
+    assert_eq!(m.work.unsolved, 0);
+    // measured: 205 of 300
+    assert!(m.work.kept_solves > 150, "{}", m.work.kept_solves);
+}
+
+/// The same motion, whether impulses are kept or solved for anew (`newton` always solves).
+#[test]
+fn keeping_impulses_changes_no_motion() {
+    let slides = "
+scene:
+  gravity_m_s2: [3, -9.81, 1]
+  friction: 0.6
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies:
+    - { name: below, shape: { box: { size_m: [1, 0.5, 1] } }, mass_kg: 3, position_m: [0, 0.25, 0], velocity_m_s: [1, 0, 0] }
+    - { name: above, shape: { box: { size_m: [0.5, 0.5, 0.5] } }, mass_kg: 1, position_m: [0.1, 0.75, 0.05] }
+time: { step_s: 0.01, end_s: 1 }
+measure: [state]
+";
+    let [kept, solved] = [measured(slides, &[]), measured(slides, &["method.time-stepping.solver=newton"])];
+    assert!(kept.work.kept_solves > 20 && solved.work.kept_solves == 0, "{}", kept.work.kept_solves);
+    for (a, b) in kept.bodies.iter().zip(&solved.bodies) {
+        let apart_m = (a.p_WB - b.p_WB).norm();
+        assert!(apart_m < 1e-10, "{apart_m}");
+    }
+}
+
+#[test]
+fn an_island_that_is_too_large_is_left_to_an_iteration_and_says_so() {
+    let column = "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies: [{ name: b, shape: { sphere: { radius_m: 0.5 } }, mass_kg: 1, position_m: [0, 0.5, 0], copies: { count: 5001, step_m: [0, 1, 0] } }]
+time: { step_s: 0.01, end_s: 0.01 }
+";
+    let m = measured(column, &[]);
+    assert_eq!((m.solver_used.as_deref(), m.work.iterated_solves, m.work.unsolved), (Some("nncg"), 1, 1));
+}

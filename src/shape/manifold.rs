@@ -27,12 +27,11 @@ pub struct Opposite {
 
 /// Features of a body that can face another one: kind in the upper four bits, number in the others.
 mod feature {
-    use crate::shape::cylinder::RIM;
+    use crate::shape::cylinder::{ARC, RIM, VERTEX};
 
-    pub const FACE: u32 = 0;
-    const VERTEX: u32 = 1 << 28;
+    pub use crate::shape::cylinder::FACE;
+
     const EDGE: u32 = 2 << 28;
-    const ARC: u32 = 4 << 28;
 
     pub fn vertex(number: u32) -> u32 {
         VERTEX | number

@@ -33,6 +33,9 @@ const STEPS: u32 = 30;
 /// Of a rim: a direction that has less (rad) across its axis is a cap's.
 const FACES: f64 = 1e-6;
 
+/// The least angle (rad) from a cap's normal that a rim has beside a ball.
+const NEXT_TO: f64 = 1e-12;
+
 /// Where a side is in the world.
 struct Placed<'a> {
     side: &'a Side,
@@ -123,6 +126,8 @@ struct Meeting<'a> {
     gap_m: f64,
     /// Directions across the normal in which it may turn.
     across: Vec<Vector3<f64>>,
+    /// How far beyond a cap a ball is, which on it has the cap's normal.
+    beyond_m: Option<f64>,
 }
 
 impl Curved {
@@ -149,6 +154,13 @@ impl Curved {
 
     fn meeting<'a>(&'a self, at: [&'a BodyState; 2]) -> Meeting<'a> {
         let placed = [0, 1].map(|i| Placed { side: &self.sides[i], at: at[i], outward: self.outward[i] });
+        let beside = ball_beside_rim(&placed[0], &placed[1]).map(|beside| (beside, 1.0));
+        let beside = beside.or_else(|| Some((ball_beside_rim(&placed[1], &placed[0])?, -1.0)));
+        if let Some((Beside { d, ball, rim, gap_m, beyond_m }, sign)) = beside {
+            let supports = if sign > 0.0 { [ball, rim] } else { [rim, ball] };
+            let n = d * sign;
+            return Meeting { placed, n, supports, gap_m, across: directions(&n, &None), beyond_m: Some(beyond_m) };
+        }
         let line = placed[0].line().or(placed[1].line());
         let supports = |n: &Vector3<f64>| {
             let [mut a, mut b] = [placed[0].support(&-n), placed[1].support(n)];
@@ -179,17 +191,26 @@ impl Curved {
         }
         let supports = supports(&n);
         let gap_m = gap(&n, &supports);
-        Meeting { placed, n, supports, gap_m, across: directions(&n, &line) }
+        Meeting { placed, n, supports, gap_m, across: directions(&n, &line), beyond_m: None }
     }
 
     pub(super) fn inside_m(&self, at: [&BodyState; 2]) -> f64 {
-        let Meeting { placed: [a, b], n, supports, .. } = self.meeting(at);
+        let Meeting { placed: [a, b], n, supports, beyond_m, .. } = self.meeting(at);
+        if let Some(beyond_m) = beyond_m {
+            let along = |of: &Placed, out: Vector3<f64>| match of.side {
+                Side::Part(Part::Rim { axis_B, radius_m, .. }) => {
+                    of.outward * (of.at.q_WB * axis_B).dot(&out) * radius_m
+                }
+                _ => of.inside_m(&out, &supports[0].x, of.size_m()),
+            };
+            return beyond_m.min(along(&a, -n)).min(along(&b, n));
+        }
         a.inside_m(&-n, &supports[1].x, b.size_m()).min(b.inside_m(&n, &supports[0].x, a.size_m()))
     }
 
     pub(super) fn here<'a>(&self, found: &Contact, bodies: &impl Fn(usize) -> &'a BodyState) -> (Contact, Rates) {
         let at = pair(found, bodies);
-        let Meeting { placed, n, supports: [a, b], gap_m, across } = self.meeting(at);
+        let Meeting { placed, n, supports: [a, b], gap_m, across, .. } = self.meeting(at);
         let [w_a, w_b] = at.map(|at| at.w_WB);
         let M = a.H + b.H + Matrix3::identity() * gap_m;
         let u = placed[0].velocity(&a.x) - placed[1].velocity(&b.x);
@@ -212,6 +233,39 @@ impl Curved {
         let contact = Contact { p_WC: (a.x + b.x) * 0.5, normal: n, gap_m, ..*found };
         (contact, Rates { r_A: x_a_rate - at[0].v_WB, r_B: x_b_rate - at[1].v_WB, normal: n_rate })
     }
+}
+
+/// A ball and the point of a rim that is nearest to it.
+struct Beside {
+    /// From the rim.
+    d: Vector3<f64>,
+    ball: Support,
+    rim: Support,
+    gap_m: f64,
+    beyond_m: f64,
+}
+
+/// Next to a cap, the normal alone would not tell which point of the rim it is.
+fn ball_beside_rim(ball: &Placed, rim: &Placed) -> Option<Beside> {
+    let (Side::Part(Part::Ball(of_ball)), Side::Part(Part::Rim { centre_B, axis_B, radius_m })) = (ball.side, rim.side)
+    else {
+        return None;
+    };
+    let (axis, middle) = (rim.at.q_WB * axis_B, rim.at.p_WB + rim.at.q_WB * centre_B);
+    let from = ball.at.p_WB + ball.at.q_WB * of_ball.centre_B - middle;
+    let flat = from - axis * axis.dot(&from);
+    let out = flat.try_normalize(0.0)?;
+    let apart = from - out * *radius_m;
+    let d = apart.try_normalize(0.0)?;
+    let (beyond_m, aside) = (flat.norm() - radius_m, axis.cross(&out));
+    let turned = (beyond_m / apart.norm()).max(NEXT_TO);
+    Some(Beside {
+        d,
+        ball: ball.support(&-d),
+        rim: Support { x: middle + out * *radius_m, H: aside * aside.transpose() * (radius_m / turned) },
+        gap_m: apart.norm() - of_ball.radius_m,
+        beyond_m,
+    })
 }
 
 /// Across a normal, and a line.

@@ -83,7 +83,10 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
     let toward = |side: usize, out: Vector3<f64>| {
         face_toward(&model.bodies[bodies[side]], &at[side].q_WB.inverse_transform_vector(&out))
     };
-    let (a, b) = (show(0, -found.normal), show(1, found.normal));
+    let (mut a, mut b) = (show(0, -found.normal), show(1, found.normal));
+    if found.feature == (VERTEX, VERTEX) {
+        [(&mut a, 0), (&mut b, 1)].into_iter().for_each(|(of, side)| beside_cap(&model.bodies[bodies[side]], of));
+    }
     let spot = |of: &'_ Option<Facing>| of.as_ref().map(|facing| facing.spot.clone());
     let face = |of: &Option<Facing>| of.as_ref().and_then(|facing| facing.face.clone());
     // The contact test says which of two has the corner, where edges lie along each other or faces lie almost flat.
@@ -110,6 +113,17 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
     }
     let near = [(0, toward(1, found.normal), &a), (1, toward(0, -found.normal), &b)];
     near.into_iter().find_map(|(of, face, own)| Some(on(of, &face?, 1 - of, spot(own).as_ref())))
+}
+
+/// What lies beside a cap meets its rim, however little the normal is off the cap's.
+fn beside_cap(body: &Body, of: &mut Option<Facing>) {
+    if let (Some((Solid::Cylinder { radius_m, half_height_m }, centre)), Some(facing)) = (body.solid(), &mut *of)
+        && let Some(face) = &facing.face
+    {
+        let (axis_B, radius_m) = (Vector3::y(), *radius_m);
+        let centre_B = centre + face.normal_B * *half_height_m;
+        *facing = Facing { spot: Spot::Part(Part::Rim { centre_B, axis_B, radius_m }), face: None };
+    }
 }
 
 /// Of parts that both bodies show.

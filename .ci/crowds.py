@@ -6,8 +6,9 @@ usage: crowds.py GOTAI COUNT [SEED] [one | FIRST]
 COUNT scenes of two to six bodies (with `one`: of one body) are drawn from shape × ground (plane, box, flush blocks) ×
 arrangement (thrown, flush on the ground, stacked) × friction × restitution; each is run at a tolerance of 1e-6 and of
 1e-8. A scene is right if both runs end, within 10·max(1, sensitivity)·1e-6 of each other, without ghost, without passing
-through, penetration up to 1e-9 of the smallest body, and the residual of the law at 1e-6. Prints what is not met, by
-kind; fails if fewer are right than have been measured. With a number FIRST, only scenes from there on; SHOW=1 prints one.
+through, penetration up to 1e-9 of the smallest body or a thousandth of the tolerance, and the residual of the law at
+1e-6. Prints what is not met, by kind; fails if fewer are right than LEAST says. With a number FIRST, only scenes from there
+on; SHOW=1 prints one. The limit of time is of a run, so that a busy machine has fewer right.
 """
 import json
 import math
@@ -142,7 +143,8 @@ def faults(rows, names, smallest_m):
     of = lambda column: max(row.get(column) or 0 for row in rows)
     found += ["ghost"] if of("ghost_impulse_max_rel") > 1e-6 else []
     found += ["passes through"] if of("passed_through") > 0 else []
-    found += ["penetrates"] if of("penetration_max_m") > 1e-9 * smallest_m else []
+    deep = any((row.get("penetration_max_m") or 0) > max(1e-9 * smallest_m, 1e-3 * t) for row, t in zip(rows, TOLERANCES))
+    found += ["penetrates"] if deep else []
     found += ["residual"] if of("residual_max") > 1e-6 else []
     return found
 

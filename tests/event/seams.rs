@@ -92,7 +92,7 @@ fn four_flush_blocks_are_one() {
             worst = [worst[0].max((p - q).norm()), worst[1].max((v - w).norm())];
         }
     }
-    // measured: see below
+    // measured: 7.9e-15 m, 8.4e-14 m/s
     assert!(worst[0] < 1e-12 && worst[1] < 1e-11, "{worst:?}");
 }
 
@@ -131,7 +131,7 @@ time: {{ end_s: 0.6 }}
         let (p, v, measured) = end(&text, false);
         is_clean(&measured);
         let y_m = 1.0 + size_m / 2.0 - 0.6 - 0.5 * 9.81 * 0.6 * 0.6;
-        // measured: 0
+        // measured: 4.7e-15
         assert!((p - Vector3::new(0.5 + size_m / 2.0, y_m, aside_m)).norm() < 1e-12, "{size_m}: {p:?}");
         assert!((v + Vector3::y() * (1.0 + 9.81 * 0.6)).norm() < 1e-12, "{size_m}: {v:?}");
     }

@@ -1,4 +1,4 @@
-//! Two parts, one of them at least curved: rims and ellipsoids against each other, against edges, round sides and balls.
+//! Two parts, one of them at least curved: rims and ellipsoids against each other, edges, round sides and balls.
 //!
 //! The normal n is where the separation s(n) = −h_a(−n) − h_b(n) of the two supports is stationary, across a line's
 //! direction where one of them is a line (`shape/axis.rs` has the same). With x_a(−n) and x_b(n) the points of support

@@ -140,7 +140,7 @@ pub fn level_found(model: &Model, state: &mut State, found: &[Contact]) -> bool 
             None => Some(normal),
             Some(base) => {
                 let p_B = own(base, contact.p_WC - state.bodies[base].p_WB);
-                let facing = shown(&model.bodies[base], &p_B, &own(base, normal));
+                let facing = shown(&model.bodies[base], &p_B, &own(base, normal), contact.gap_m);
                 facing.and_then(|facing| facing.face).map(|face| state.bodies[base].q_WB * face.normal_B)
             }
         };

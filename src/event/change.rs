@@ -4,7 +4,7 @@
 use super::caps;
 use super::decide::{Change, Margin, margin};
 use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, meeting_m_s};
-use super::watch::Paths;
+use super::look::Paths;
 use crate::collide::Key;
 use crate::state::State;
 use crate::work::Work;
@@ -183,10 +183,11 @@ impl Looking<'_> {
             return change;
         }
         let near = NEAR * solved.largest();
-        for ((held, p), block) in self.held.iter().zip(&solved.p).zip(&self.gathered.problem.blocks) {
+        let Gathered { here, problem, .. } = &*self.gathered;
+        for (((held, p), block), here) in self.held.iter().zip(&solved.p).zip(&problem.blocks).zip(here) {
             let key: Key = held.touch.key();
             if p.x <= near {
-                change.opening.push(key);
+                change.opening.push((key, here.contact.p_WC));
             } else if held.mode == Mode::Stick && p.yz().norm() >= held.touch.friction() * p.x - near {
                 let d = -block.along_W(p);
                 change.slipping.extend(d.try_normalize(0.0).map(|d| (key, d)));

@@ -9,6 +9,7 @@ use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, Solved, edge, meeting_m
 use super::law::{Law, MANY, ROUNDING, by_law, goes_on};
 use super::slip;
 use super::touch::Touch;
+use crate::collide::Key;
 use crate::math::full_pivot::Selection;
 use crate::model::Model;
 use crate::solve::{Impulse, exact_contact};
@@ -16,13 +17,13 @@ use crate::state::State;
 use crate::work::Work;
 use nalgebra::Vector3;
 
-/// What is known of a change: these contacts are about to open, these to slip.
+/// What is known of a change: these contacts are about to open, where they are, these to slip.
 #[derive(Clone, Debug, Default)]
 pub struct Change {
     /// What slips no faster, sticks if it can.
     pub slow_m_s: f64,
-    pub opening: Vec<crate::collide::Key>,
-    pub slipping: Vec<(crate::collide::Key, Vector3<f64>)>,
+    pub opening: Vec<(Key, Vector3<f64>)>,
+    pub slipping: Vec<(Key, Vector3<f64>)>,
 }
 
 #[derive(Clone, Debug)]
@@ -41,6 +42,9 @@ const PLAIN: f64 = 1e-6;
 /// nothing keeps the slip going: what is less is rounding of their difference.
 const KEEPS_ON: f64 = 1e-12;
 
+/// Of a body's size: points that are nearer to each other are one.
+pub const SAME: f64 = 1e-6;
+
 /// A margin that is not known, over the largest force: slightly positive, as redundant contacts could share otherwise.
 const NOT_KNOWN: f64 = 1e-3;
 
@@ -52,12 +56,49 @@ pub fn decide(
     gathered: &mut Gathered,
     work: &mut Work,
 ) -> Decision {
-    let touches: Vec<Touch> = touches.into_iter().filter(|touch| !change.opening.contains(&touch.key())).collect();
+    // What has come to be touched in the meantime may have the name of what opens, where outlines cross.
+    let opens = |touch: &Touch| {
+        let near_m = SAME * model.bodies[touch.key().0].bounding_radius_m;
+        let is_there = |place: &Vector3<f64>| (touch.here(state).contact.p_WC - place).norm() <= near_m;
+        let opens = |(key, place): &(Key, Vector3<f64>)| *key == touch.key() && (key.1.is_none() || is_there(place));
+        change.opening.iter().any(opens)
+    };
+    let touches: Vec<Touch> = touches.into_iter().filter(|touch| !opens(touch)).collect();
     if touches.is_empty() {
         return Decision::Holds(Vec::new(), Solved::default());
     }
     gathered.gather(model, state, touches.iter());
-    let gathered = &*gathered;
+    if gathered.islands.len() == 1 || !model.pins.is_empty() {
+        return decide_island((model, state), touches, change, gathered, work);
+    }
+    let islands = gathered.islands.clone();
+    let mut own = Gathered::until(gathered.deadline);
+    let mut p = vec![Impulse::zeros(); touches.len()];
+    let mut all: Vec<(usize, Held)> = Vec::new();
+    for island in &islands {
+        let here: Vec<Touch> = island.iter().map(|i| touches[*i].clone()).collect();
+        own.gather(model, state, here.iter());
+        match decide_island((model, state), here, change, &own, work) {
+            Decision::Holds(held, solved) => {
+                island.iter().zip(&solved.p).for_each(|(i, of)| p[*i] = *of);
+                let place = |held: &Held| island.iter().copied().find(|i| touches[*i].key() == held.touch.key());
+                all.extend(held.into_iter().filter_map(|held| Some((place(&held)?, held))));
+            }
+            other => return other,
+        }
+    }
+    all.sort_by_key(|(place, _)| *place);
+    Decision::Holds(all.into_iter().map(|(_, held)| held).collect(), gathered.solved(p, true))
+}
+
+/// Of contacts that share bodies: the others do not matter to them.
+fn decide_island(
+    (model, state): (&Model, &State),
+    touches: Vec<Touch>,
+    change: &Change,
+    gathered: &Gathered,
+    work: &mut Work,
+) -> Decision {
     let slow: Vec<bool> = touches
         .iter()
         .enumerate()
@@ -225,9 +266,9 @@ pub struct Margin {
 /// Of what holds in a state, which is gathered.
 pub fn margin(model: &Model, state: &State, held: &[Held], gathered: &mut Gathered, work: &mut Work) -> Margin {
     gathered.gather(model, state, held.iter().map(|held| &held.touch));
-    let modes = || -> Vec<Mode> { gathered.modes(held).collect() };
     if held.len() > MANY {
-        return by_law_alone(gathered, &modes(), work);
+        let modes: Vec<Mode> = gathered.modes(held).collect();
+        return by_law_alone(gathered, &modes, work);
     }
     let solved = gathered.hold(held, Selection::Least);
     if !solved.holds {
@@ -237,19 +278,42 @@ pub fn margin(model: &Model, state: &State, held: &[Held], gathered: &mut Gather
     if largest == 0.0 {
         return Margin { least: 0.0, solved };
     }
-    let margin = held.iter().zip(&solved.p).map(|(held, p)| match held.mode {
-        Mode::Stick => p.x.min(held.touch.friction() * p.x - p.yz().norm()),
-        Mode::Slide(_) => p.x,
-    });
-    let least = margin.fold(f64::INFINITY, f64::min) / largest;
-    if least >= 0.0 || held.len() == 1 {
+    let of = |i: usize| match (held[i].mode, &solved.p[i]) {
+        (Mode::Stick, p) => p.x.min(held[i].touch.friction() * p.x - p.yz().norm()),
+        (Mode::Slide(_), p) => p.x,
+    };
+    let least_of = |island: &[usize]| island.iter().copied().map(of).fold(f64::INFINITY, f64::min) / largest;
+    let mut least = f64::INFINITY;
+    let mut p = solved.p.clone();
+    for island in &gathered.islands {
+        let own: Vec<usize> = island.iter().copied().filter(|i| *i < held.len()).collect();
+        let of_own = least_of(&own);
+        let law = if of_own < 0.0 && own.len() > 1 { law_of(model, state, held, &own, gathered, work) } else { None };
+        least = least.min(law.as_ref().map_or(of_own, |(_, goes_on)| if *goes_on { NOT_KNOWN } else { of_own }));
+        law.iter().for_each(|(of, _)| own.iter().zip(of).for_each(|(i, of)| p[*i] = *of));
+    }
+    if p == solved.p {
         return Margin { least, solved };
     }
-    let modes = modes();
-    match by_law(gathered, &modes, work) {
-        Law::Holds(now, solved) if goes_on(&now, &modes) => Margin { least: NOT_KNOWN, solved },
-        Law::Holds(_, solved) => Margin { least, solved },
-        Law::Jams | Law::Unsolved => Margin { least, solved },
+    Margin { least, solved: gathered.solved(p, true) }
+}
+
+/// Forces by the law of contacts that share bodies, and whether they go on. None: it is not solved.
+fn law_of(
+    model: &Model,
+    state: &State,
+    held: &[Held],
+    island: &[usize],
+    gathered: &Gathered,
+    work: &mut Work,
+) -> Option<(Vec<Impulse>, bool)> {
+    let part: Vec<Held> = island.iter().map(|i| held[*i].clone()).collect();
+    let mut own = Gathered::until(gathered.deadline);
+    own.gather(model, state, part.iter().map(|held| &held.touch));
+    let modes: Vec<Mode> = own.modes(&part).collect();
+    match by_law(&own, &modes, work) {
+        Law::Holds(now, solved) => Some((solved.p, goes_on(&now, &modes))),
+        Law::Jams | Law::Unsolved => None,
     }
 }
 

@@ -80,6 +80,8 @@ pub struct Gathered {
     pub deadline: Deadline,
     contacts: Vec<Contact>,
     pins: Vec<Pin>,
+    /// Blocks, by their numbers, that share bodies which forces move.
+    pub islands: Vec<Vec<usize>>,
 }
 
 /// Forces, and what they do.
@@ -121,6 +123,10 @@ pub fn meeting_m_s(model: &Model, state: &State, bodies: impl Iterator<Item = us
 }
 
 impl Gathered {
+    pub fn until(deadline: Deadline) -> Self {
+        Gathered { deadline, ..Gathered::default() }
+    }
+
     /// Accelerations without contact, and b, of these touches and of all pins.
     pub fn gather<'a>(&mut self, model: &Model, state: &State, touches: impl Iterator<Item = &'a Touch>) {
         self.free.clear();
@@ -159,15 +165,51 @@ impl Gathered {
         self.problem.gather(model, state, &self.free, &mut self.contacts, (Approach::Touching, 1.0));
     }
 
+    /// Fills `islands`, in the order of their first blocks.
+    fn part(&mut self, model: &Model) {
+        let mut of_body: Vec<usize> = (0..model.bodies.len()).collect();
+        fn root(of_body: &[usize], mut i: usize) -> usize {
+            while of_body[i] != i {
+                i = of_body[i];
+            }
+            i
+        }
+        let moved = |block: &Block| {
+            let bodies: Vec<usize> = block.ends().map(|end| end.body).filter(|i| !model.bodies[*i].driven).collect();
+            bodies
+        };
+        for block in &self.problem.blocks {
+            if let [a, b] = moved(block)[..] {
+                let [a, b] = [a, b].map(|i| root(&of_body, i));
+                of_body[a.max(b)] = a.min(b);
+            }
+        }
+        self.islands.clear();
+        let mut place = vec![None; model.bodies.len()];
+        for (k, block) in self.problem.blocks.iter().enumerate() {
+            let of = moved(block).first().map(|i| root(&of_body, *i));
+            match of.and_then(|of| place[of]) {
+                Some(island) => Vec::push(&mut self.islands[island], k),
+                None => {
+                    if let Some(of) = of {
+                        place[of] = Some(self.islands.len());
+                    }
+                    self.islands.push(vec![k]);
+                }
+            }
+        }
+    }
+
     /// `bias`: what a pin's end is accelerated by the body's rotation.
     fn pin(&mut self, model: &Model, state: &State, bias: impl Fn(&BodyState, &Vector3<f64>) -> Vector3<f64>) {
         if model.pins.is_empty() {
-            return;
+            return self.part(model);
         }
         let of = |end: &PinEnd| bias(&state.bodies[end.body], &end.r_W) * end.sign;
         let both = |own: &PinEnd, other: Option<&PinEnd>| of(own) + other.map_or_else(Vector3::zeros, of);
         pins::at(model, state, |_, own, other| -both(own, other), &mut self.pins);
         self.problem.pin(model, state, &self.free, &self.pins);
+        self.part(model);
     }
 
     /// The largest of b.
@@ -232,31 +274,50 @@ impl Gathered {
     }
 
     /// Of contacts that share forces, those that would pull are left out as long as the others can hold them: which of
-    /// them press decides how a slab that spins is slowed.
-    fn push_only(&self, mut rows: Vec<Rows>, all: Solved, contacts: usize) -> Solved {
-        if all.p[..contacts].iter().all(|p| p.x >= 0.0) {
-            return all;
-        }
-        let scale = self.scale();
-        let mut now = all.clone();
-        for _ in 0..contacts {
-            let Some(worst) = (0..contacts).min_by(|a, b| now.p[*a].x.total_cmp(&now.p[*b].x)) else { return now };
-            if now.p[worst].x >= 0.0 {
-                return now;
+    /// them press decides how a slab that spins is slowed. Each island by itself.
+    fn push_only(&self, rows: Vec<Rows>, mut all: Solved, contacts: usize) -> Solved {
+        let mut changed = false;
+        for island in &self.islands {
+            let own: Vec<usize> = island.iter().copied().filter(|i| *i < contacts).collect();
+            if own.iter().any(|i| all.p[*i].x < 0.0)
+                && let Some(p) = self.push_only_of(island, &own, &rows, &all)
+            {
+                island.iter().for_each(|i| all.p[*i] = p[*i]);
+                changed = true;
             }
-            rows[worst] = Rows::None;
-            now = self.solve(&rows, Selection::Least);
-            let lifts = |i: usize| self.problem.blocks[i].velocity(&now.added).x.abs() > CONSISTENT * scale;
-            if !now.holds || (0..contacts).any(lifts) {
+        }
+        if changed { self.solved(all.p, true) } else { all }
+    }
+
+    /// None: the others cannot hold them.
+    fn push_only_of(&self, island: &[usize], own: &[usize], rows: &[Rows], all: &Solved) -> Option<Vec<Impulse>> {
+        let scale = island.iter().map(|i| self.problem.blocks[*i].b.norm()).fold(0.0, f64::max);
+        let mut rows = rows.to_vec();
+        let mut p = all.p.clone();
+        for _ in own {
+            let worst = own.iter().copied().min_by(|a, b| p[*a].x.total_cmp(&p[*b].x))?;
+            if p[worst].x >= 0.0 {
                 break;
             }
+            rows[worst] = Rows::None;
+            p = vec![Impulse::zeros(); self.problem.blocks.len()];
+            let holds = solve(&self.problem, island, &rows, Selection::Least, &mut p, self.deadline);
+            let now = self.solved(p, holds);
+            let lifts = |i: &usize| self.problem.blocks[*i].velocity(&now.added).x.abs() > CONSISTENT * scale;
+            if !now.holds || own.iter().any(lifts) {
+                return None;
+            }
+            p = now.p;
         }
-        all
+        Some(p)
     }
 
     fn solve(&self, rows: &[Rows], choice: Selection) -> Solved {
         let mut p = vec![Impulse::zeros(); self.problem.blocks.len()];
-        let holds = solve(&self.problem, rows, choice, &mut p, self.deadline);
+        let mut holds = true;
+        for island in &self.islands {
+            holds &= solve(&self.problem, island, rows, choice, &mut p, self.deadline);
+        }
         self.solved(p, holds)
     }
 
@@ -319,18 +380,29 @@ fn free_acceleration(model: &Model, state: &State, index: usize) -> Twist {
     Twist { v, w }
 }
 
-fn solve(problem: &ContactProblem, rows: &[Rows], choice: Selection, p: &mut [Impulse], deadline: Deadline) -> bool {
-    if let ([Rows::Normal(edge)], [block]) = (rows, &problem.blocks[..]) {
-        let k = block.A.row(0).transpose().dot(edge);
-        p[0] = edge * (-block.b.x / k);
+/// Forces of an island; the others' are left as they are.
+fn solve(
+    problem: &ContactProblem,
+    island: &[usize],
+    rows: &[Rows],
+    choice: Selection,
+    p: &mut [Impulse],
+    deadline: Deadline,
+) -> bool {
+    if let [i] = *island
+        && let Rows::Normal(edge) = rows[i]
+    {
+        let block = &problem.blocks[i];
+        let k = block.A.row(0).transpose().dot(&edge);
+        p[i] = edge * (-block.b.x / k);
         return k > 0.0;
     }
     // Unknowns: which block, and the force of one unit of it; equations: which row.
     let mut unknowns: Vec<(usize, Vector3<f64>, usize)> = Vec::new();
-    for (i, rows) in rows.iter().enumerate() {
-        match rows {
+    for &i in island {
+        match rows[i] {
             Rows::None => {}
-            Rows::Normal(edge) => unknowns.push((i, *edge, 0)),
+            Rows::Normal(edge) => unknowns.push((i, edge, 0)),
             Rows::All => unknowns.extend((0..3).map(|k| (i, Vector3::ith(k, 1.0), k))),
         }
     }

@@ -8,7 +8,8 @@
 //!   `slip`: where that is stiff; `stiff`: its steps there
 //! - `caps`: of cylinders, that lie flat, fall flat and tip
 //! - `change`: when a contact that holds stops doing so
-//! - `watch`: when the next gap closes, and the proof that none was missed
+//! - `watch`: when the next gap closes, and the proof that none was missed, of two bodies in `pairs`, from `look` to
+//!   look
 //! - `which`: what bodies that share an edge alone do to each other
 //! - `impact`: the laws of impact at one moment; `zeno`: which of them is the last that matters
 //!
@@ -26,7 +27,9 @@ pub mod field;
 pub mod forces;
 pub mod impact;
 pub mod law;
+pub mod look;
 pub mod motion;
+mod pairs;
 pub mod radau_tableau;
 pub mod settle;
 pub mod shown;

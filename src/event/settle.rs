@@ -84,7 +84,7 @@ impl Settling<'_> {
         if !all_others(&|b| self.model.bodies[b].driven && self.resting[b]) {
             return None;
         }
-        if !own().all(|(_, held)| held.touch.is_on_plane()) {
+        if !own().all(|(_, held)| held.touch.is_on_plane(i)) {
             return None;
         }
         let own: Vec<usize> = own().map(|(k, _)| k).collect();

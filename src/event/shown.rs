@@ -102,10 +102,28 @@ pub const ROLLS: f64 = 1.75 * FLAT;
 /// Of the bounding radius: the point is on the corner, on the edge. Less than a point may be beyond a border (`touch`).
 const AT: f64 = 2e-10;
 
-/// At a point with this outward normal.
-pub fn shown(body: &Body, p_B: &Vector3<f64>, out_B: &Vector3<f64>) -> Option<Facing> {
+/// Of a unit vector's cosine: a face along which it nearly is.
+const NEARLY: f64 = 0.95;
+
+/// The face that is nearest to having this outward normal, if it nearly does; of what has corners.
+pub fn face_toward(body: &Body, out_B: &Vector3<f64>) -> Option<Face> {
     let (solid, centre) = body.solid()?;
-    let (y, own, near) = (Vector3::y(), p_B - centre, AT * body.bounding_radius_m);
+    let face = match solid {
+        Solid::Box { half_m } => face_of_box(half_m, centre, out_B),
+        Solid::Convex(hull) => {
+            let along = |i: &usize| hull.faces[*i].normal.dot(out_B);
+            let i = (0..hull.faces.len()).max_by(|i, j| along(i).total_cmp(&along(j)))?;
+            face_of_hull(hull, centre, i)
+        }
+        _ => return None,
+    };
+    (face.normal_B.dot(out_B) > NEARLY).then_some(face)
+}
+
+/// At a point with this outward normal, of a contact that is so far open.
+pub fn shown(body: &Body, p_B: &Vector3<f64>, out_B: &Vector3<f64>, gap_m: f64) -> Option<Facing> {
+    let (solid, centre) = body.solid()?;
+    let (y, own, near) = (Vector3::y(), p_B - centre, AT * body.bounding_radius_m + gap_m.abs());
     let only = |spot: Spot| Facing { spot, face: None };
     // Of something about the axis y, at this height.
     let side = |y_m: f64, radius_m: f64, half_m: f64| {
@@ -166,12 +184,7 @@ fn of_box(
     let axis = out_B.iamax();
     let normal_B = Vector3::ith(axis, out_B[axis].signum());
     let is_face = (out_B - normal_B).norm() <= ALONG;
-    let wall = |k: usize, sign: f64| (Vector3::ith(k, sign), half_m[k] + sign * centre[k]);
-    let face = is_face.then(|| Face {
-        normal_B,
-        offset_m: half_m[axis] + normal_B.dot(centre),
-        border: Border::Walls((0..3).filter(|k| *k != axis).flat_map(|k| [wall(k, 1.0), wall(k, -1.0)]).collect()),
-    });
+    let face = is_face.then(|| face_of_box(half_m, centre, out_B));
     let at = |k: &usize| (half_m[*k] - own[*k].abs()).abs() <= near;
     let corner = half_m.zip_map(own, |half, x| half.copysign(x));
     let out = |k: usize| Vector3::ith(k, corner[k].signum());
@@ -195,15 +208,29 @@ fn of_box(
     Some(Facing { spot, face })
 }
 
+/// The one nearest to a direction.
+fn face_of_box(half_m: &Vector3<f64>, centre: &Vector3<f64>, out_B: &Vector3<f64>) -> Face {
+    let axis = out_B.iamax();
+    let normal_B = Vector3::ith(axis, out_B[axis].signum());
+    let wall = |k: usize, sign: f64| (Vector3::ith(k, sign), half_m[k] + sign * centre[k]);
+    Face {
+        normal_B,
+        offset_m: half_m[axis] + normal_B.dot(centre),
+        border: Border::Walls((0..3).filter(|k| *k != axis).flat_map(|k| [wall(k, 1.0), wall(k, -1.0)]).collect()),
+    }
+}
+
+fn face_of_hull(hull: &Hull, centre: &Vector3<f64>, i: usize) -> Face {
+    let offset_m = |f: &Polygon| f.normal.dot(&(hull.vertices[f.corners[0] as usize] + centre));
+    let others = hull.faces.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, f)| (f.normal, offset_m(f)));
+    let own = &hull.faces[i];
+    Face { normal_B: own.normal, offset_m: offset_m(own), border: Border::Walls(others.collect()) }
+}
+
 fn of_hull(hull: &Hull, centre: &Vector3<f64>, own: &Vector3<f64>, out_B: &Vector3<f64>, near: f64) -> Option<Facing> {
     let vertex = |i: u32| hull.vertices[i as usize];
-    let offset_m = |f: &Polygon| f.normal.dot(&(vertex(f.corners[0]) + centre));
     let which = hull.faces.iter().position(|face| (face.normal - out_B).norm() <= ALONG);
-    let face = which.map(|i| {
-        let others = hull.faces.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, f)| (f.normal, offset_m(f)));
-        let own = &hull.faces[i];
-        Face { normal_B: own.normal, offset_m: offset_m(own), border: Border::Walls(others.collect()) }
-    });
+    let face = which.map(|i| face_of_hull(hull, centre, i));
     // Every edge twice, once with either face.
     let mut edges: Vec<(&Polygon, u32, u32)> = Vec::new();
     for f in &hull.faces {

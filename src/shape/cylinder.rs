@@ -10,8 +10,15 @@ use std::f64::consts::PI;
 /// points of the rim are fixed in the body; what is lost is less than a third of this angle times the radius.
 pub const FLAT: f64 = 1e-10;
 
-/// Of a pair's features: a point of a rim, by its number.
+/// Of a pair's features: the inside of a face; a corner, by its number.
+pub const FACE: u32 = 0;
+pub const VERTEX: u32 = 1 << 28;
+
+/// The same: a point of a rim, by its number.
 pub const RIM: u32 = 3 << 28;
+
+/// The same: where a rim crosses another outline (0 and 1), or the middle of the arc between.
+pub const ARC: u32 = 4 << 28;
 
 pub fn bounding_radius_m(radius_m: f64, half_height_m: f64) -> f64 {
     (radius_m * radius_m + half_height_m * half_height_m).sqrt()

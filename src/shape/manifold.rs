@@ -27,12 +27,11 @@ pub struct Opposite {
 
 /// Features of a body that can face another one: kind in the upper four bits, number in the others.
 mod feature {
-    use crate::shape::cylinder::RIM;
+    use crate::shape::cylinder::{ARC, RIM, VERTEX};
 
-    pub const FACE: u32 = 0;
-    const VERTEX: u32 = 1 << 28;
+    pub use crate::shape::cylinder::FACE;
+
     const EDGE: u32 = 2 << 28;
-    const ARC: u32 = 4 << 28;
 
     pub fn vertex(number: u32) -> u32 {
         VERTEX | number
@@ -189,9 +188,25 @@ fn facing_sides<'a>(a: &'a Placed, b: &'a Placed, axis: &Axis) -> Option<[Side<'
 }
 
 /// Calls `visit` for the point where the outlines of two facing sides are nearest to each other, which do not lie
-/// opposite; not for round ones.
+/// opposite.
 pub fn of_nearest_edges(a: &Placed, b: &Placed, axis: &Axis, visit: &mut impl FnMut(Opposite)) {
     let Some([side_a, side_b]) = facing_sides(a, b, axis) else { return };
+    let corner = feature::vertex(0);
+    match (&side_a, &side_b) {
+        (Side::Disc(disc), other) => {
+            if let Some((on_a, on_b)) = beside_rim(disc, other) {
+                visit(Opposite { on_a, on_b, feature: (corner, corner) });
+            }
+            return;
+        }
+        (other, Side::Disc(disc)) => {
+            if let Some((on_b, on_a)) = beside_rim(disc, other) {
+                visit(Opposite { on_a, on_b, feature: (corner, corner) });
+            }
+            return;
+        }
+        _ => {}
+    }
     let mut nearest: Option<(f64, Opposite)> = None;
     for edge_a in side_a.pieces() {
         let (p, u) = (side_a.corner(edge_a.0), side_a.corner(edge_a.1) - side_a.corner(edge_a.0));
@@ -207,6 +222,27 @@ pub fn of_nearest_edges(a: &Placed, b: &Placed, axis: &Axis, visit: &mut impl Fn
         }
     }
     nearest.into_iter().for_each(|(_, at)| visit(at));
+}
+
+/// The point of a rim that is nearest to what lies beside its cap, and that one's point.
+fn beside_rim(disc: &Disc, other: &Side) -> Option<(Vector3<f64>, Vector3<f64>)> {
+    let flat = |v: Vector3<f64>| v - disc.normal * disc.normal.dot(&v);
+    let of_piece = |(i, j): (usize, usize)| {
+        let (p, q) = (other.corner(i), other.corner(j));
+        let (r, e) = (flat(p - disc.centre), flat(q - p));
+        let part = if e.norm_squared() > 0.0 { (-r.dot(&e) / e.norm_squared()).clamp(0.0, 1.0) } else { 0.0 };
+        p + (q - p) * part
+    };
+    let from_axis_m = |p: &Vector3<f64>| flat(p - disc.centre).norm();
+    let nearest = match other {
+        Side::Disc(other) => {
+            let toward = flat(disc.centre - other.centre).try_normalize(0.0)?;
+            Some(other.centre + toward * other.radius_m)
+        }
+        _ => other.pieces().map(of_piece).min_by(|p, q| from_axis_m(p).total_cmp(&from_axis_m(q))),
+    }?;
+    let toward = flat(nearest - disc.centre).try_normalize(0.0)?;
+    Some((disc.centre + toward * disc.radius_m, nearest))
 }
 
 /// Calls `visit` for the points where a face of one of the two lies opposite a side of the other.

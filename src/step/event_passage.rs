@@ -4,7 +4,7 @@ use super::event_driven::{EventDriven, Span};
 use super::moments::moments;
 use crate::event::decide::{Margin, margin};
 use crate::event::forces::{Gathered, Held};
-use crate::event::watch::Paths;
+use crate::event::look::Paths;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::shown::{ContactForce, Moment, Passage, Smooth};

@@ -7,6 +7,7 @@ mod closed_forms;
 mod cube;
 mod never_hangs;
 mod painleve;
+mod round_parts;
 mod same;
 mod seams;
 mod symmetries;

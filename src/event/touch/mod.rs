@@ -8,6 +8,8 @@
 
 mod ball_on_line;
 mod balls;
+mod crossing;
+mod curved;
 mod lines;
 mod moving;
 mod parts;

@@ -69,7 +69,7 @@ impl Touch {
         let ends = match &self.parts {
             Parts::OnPlane { plane, .. } => plane.border != Border::Nowhere,
             Parts::Balls(balls) => balls.iter().any(|ball| !ball.cone.is_empty()),
-            Parts::Lines(_) | Parts::BallOnLine { .. } => true,
+            Parts::Lines(_) | Parts::BallOnLine { .. } | Parts::OnRim(_) | Parts::Curved(_) => true,
         };
         ends && self.slack_m.is_some()
     }
@@ -110,6 +110,8 @@ impl Touch {
                     .min(within_m(&line.cone, &of_line.q_WB.inverse_transform_vector(&off)))
                     .min(within_m(&ball.cone, &of_ball.q_WB.inverse_transform_vector(&-off)))
             }
+            Parts::OnRim(crossing) => crossing.inside_m(pair(&self.found, &at)),
+            Parts::Curved(curved) => curved.inside_m(pair(&self.found, &at)),
         }
     }
 
@@ -122,9 +124,10 @@ impl Touch {
         std::iter::once(self.found.body).chain(self.found.other)
     }
 
-    /// On a plane, whose normal turns only with its body.
-    pub fn is_on_plane(&self) -> bool {
-        matches!(self.parts, Parts::OnPlane { .. })
+    /// A part of this body on a plane of another one, or of the container: where it does not turn, the point is one of
+    /// its own.
+    pub fn is_on_plane(&self, part_of: usize) -> bool {
+        matches!(&self.parts, Parts::OnPlane { of, .. } if *of == part_of)
     }
 
     pub fn friction(&self) -> f64 {
@@ -142,6 +145,8 @@ impl Touch {
             Parts::Balls(balls) => balls::here(&self.found, &at, balls),
             Parts::Lines(lines) => lines::here(&self.found, &at, lines),
             Parts::BallOnLine { first, ball, line } => ball_on_line::here(&self.found, &at, *first, ball, line),
+            Parts::OnRim(crossing) => crossing.here(&self.found, &at),
+            Parts::Curved(curved) => curved.here(&self.found, &at),
         };
         let (a, b) = (at(contact.body), contact.other.map(&at));
         contact.r_BC_W = contact.p_WC - a.p_WB;

@@ -1,5 +1,7 @@
 //! The kinds of contact.
 
+use super::crossing::OnRim;
+use super::curved::Curved;
 use super::plane::Plane;
 use crate::event::shown::{Ball, Line, Part};
 
@@ -21,4 +23,7 @@ pub(super) enum Parts {
         ball: Ball,
         line: Line,
     },
+    /// What lies flat on a cap crosses its rim.
+    OnRim(OnRim),
+    Curved(Curved),
 }

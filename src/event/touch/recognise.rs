@@ -1,10 +1,13 @@
 //! Which kind of contact one is that the contact test has found.
 
+use super::crossing::{Disc, OnRim, Outline};
+use super::curved::{Curved, Side};
 use super::parts::Parts;
 use super::plane::Plane;
 use crate::collide::Contact;
-use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, ROLLS, Spot, shown};
+use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, ROLLS, Spot, face_toward, shown};
 use crate::model::{Body, Geometry, Model};
+use crate::shape::cylinder::{ARC, FACE, RIM, VERTEX};
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
@@ -65,33 +68,107 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
     let at = bodies.map(|i| &state.bodies[i]);
     let p_B = at.map(|at| at.q_WB.inverse_transform_vector(&(found.p_WC - at.p_WB)));
     let show = |side: usize, out: Vector3<f64>| {
-        shown(&model.bodies[bodies[side]], &p_B[side], &at[side].q_WB.inverse_transform_vector(&out))
+        let out_B = at[side].q_WB.inverse_transform_vector(&out);
+        shown(&model.bodies[bodies[side]], &p_B[side], &out_B, found.gap_m)
     };
-    let (a, b) = (show(0, -found.normal)?, show(1, found.normal)?);
-    if let (Spot::Line(line_A), Spot::Line(line_B)) = (&a.spot, &b.spot) {
-        let cross = (at[0].q_WB * line_A.direction_B).cross(&(at[1].q_WB * line_B.direction_B));
-        if cross.norm() > PARALLEL {
-            return Some(Parts::Lines([line_A.clone(), line_B.clone()]));
-        }
-    }
-    let on = |of: usize, face: &Face, base: usize| {
+    let on = |of: usize, face: &Face, base: usize, spot: Option<&Spot>| {
         let plane = Plane {
             of: Some(bodies[base]),
             normal: face.normal_B,
             offset_m: face.offset_m,
             border: face.border.clone(),
         };
-        let spot = if of == 0 { &a.spot } else { &b.spot };
-        Parts::OnPlane { of: bodies[of], part: part(spot, p_B[of]), plane }
+        Parts::OnPlane { of: bodies[of], part: spot.map_or_else(|| corner(p_B[of]), |spot| part(spot, p_B[of])), plane }
     };
-    match (&a, &b) {
+    let toward = |side: usize, out: Vector3<f64>| {
+        face_toward(&model.bodies[bodies[side]], &at[side].q_WB.inverse_transform_vector(&out))
+    };
+    let (mut a, mut b) = (show(0, -found.normal), show(1, found.normal));
+    if found.feature == (VERTEX, VERTEX) {
+        [(&mut a, 0), (&mut b, 1)].into_iter().for_each(|(of, side)| beside_cap(&model.bodies[bodies[side]], of));
+    }
+    let spot = |of: &'_ Option<Facing>| of.as_ref().map(|facing| facing.spot.clone());
+    let face = |of: &Option<Facing>| of.as_ref().and_then(|facing| facing.face.clone());
+    // The contact test says which of two has the corner, where edges lie along each other or faces lie almost flat.
+    // So do the middles of arcs.
+    let is_corner = |feature: u32| [VERTEX, RIM].contains(&(feature >> 28 << 28));
+    let is_arc = |feature: u32| feature >> 28 << 28 == ARC;
+    match found.feature {
+        (of, of_b) if (of == FACE && is_corner(of_b)) || (!is_arc(of) && of_b == ARC | 2) || of == ARC | 3 => {
+            if let Some(face) = face(&a).or_else(|| toward(0, -found.normal)) {
+                return Some(on(1, &face, 0, spot(&b).as_ref()));
+            }
+        }
+        (of, of_b) if (of_b == FACE && is_corner(of)) || of == ARC | 2 => {
+            if let Some(face) = face(&b).or_else(|| toward(1, found.normal)) {
+                return Some(on(0, &face, 1, spot(&a).as_ref()));
+            }
+        }
+        _ => {}
+    }
+    if let (Some(a), Some(b)) = (&a, &b)
+        && let Some(parts) = facing(state, found, [a, b], &on)
+    {
+        return Some(parts);
+    }
+    let near = [(0, toward(1, found.normal), &a), (1, toward(0, -found.normal), &b)];
+    near.into_iter().find_map(|(of, face, own)| Some(on(of, &face?, 1 - of, spot(own).as_ref())))
+}
+
+/// What lies beside a cap meets its rim, however little the normal is off the cap's.
+fn beside_cap(body: &Body, of: &mut Option<Facing>) {
+    if let (Some((Solid::Cylinder { radius_m, half_height_m }, centre)), Some(facing)) = (body.solid(), &mut *of)
+        && let Some(face) = &facing.face
+    {
+        let (axis_B, radius_m) = (Vector3::y(), *radius_m);
+        let centre_B = centre + face.normal_B * *half_height_m;
+        *facing = Facing { spot: Spot::Part(Part::Rim { centre_B, axis_B, radius_m }), face: None };
+    }
+}
+
+/// Of parts that both bodies show.
+fn facing(
+    state: &State,
+    found: &Contact,
+    [a, b]: [&Facing; 2],
+    on: &impl Fn(usize, &Face, usize, Option<&Spot>) -> Parts,
+) -> Option<Parts> {
+    let at = [found.body, found.other?].map(|i| &state.bodies[i]);
+    if let (Spot::Line(line_A), Spot::Line(line_B)) = (&a.spot, &b.spot) {
+        let cross = (at[0].q_WB * line_A.direction_B).cross(&(at[1].q_WB * line_B.direction_B));
+        if cross.norm() > PARALLEL {
+            return Some(Parts::Lines([line_A.clone(), line_B.clone()]));
+        }
+    }
+    if let Some((first, cap, outline)) = crossing(found.feature, a, b) {
+        let bodies = |i: usize| &state.bodies[i];
+        return Some(Parts::OnRim(OnRim::new(found, &bodies, first, cap, outline)));
+    }
+    match (a, b) {
         // What is a corner or an edge of one is held by the face of the other.
         (Facing { face: Some(face), spot: Spot::Inside }, Facing { spot, .. }) if *spot != Spot::Inside => {
-            Some(on(1, face, 0))
+            Some(on(1, face, 0, Some(spot)))
         }
-        (_, Facing { face: Some(face), .. }) => Some(on(0, face, 1)),
-        (Facing { face: Some(face), .. }, _) => Some(on(1, face, 0)),
-        _ => round(&a.spot, &b.spot),
+        (_, Facing { face: Some(face), .. }) => Some(on(0, face, 1, Some(&a.spot))),
+        (Facing { face: Some(face), .. }, _) => Some(on(1, face, 0, Some(&b.spot))),
+        _ => round(&a.spot, &b.spot).or_else(|| curved(state, found, [&a.spot, &b.spot])),
+    }
+}
+
+/// What crosses a rim there, if the contact test says so: whether the cap is of the first body, and what of the other
+/// one it is.
+fn crossing(feature: (u32, u32), a: &Facing, b: &Facing) -> Option<(bool, Disc, Outline)> {
+    let crosses = |feature: u32| feature == ARC || feature == ARC | 1;
+    let cap = |facing: &Facing| facing.face.as_ref().and_then(Disc::of);
+    let with = |first: bool, of: &Facing, other: &Facing| match &other.spot {
+        Spot::Line(line) => Some((first, cap(of)?, Outline::Line(line.clone()))),
+        _ => None,
+    };
+    match (crosses(feature.0), crosses(feature.1)) {
+        (true, true) => Some((true, cap(a)?, Outline::Rim(cap(b)?))),
+        (true, false) => with(true, a, b),
+        (false, true) => with(false, b, a),
+        (false, false) => None,
     }
 }
 
@@ -108,8 +185,21 @@ fn round(a: &Spot, b: &Spot) -> Option<Parts> {
         (Some(a), Some(b), ..) if a.radius_m + b.radius_m > 0.0 => Some(Parts::Balls([a, b])),
         (Some(ball), _, _, Spot::Line(line)) => on_line(true, ball, line),
         (_, Some(ball), Spot::Line(line), _) => on_line(false, ball, line),
+        // Side by side: a point of the one's middle line stays so, however it rolls.
+        (.., Spot::Line(own), Spot::Line(line)) => on_line(true, Ball::new(own.point_B, own.radius_m), line),
         _ => None,
     }
+}
+
+/// Of which one is a rim or an ellipsoid.
+fn curved(state: &State, found: &Contact, spots: [&Spot; 2]) -> Option<Parts> {
+    let side = |spot: &Spot| match spot {
+        Spot::Part(part) => Some(Side::Part(part.clone())),
+        Spot::Line(line) => Some(Side::Line(line.clone())),
+        Spot::Inside => None,
+    };
+    let sides = [side(spots[0])?, side(spots[1])?];
+    Curved::new(found, &|i: usize| &state.bodies[i], sides).map(Parts::Curved)
 }
 
 /// Of a radius: nearer to it is the end of a round side.

@@ -1,0 +1,353 @@
+//! When two bodies come to touch with parts that are not held (`watch`).
+
+use super::caps;
+use super::decide::SAME;
+use super::forces::{Held, NO_SLIP, speed_m_s};
+use super::look::{Look, Paths, Window, march};
+use super::motion::Bounds;
+use super::which::{GRAZING, Sharing};
+use crate::collide::Contact;
+use crate::collide::closed::delta_m;
+use crate::model::{Body, pose_of_solid};
+use crate::shape::band::{Along, BAND, touches_beside};
+use crate::shape::solid::{Meeting as Found, Pose, Solid};
+use crate::state::BodyState;
+use crate::work::Work;
+use nalgebra::Vector3;
+
+/// Within this part of the smaller body's size, its points of contact are looked at, which beyond it only their
+/// distance bounds: small enough for normals to turn little on the way, large against δ, so that the first of them is
+/// not missed.
+const NEAR: f64 = 1e-3;
+
+/// Normals that differ by less are one, and so do points, of the smaller body's size, that are beside a line.
+const FLUSH: f64 = 1e-9;
+
+/// Of the smaller body's size: points this far apart span a line or a plane.
+const SPREAD: f64 = 1e-6;
+
+/// The longest way between two looks at points of contact, of the smaller body's size: other parts may come to be the
+/// nearest.
+const WAY: f64 = 0.05;
+
+/// Points of contact move over the surfaces as well as with them, and normals turn: twice the bound of either.
+const ROLLING: f64 = 2.0;
+
+/// The earliest time at which two bodies touch with what is not held.
+pub(super) fn with_each_other(
+    paths: &Paths,
+    pair: [usize; 2],
+    held: &[Held],
+    window: Window,
+    work: &mut Work,
+) -> Option<f64> {
+    let two = Two::new(paths, pair, held, window)?;
+    if let [Solid::Sphere { radius_m: a }, Solid::Sphere { radius_m: b }] = two.solids {
+        return if two.resting.is_empty() { two.balls(window, a + b, work) } else { None };
+    }
+    two.bodies(window, work)
+}
+
+/// δ that what passes by may be inside, and looks at it: halving its rate, it is none after forty.
+const FEW: f64 = 10.0;
+const MOST_ARRIVING: u32 = 200;
+
+/// Parts of two bodies that face each other.
+struct Parted {
+    /// In which none can touch.
+    safe_s: f64,
+    /// One does.
+    touching: bool,
+    /// So many are closed and stay so.
+    lingering: usize,
+}
+
+/// How two bodies come to each other.
+#[derive(Clone, Copy)]
+enum Way {
+    Apart,
+    /// An edge or a corner alone is shared.
+    Shared,
+    /// The gap closes without an impact, at the next look.
+    Arriving,
+}
+
+fn nearest(found: &[Found]) -> Option<&Found> {
+    found.iter().min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
+}
+
+/// Two bodies that may come to touch.
+struct Two<'a> {
+    paths: &'a Paths<'a>,
+    pair: [usize; 2],
+    bodies: [&'a Body; 2],
+    solids: [&'a Solid; 2],
+    centres: [&'a Vector3<f64>; 2],
+    bounds: [Bounds; 2],
+    resting: Vec<&'a Held>,
+    /// All that is held.
+    held: &'a [Held],
+    sizes: [f64; 2],
+    /// Of the centres against each other.
+    between_m_s2: f64,
+}
+
+/// Both at one time.
+struct Now {
+    at: [BodyState; 2],
+    poses: [Pose; 2],
+    delta_m: f64,
+    slow_m_s: f64,
+}
+
+impl<'a> Two<'a> {
+    fn new(paths: &'a Paths, pair: [usize; 2], held: &'a [Held], window: Window) -> Option<Self> {
+        let bodies = pair.map(|i| &paths.model.bodies[i]);
+        let bounds = pair.map(|i| paths.bounds(i, window.to_s));
+        let [Some((solid_a, centre_a)), Some((solid_b, centre_b))] = bodies.map(Body::solid) else { return None };
+        let is_theirs = |h: &&Held| h.touch.key().0 == pair[0] && h.touch.key().1 == Some(pair[1]);
+        Some(Two {
+            paths,
+            pair,
+            bodies,
+            solids: [solid_a, solid_b],
+            centres: [centre_a, centre_b],
+            bounds,
+            resting: held.iter().filter(is_theirs).collect(),
+            held,
+            sizes: bodies.map(|body| body.bounding_radius_m),
+            between_m_s2: (bounds[0].acceleration - bounds[1].acceleration).norm(),
+        })
+    }
+
+    fn smaller_m(&self) -> f64 {
+        self.sizes[0].min(self.sizes[1])
+    }
+
+    fn now(&self, t_s: f64, work: &mut Work) -> Now {
+        let at = self.pair.map(|i| self.paths.at(i, t_s));
+        work.contact_tests += 1;
+        let speeds = [0, 1].map(|k| speed_m_s(self.paths.model, self.bodies[k], &at[k]));
+        let pose = |k: usize| pose_of_solid(self.centres[k], &at[k]);
+        Now {
+            at,
+            poses: [0, 1].map(pose),
+            delta_m: delta_m(self.smaller_m(), at[0].p_WB.amax().max(at[1].p_WB.amax()) + self.sizes[0]),
+            slow_m_s: NO_SLIP * speeds.into_iter().fold(0.0, f64::max),
+        }
+    }
+
+    /// M against every direction, as the normal turns, of points so far from their centres of mass.
+    fn toward_m_s2(&self, arms_m: [f64; 2]) -> f64 {
+        let size = |b: &Bounds, arm_m: f64| b.beside + arm_m * (b.alpha + b.w * b.w);
+        self.between_m_s2 + size(&self.bounds[0], arms_m[0]) + size(&self.bounds[1], arms_m[1])
+    }
+
+    /// Balls touch where their centres are so near, wherever those are in their bodies.
+    fn balls(&self, window: Window, reach_m: f64, work: &mut Work) -> Option<f64> {
+        let toward_m_s2 = self.toward_m_s2(self.centres.map(|centre| centre.norm()));
+        march(window, self.paths.deadline, |t_s| {
+            let Now { at, poses, delta_m, slow_m_s } = self.now(t_s, work);
+            let rate = |k: usize| at[k].v_WB + at[k].w_WB.cross(&(poses[k].p_W - at[k].p_WB));
+            let look = Look::of_points(poses[0].p_W - poses[1].p_W, rate(0) - rate(1), reach_m, toward_m_s2);
+            Some((look.safe_s(delta_m, slow_m_s), look.is_touching(delta_m, slow_m_s)))
+        })
+    }
+
+    /// Others cannot touch while their bounding spheres do not; then their parts are looked at.
+    fn bodies(&self, window: Window, work: &mut Work) -> Option<f64> {
+        let (reach_m, toward_m_s2) = (self.sizes[0] + self.sizes[1], self.toward_m_s2([0.0, 0.0]));
+        let mut found: Vec<Found> = Vec::new();
+        let mut way = Way::Apart;
+        let mut known = None;
+        march(window, self.paths.deadline, |t_s| {
+            let now = self.now(t_s, work);
+            let at = &now.at;
+            let look = Look::of_points(at[0].p_WB - at[1].p_WB, at[0].v_WB - at[1].v_WB, reach_m, toward_m_s2);
+            if look.gap_m > now.delta_m {
+                return Some((look.safe_s(now.delta_m, now.slow_m_s), false));
+            }
+            self.find(&now, &mut found);
+            let Parted { safe_s, touching, lingering } = self.parts(&now, &found);
+            // What comes to be touched beside what is held is to be held, too.
+            let is_new = known.replace(lingering).is_some_and(|known| lingering > known);
+            if !self.resting.is_empty() && is_new {
+                return Some((safe_s, true));
+            }
+            if !self.resting.is_empty() || nearest(&found).is_none_or(|nearest| nearest.gap_m > self.band_m()) {
+                way = Way::Apart;
+                return Some((safe_s, touching));
+            }
+            if let Some(sharing) = Sharing::new(self.paths.model, self.pair, at.each_ref())
+                && sharing.rate_m_s() >= -now.slow_m_s
+            {
+                way = Way::Shared;
+                return Some((self.parted_s(&now, &sharing), false));
+            }
+            match std::mem::replace(&mut way, Way::Apart) {
+                // What they shared has got an area, or comes to be touched.
+                Way::Shared | Way::Arriving => Some((safe_s, true)),
+                Way::Apart if touching => match self.arrives_s(t_s, window, work) {
+                    Some(arrives_s) => {
+                        way = Way::Arriving;
+                        Some((arrives_s - t_s, false))
+                    }
+                    None => Some((safe_s, true)),
+                },
+                Way::Apart => Some((safe_s, false)),
+            }
+        })
+    }
+
+    fn find(&self, now: &Now, found: &mut Vec<Found>) {
+        found.clear();
+        let reach_m = self.sizes[0] + self.sizes[1];
+        touches_beside(self.solids[0], &now.poses[0], self.solids[1], &now.poses[1], reach_m, found);
+    }
+
+    fn band_m(&self) -> f64 {
+        BAND * self.smaller_m()
+    }
+
+    /// How fast any of their points comes nearer at most.
+    fn closing_m_s(&self, at: &[BodyState; 2]) -> f64 {
+        let [a, b] = &self.bounds;
+        a.w * self.sizes[0] + b.w * self.sizes[1] + (at[0].v_WB - at[1].v_WB).norm()
+    }
+
+    /// M of points of contact: the normal turns with the bodies, and they move over the surfaces.
+    fn rolling_m_s2(&self, closing_m_s: f64) -> f64 {
+        let turning = ROLLING * (self.bounds[0].w + self.bounds[1].w) * closing_m_s;
+        ROLLING * self.toward_m_s2(self.sizes) + turning
+    }
+
+    /// In which none of the axes that separate two bodies alike is out of the band.
+    fn parted_s(&self, now: &Now, sharing: &Sharing) -> f64 {
+        let toward_m_s2 = self.rolling_m_s2(self.closing_m_s(&now.at));
+        let out_s = |(along, rate_m_s): &(Along, f64)| {
+            let look = Look { gap_m: along.gap_m + self.band_m(), rate_m_s: *rate_m_s, toward_m_s2, ..Look::EMPTY };
+            look.safe_s(now.delta_m, now.slow_m_s)
+        };
+        let way_s = self.smaller_m() * WAY / self.closing_m_s(&now.at).max(f64::MIN_POSITIVE);
+        sharing.axes.iter().map(out_s).fold(way_s, f64::min)
+    }
+
+    /// When a gap that closes ever more slowly has closed, if it does not go on: what comes over an edge along a
+    /// surface that another contact holds, or passes by. None: it is an impact.
+    fn arrives_s(&self, from_s: f64, window: Window, work: &mut Work) -> Option<f64> {
+        let mut found = Vec::new();
+        let mut t_s = from_s;
+        let mut most_m = None;
+        for _ in 0..MOST_ARRIVING {
+            let now = self.now(t_s, work);
+            self.find(&now, &mut found);
+            let Some(nearest) = nearest(&found) else { return Some(t_s) };
+            let closing_m_s = self.closing_m_s(&now.at);
+            let velocity = |k: usize| now.at[k].v_WB + now.at[k].w_WB.cross(&(nearest.p_W - now.at[k].p_WB));
+            let rate_m_s = nearest.normal.dot(&(velocity(0) - velocity(1)));
+            let most_m = *most_m.get_or_insert_with(|| {
+                if self.is_held_along(t_s, &nearest.normal) { self.band_m() } else { FEW * now.delta_m }
+            });
+            if rate_m_s < -GRAZING * closing_m_s || nearest.gap_m < -most_m {
+                return None;
+            }
+            if rate_m_s >= -now.slow_m_s {
+                return Some(t_s);
+            }
+            let toward_m_s2 = self.rolling_m_s2(closing_m_s);
+            let look = Look { gap_m: nearest.gap_m + most_m, rate_m_s, toward_m_s2, ..Look::EMPTY };
+            t_s = (t_s + look.safe_s(0.0, now.slow_m_s)).max(t_s.next_up());
+            if t_s >= window.to_s {
+                return Some(window.to_s);
+            }
+        }
+        None
+    }
+
+    /// Whether something else holds one of the two along this normal.
+    fn is_held_along(&self, t_s: f64, normal: &Vector3<f64>) -> bool {
+        self.held.iter().any(|h| {
+            let at: Vec<(usize, BodyState)> = h.touch.bodies().map(|i| (i, self.paths.at(i, t_s))).collect();
+            let of = |i: usize| at.iter().find(|(j, _)| *j == i).map_or(&at[0].1, |(_, at)| at);
+            let held = h.touch.here_of(of).contact;
+            let along = |sign: f64| held.normal.dot(normal) * sign > 0.0;
+            let turned = held.normal.cross(normal).norm();
+            turned <= GRAZING
+                && held
+                    .ends()
+                    .any(|(i, _, sign)| (i == self.pair[0] && along(sign)) || (i == self.pair[1] && along(-sign)))
+        })
+    }
+
+    /// Of the parts that face each other and are not held.
+    fn parts(&self, now: &Now, found: &[Found]) -> Parted {
+        let Now { at, delta_m, slow_m_s, .. } = now;
+        let near_m = NEAR * self.smaller_m();
+        let closing = self.closing_m_s(at);
+        let (mut safe_s, mut touching, mut lingering) = (f64::INFINITY, false, 0);
+        let held = self.places(at);
+        for touch in found.iter().filter(|touch| !self.is_held(&held, touch)) {
+            if touch.gap_m > near_m {
+                let (gap_m, rate_m_s) = (touch.gap_m - near_m / 2.0, -closing);
+                let bound = Look { gap_m, rate_m_s, toward_m_s2: self.between_m_s2, ..Look::EMPTY };
+                safe_s = safe_s.min(bound.safe_s(*delta_m, *slow_m_s));
+                continue;
+            }
+            let velocity = |k: usize| at[k].v_WB + at[k].w_WB.cross(&(touch.p_W - at[k].p_WB));
+            let rate_m_s = touch.normal.dot(&(velocity(0) - velocity(1)));
+            let toward_m_s2 = self.rolling_m_s2(closing);
+            let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2, known_s: near_m / closing, ..Look::EMPTY };
+            safe_s = safe_s.min(self.rolling_s(now, touch, &look));
+            let touches = look.is_touching(*delta_m, *slow_m_s);
+            touching |= touches;
+            lingering += usize::from(!touches && look.gap_m <= *delta_m && look.rate_m_s <= *slow_m_s);
+        }
+        let way_m = near_m.max(self.smaller_m() * WAY);
+        Parted { safe_s: safe_s.min(way_m / closing.max(f64::MIN_POSITIVE)), touching, lingering }
+    }
+
+    /// The safe time of such a look, of a cap that is nearly flat: its lowest point rolls along the rim.
+    fn rolling_s(&self, now: &Now, touch: &Found, look: &Look) -> f64 {
+        let Now { at, delta_m, slow_m_s, .. } = now;
+        let w_rad_s = self.bounds[0].w + self.bounds[1].w;
+        let Some(rolling) = caps::rolling(self.bodies, at, &touch.normal, w_rad_s) else {
+            return look.safe_s(*delta_m, *slow_m_s);
+        };
+        let of_any = Look { rate_m_s: look.rate_m_s - rolling.faster_m_s, ..*look };
+        let of_any_s = of_any.safe_s(*delta_m, *slow_m_s);
+        let Some((more_m_s2, known_s)) = rolling.along else { return of_any_s };
+        let along = Look { toward_m_s2: look.toward_m_s2 + more_m_s2, known_s: look.known_s.min(known_s), ..*look };
+        of_any_s.max(along.safe_s(*delta_m, *slow_m_s))
+    }
+
+    /// Where the two are held.
+    fn places(&self, at: &[BodyState; 2]) -> Vec<Contact> {
+        let here = |h: &&Held| h.touch.here_of(|i| if i == self.pair[0] { &at[0] } else { &at[1] }).contact;
+        self.resting.iter().map(here).collect()
+    }
+
+    fn is_held(&self, held: &[Contact], touch: &Found) -> bool {
+        let is_same = |contact: &Contact| {
+            // The lowest point of a rim is held, wherever it is.
+            caps::are_of_one_rim(contact.feature, touch.feature)
+                || (contact.p_WC - touch.p_W).norm() <= SAME * self.smaller_m()
+        };
+        held.iter().any(is_same) || self.is_kept(held, touch)
+    }
+
+    /// Whether what is held keeps it, too: a point of the plane of three points, or of the line of two, where faces lie
+    /// flush. When its support is needed, one that is held opens.
+    fn is_kept(&self, held: &[Contact], touch: &Found) -> bool {
+        let least_m = SPREAD * self.smaller_m();
+        let flush = |contact: &&Contact| {
+            contact.normal.cross(&touch.normal).norm() <= FLUSH && contact.normal.dot(&touch.normal) > 0.0
+        };
+        let mut flush = held.iter().filter(flush).map(|contact| contact.p_WC);
+        let Some(first) = flush.next() else { return false };
+        let rest: Vec<Vector3<f64>> = flush.map(|p| p - first).collect();
+        let far = |p: &&Vector3<f64>| p.norm() > least_m;
+        let Some(along) = rest.iter().find(far).map(|p| p.normalize()) else { return false };
+        let aside = |p: &Vector3<f64>| (p - along * along.dot(p)).norm();
+        rest.iter().any(|p| aside(p) > least_m) || aside(&(touch.p_W - first)) <= FLUSH * self.smaller_m()
+    }
+}

@@ -10,10 +10,13 @@ pub mod read;
 mod recorder;
 #[cfg(feature = "rerun")]
 pub mod rerun;
+mod ring;
 pub mod sample;
 pub mod sampler;
 mod scene;
 pub mod schema;
+pub mod story;
+mod watch;
 pub mod writer;
 
 pub use recorder::{RecordError, Recorder};

@@ -69,7 +69,8 @@ impl Scene {
                 entity.spheres.extend(sample.contacts.iter().map(|contact| sphere(contact, size_m)));
             }
             if self.streams.forces {
-                entity.arrows.extend(sample.contacts.iter().map(|contact| arrow(contact, size_m, arrows)));
+                let both = |contact: &ContactSample| [1.0, -1.0].map(|sign| arrow(contact, sign, size_m, arrows));
+                entity.arrows.extend(sample.contacts.iter().flat_map(both));
             }
         }
         Some(&self.contacts)
@@ -106,6 +107,7 @@ pub fn log(event: &Event, time_ns: u64) -> Log {
     let level = match event.severity {
         Severity::Info => Level::Info,
         Severity::Warning => Level::Warning,
+        Severity::Error => Level::Error,
     };
     Log {
         timestamp: Some(timestamp(time_ns)),
@@ -132,13 +134,13 @@ fn sphere(contact: &ContactSample, size_m: f64) -> SpherePrimitive {
     SpherePrimitive {
         pose: Some(Pose { position: Some(vector(contact.point_m)), orientation: Some(along_x([1.0, 0.0, 0.0])) }),
         size: Some(vector([diameter_m; 3])),
-        color: Some(color(schema::CONTACT_COLOUR)),
+        color: Some(color(schema::mode_colour(contact.mode))),
     }
 }
 
-/// Arrow from the contact point along the force on the body.
-fn arrow(contact: &ContactSample, size_m: f64, arrows: ForceArrows) -> ArrowPrimitive {
-    let vector_m = arrows.vector_m(contact.force_n);
+/// Arrow from the contact point along the force on the body, or along its reaction.
+fn arrow(contact: &ContactSample, sign: f64, size_m: f64, arrows: ForceArrows) -> ArrowPrimitive {
+    let vector_m = arrows.vector_m(contact.force_n.map(|f| sign * f));
     let length_m = norm(vector_m);
     let direction = if length_m > 0.0 { vector_m.map(|x| x / length_m) } else { [1.0, 0.0, 0.0] };
     let shaft_m = SHAFT_PART * size_m;

@@ -57,6 +57,8 @@ const ROOMS: &[(&str, &[&str])] = &[
         "record",
         &[
             "shown",
+            "collide",
+            "work",
             "measure",
             "case",
             "rows",

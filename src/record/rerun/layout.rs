@@ -1,44 +1,87 @@
-//! The layout that the viewer opens with: the scene beside its plots, events and configuration below.
+//! The layout that the viewer opens with: the scene beside what happened and its plots, the log below.
+//!
+//! It is written twice: at the head for a recording that is cut, and, since a story is known at its end, with the end.
+//! The viewer takes the last.
 
-use super::names::{APPLICATION, CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, LOG, PENETRATION, SIM_TIME, WORLD};
-use crate::record::sample::{Header, Streams};
+use super::camera::{Camera, spacing_m};
+use super::head::application;
+use super::names::{
+    CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION, SIM_TIME, WORLD,
+};
+use super::seen::{Between, Seen};
+use crate::record::sample::{Ending, Header, norm};
+use crate::record::schema;
 use ::rerun::blueprint::{
     Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, Tabs,
     TextDocumentView, TextLogView, TimePanel, TimeSeriesView, Vertical,
 };
-use ::rerun::external::re_sdk_types::blueprint::archetypes::{EyeControls3D, PlotLegend};
-use ::rerun::external::re_sdk_types::blueprint::components::{Corner2D, PanelState};
+use ::rerun::components::{Color, Plane3D, Range1D};
+use ::rerun::external::re_log_types::TimeInt;
+use ::rerun::external::re_sdk_types::blueprint::archetypes::{
+    Background, EyeControls3D, LineGrid3D, PlotLegend, ScalarAxis, TimeAxis,
+};
+use ::rerun::external::re_sdk_types::blueprint::components::{
+    BackgroundKind, Corner2D, LinkAxis, LoopMode, PanelState, PlayState,
+};
 use ::rerun::log::LogMsg;
 use ::rerun::{AsComponents, RecordingStreamBuilder, StoreId};
 use std::error::Error;
 
-/// Place of the camera, seen from the container's centre, in diagonals of the container: in front, to the right, above,
-/// far enough for all of it.
-const EYE: [f64; 3] = [0.48, 0.36, 0.90];
+/// What a layout is made for that comes with the end: the end, what was seen, the camera.
+pub type Known<'a> = (&'a Ending, &'a Seen, Option<Camera>);
 
-/// A plot, and whether it has more than one line.
-type Plot = (TimeSeriesView, bool);
+/// Growth of the energy from which its logarithm is plotted.
+const GROWTH: f64 = 10.0;
+/// Least heights of plots, so that rounding is no drama: of an energy at the start, of a body's size.
+const ENERGY_FLOOR: f64 = 1e-3;
+const LENGTH_FLOOR: f64 = 1e-6;
+/// Part of a plot's height that is left for its legend.
+const LEGEND: f64 = 0.3;
+/// Seconds in which the decisive stretch is played.
+const PLAYED_S: f64 = 5.0;
+
+const BACKGROUND: [u8; 3] = [26, 29, 34];
+const GRID: [u8; 4] = [120, 125, 140, 60];
+
+/// A plot, the range of its values, and whether it has more than one line.
+struct Plot {
+    name: &'static str,
+    path: &'static str,
+    range: Option<[f64; 2]>,
+    several: bool,
+}
 
 /// The layout as messages of a blueprint store, complete with its activation.
 ///
 /// # Errors
 /// Rerun's own.
-pub fn messages(header: &Header) -> Result<Vec<LogMsg>, Box<dyn Error>> {
+pub fn messages(header: &Header, known: Option<Known<'_>>) -> Result<Vec<LogMsg>, Box<dyn Error>> {
     let mut properties = Properties::default();
     let scene: ContainerLike = Spatial3DView::new("scene").with_origin(WORLD).into();
-    if let Some(eye) = eye(header) {
+    let [r, g, b] = BACKGROUND;
+    let background = Background::new(BackgroundKind::SolidColor).with_color(Color::from_rgb(r, g, b));
+    properties.add(&scene, "Background", background);
+    let camera = known.and_then(|(.., camera)| camera);
+    if let Some(eye) = eye(header, camera) {
         properties.add(&scene, "EyeControls3D", eye);
     }
-    let mut plots = Vec::new();
-    for (plot, several) in self::plots(header.streams) {
-        let plot: ContainerLike = plot.into();
-        properties.add(&plot, "PlotLegend", PlotLegend::new().with_visible(several).with_corner(Corner2D::RightTop));
-        plots.push(plot);
-    }
+    properties.add(&scene, "LineGrid3D", grid(header, camera));
+    let mut views = |plot: Plot| {
+        let view: ContainerLike = TimeSeriesView::new(plot.name).with_origin(plot.path).into();
+        let legend = PlotLegend::new().with_visible(plot.several).with_corner(Corner2D::LeftTop);
+        properties.add(&view, "PlotLegend", legend);
+        properties.add(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
+        if let Some([low, high]) = plot.range {
+            properties.add(&view, "ScalarAxis", ScalarAxis::new().with_range(Range1D::new(low, high)));
+        }
+        view
+    };
+    let energy = energy_plot(header, known).map(&mut views);
+    let contacts: Vec<_> = contact_plots(header, known).into_iter().map(&mut views).collect();
 
     // The public interface only sends a layout through a recording's stream; the recording is thrown away.
-    let (stream, memory) = RecordingStreamBuilder::new(APPLICATION).enabled(true).memory()?;
-    blueprint(scene, plots).send(&stream, BlueprintActivation::default())?;
+    let (stream, memory) = RecordingStreamBuilder::new(application(header)?).enabled(true).memory()?;
+    blueprint(scene, energy, contacts, known).send(&stream, BlueprintActivation::default())?;
     let mut messages = memory.take();
     let recording = memory.store_id();
     messages.retain(|message| Some(message.store_id()) != recording.as_ref());
@@ -77,45 +120,161 @@ impl Properties {
     }
 }
 
-fn blueprint(scene: ContainerLike, plots: Vec<ContainerLike>) -> Blueprint {
+fn blueprint(
+    scene: ContainerLike,
+    energy: Option<ContainerLike>,
+    contacts: Vec<ContainerLike>,
+    known: Option<Known<'_>>,
+) -> Blueprint {
     let notes = Tabs::new([
         TextLogView::new("events").with_origin(LOG).into(),
         TextDocumentView::new("configuration").with_origin(CONFIG).into(),
     ]);
-    let left = Vertical::new([scene, notes.into()]).with_row_shares([3.0, 1.0]);
-    let root: ContainerLike = if plots.is_empty() {
-        left.into()
-    } else {
-        Horizontal::new([left.into(), Vertical::new(plots).into()]).with_column_shares([3.0, 2.0]).into()
-    };
+    let left = Vertical::new([scene, notes.into()]).with_row_shares([3.2, 1.0]);
+    let headline: ContainerLike = TextDocumentView::new("what happened").with_origin(HEADLINE).into();
+    let mut right = vec![headline];
+    let mut shares = vec![2.4];
+    if let Some(energy) = energy {
+        right.push(energy);
+        shares.push(1.8);
+    }
+    if !contacts.is_empty() {
+        right.push(Tabs::new(contacts).into());
+        shares.push(1.2);
+    }
+    let right = Vertical::new(right).with_row_shares(shares);
+    let root = Horizontal::new([left.into(), right.into()]).with_column_shares([1.05, 1.0]);
+    let time = TimePanel::new().with_timeline(SIM_TIME).with_state(PanelState::Collapsed);
     Blueprint::new(root)
         .with_auto_views(false)
         .with_auto_layout(false)
-        .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Collapsed))
-        .with_selection_panel(SelectionPanel::from_state(PanelState::Collapsed))
-        .with_time_panel(TimePanel::new().with_timeline(SIM_TIME).with_state(PanelState::Collapsed))
+        .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
+        .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
+        .with_time_panel(match known {
+            Some((ending, ..)) => played(time, ending),
+            None => time,
+        })
 }
 
-/// Only what is recorded has a plot.
-fn plots(streams: Streams) -> Vec<Plot> {
-    let plot = |name: &str, path: &str| TimeSeriesView::new(name).with_origin(path);
-    [
-        (streams.energy, plot("energy [J]", ENERGY), true),
-        (streams.energy, plot("penetration [m]", PENETRATION), false),
-        (streams.forces, plot("sum of |contact force| [N]", CONTACT_FORCE), false),
-        (streams.contacts, plot("contacts", CONTACT_COUNT), false),
-    ]
-    .into_iter()
-    .filter_map(|(on, plot, several)| on.then_some((plot, several)))
-    .collect()
+/// Plays the decisive stretch again and again, in a few seconds.
+fn played(time: TimePanel, ending: &Ending) -> TimePanel {
+    let [from_s, to_s] = ending.story.stretch_s;
+    let length_s = to_s - from_s;
+    if length_s.is_nan() || length_s <= 0.0 {
+        return time;
+    }
+    let at = |time_s: f64| TimeInt::new_temporal(i64::try_from(schema::time_ns(time_s)).unwrap_or(i64::MAX));
+    let speed = round_speed(length_s / PLAYED_S);
+    time.with_time_selection(at(from_s)..=at(to_s))
+        .with_loop_mode(LoopMode::Selection)
+        .with_playback_speed(speed)
+        .with_play_state(PlayState::Playing)
 }
 
-/// The whole container in view; without one the viewer frames the bodies itself.
-fn eye(header: &Header) -> Option<EyeControls3D> {
+/// A speed that can be read off: 1, 2 or 5 of a power of ten; real time where it is near.
+fn round_speed(exact: f64) -> f64 {
+    if (0.4..2.5).contains(&exact) {
+        return 1.0;
+    }
+    let power = libm::exp10(libm::floor(libm::log10(exact)));
+    let part = exact / power;
+    power
+        * if part < 1.5 {
+            1.0
+        } else if part < 3.5 {
+            2.0
+        } else if part < 7.5 {
+            5.0
+        } else {
+            10.0
+        }
+}
+
+/// Energy on the scale that shows the story; no plot without data.
+fn energy_plot(header: &Header, known: Option<Known<'_>>) -> Option<Plot> {
+    if !header.streams.energy {
+        return None;
+    }
+    let linear = Plot { name: "energy [J]", path: ENERGY, range: None, several: true };
+    let Some((ending, seen, _)) = known else { return Some(linear) };
+    if seen.energy_j.is_empty() {
+        return None;
+    }
+    let log = seen.log_energy;
+    if log.most > libm::log10(GROWTH) {
+        let limit = header.energy_factor.map_or(log.most, |factor| libm::log10(factor).max(log.most));
+        let range = with_legend([log.least.min(0.0) - 0.15, limit + 0.15]);
+        return Some(Plot { name: "energy: log₁₀ E / E₀", path: LOG_ENERGY, range: Some(range), several: true });
+    }
+    let floor_j = ENERGY_FLOOR * ending.story.start_j.abs();
+    let range = with_legend(widened(seen.energy_j, floor_j));
+    Some(Plot { range: Some(range), ..linear })
+}
+
+fn contact_plots(header: &Header, known: Option<Known<'_>>) -> Vec<Plot> {
+    let streams = header.streams;
+    let size_m = header.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max);
+    let of = |pick: fn(&Seen) -> Between| known.map(|(_, seen, _)| pick(seen));
+    let plots = [
+        (streams.contacts, "contacts at once", CONTACT_COUNT, of(|seen| seen.contacts), 1.0),
+        (streams.forces, "friction used, of μ fₙ", FRICTION_USE, of(|seen| seen.friction_use), 1.1),
+        (streams.forces, "sum of |contact force| [N]", CONTACT_FORCE, of(|seen| seen.force_n), 0.0),
+        (streams.energy, "penetration [m]", PENETRATION, of(|seen| seen.penetration_m), LENGTH_FLOOR * size_m),
+    ];
+    let is_there = |seen: &Option<Between>| seen.is_none_or(|seen| seen.most > 0.0);
+    plots
+        .into_iter()
+        .filter(|(on, _, _, seen, _)| *on && is_there(seen))
+        .map(|(_, name, path, seen, floor)| {
+            // From nothing up; the friction that one wrong contact uses has no end.
+            let most = |seen: Between| if path == FRICTION_USE { seen.most.min(2.0) } else { seen.most };
+            let range = seen.map(|seen| [0.0, 1.08 * most(seen).max(floor)]);
+            Plot { name, path, range, several: false }
+        })
+        .collect()
+}
+
+/// A range of at least this height.
+fn widened(seen: Between, floor: f64) -> [f64; 2] {
+    let height = seen.most - seen.least;
+    let more = if height < floor { 0.5 * (floor - height) } else { 0.05 * height };
+    [seen.least - more, seen.most + more]
+}
+
+/// A range with room for a legend above what is plotted.
+fn with_legend([low, high]: [f64; 2]) -> [f64; 2] {
+    [low, high + LEGEND * (high - low)]
+}
+
+/// What the bodies sweep in view; before that is known, the container.
+fn eye(header: &Header, camera: Option<Camera>) -> Option<EyeControls3D> {
+    if let Some(camera) = camera {
+        let eye = EyeControls3D::new().with_position(camera.position).with_look_target(camera.target);
+        let eye = eye.with_eye_up([0.0, 1.0, 0.0]);
+        return Some(match header.bodies.first().filter(|_| camera.follows) {
+            Some(body) => eye.with_tracking_entity(super::body_path(&body.name).to_string()),
+            None => eye,
+        });
+    }
+    /// Place of the camera, seen from the container's centre, in diagonals of the container.
+    const EYE: [f64; 3] = [0.48, 0.36, 0.90];
     let (low, high) = header.container_box_m()?;
-    let size_m = header.scene_size_m();
+    let size_m = norm(std::array::from_fn(|i| high[i] - low[i]));
     let centre: [f64; 3] = std::array::from_fn(|i| 0.5 * (low[i] + high[i]));
     let position: [f64; 3] = std::array::from_fn(|i| centre[i] + size_m * EYE[i]);
     let eye = EyeControls3D::new().with_position(position).with_look_target(centre);
     Some(eye.with_eye_up([0.0, 1.0, 0.0]))
+}
+
+/// A grid on the ground, to the scale of the motion; without ground there is none.
+fn grid(header: &Header, camera: Option<Camera>) -> LineGrid3D {
+    let Some((normal, offset_m)) = header.planes.first() else { return LineGrid3D::new().with_visible(false) };
+    let [r, g, b, a] = GRID;
+    let size_m = camera.map_or(header.scene_size_m(), |camera| camera.size_m);
+    let normal = normal.map(|x| x as f32);
+    LineGrid3D::new()
+        .with_visible(true)
+        .with_plane(Plane3D::new(normal, *offset_m as f32))
+        .with_spacing(spacing_m(size_m) as f32)
+        .with_color(Color::from_unmultiplied_rgba(r, g, b, a))
 }

@@ -3,7 +3,8 @@
 use crate::record::schema::Series;
 use ::rerun::EntityPath;
 
-/// Id of the application: recordings of one application share a layout and are listed together.
+/// Beginning of the application's id. Recordings of one application share a layout, and every recording opens with
+/// its own.
 pub const APPLICATION: &str = "gotai";
 
 /// Timelines: simulated time, and the number of the step.
@@ -13,14 +14,24 @@ pub const STEP: &str = "step";
 /// Entities. A body is `/world/bodies/<name>`, a plotted energy `/energy/<name>`.
 pub const WORLD: &str = "/world";
 pub const CONTAINER: &str = "/world/container";
+pub const GROUND: &str = "/world/ground";
 pub const BODIES: &str = "/world/bodies";
+pub const TRAILS: &str = "/world/trails";
 pub const CONTACTS: &str = "/world/contacts";
 pub const FORCES: &str = "/world/forces";
 pub const ENERGY: &str = "/energy";
+pub const LOG_ENERGY: &str = "/log_energy";
+pub const LOG_ENERGY_TOTAL: &str = "/log_energy/total";
+/// Marks of the two plots of energy: the limit of divergence, and steps that gained energy.
+pub const LIMIT: &str = "/log_energy/limit";
+pub const LOG_GAINS: &str = "/log_energy/gains";
+pub const GAINS: &str = "/energy/gains";
 pub const PENETRATION: &str = "/penetration";
 pub const CONTACT_COUNT: &str = "/contact/count";
 pub const CONTACT_FORCE: &str = "/contact/force";
+pub const FRICTION_USE: &str = "/contact/friction_use";
 pub const LOG: &str = "/log";
+pub const HEADLINE: &str = "/headline";
 pub const CONFIG: &str = "/config";
 
 /// Entity of a plotted energy. Penetration has a plot of its own: it is a length.

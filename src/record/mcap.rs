@@ -257,6 +257,8 @@ fn ended(name: &RecordingName, ending: &Ending) -> impl Iterator<Item = (String,
         ("outcome", ending.outcome.name().to_owned()),
         ("end_time_s", ending.end_time_s.to_string()),
         ("steps", ending.steps.to_string()),
+        ("calm_until_s", ending.story.calm_until_s.to_string()),
+        ("stretch_s", format!("{} {}", ending.story.stretch_s[0], ending.story.stretch_s[1])),
     ];
     row.chain(known).chain(texts).map(|(key, value)| (key.to_owned(), value))
 }

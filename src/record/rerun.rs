@@ -7,6 +7,7 @@
 //! 3-D data is f32 in this format; the plotted numbers are f64.
 
 mod camera;
+pub mod ghosts;
 mod head;
 mod headline;
 mod layout;
@@ -244,6 +245,10 @@ impl Out {
     }
 
     fn events(&mut self, events: &[Event]) -> Written {
+        self.events_at(LOG.into(), events)
+    }
+
+    fn events_at(&mut self, path: EntityPath, events: &[Event]) -> Written {
         if events.is_empty() {
             return Ok(());
         }
@@ -252,7 +257,7 @@ impl Out {
         let text = TextLog::update_fields()
             .with_many_text(events.iter().map(|event| event.text.as_str()))
             .with_many_level(events.iter().map(|event| headline::level(event.severity)));
-        self.columns(LOG.into(), &times(&column(|event| event.step), &times_s), text.columns_of_unit_batches()?)
+        self.columns(path, &times(&column(|event| event.step), &times_s), text.columns_of_unit_batches()?)
     }
 }
 

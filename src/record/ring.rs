@@ -49,6 +49,23 @@ impl Ring {
         }
     }
 
+    /// Keeps this step alone.
+    pub fn keep_one(&mut self, state: &State, contacts: impl Iterator<Item = ContactSample>) {
+        self.clear();
+        self.keep(state, contacts);
+    }
+
+    pub fn clear(&mut self) {
+        while !self.kept.is_empty() {
+            self.let_go();
+        }
+    }
+
+    /// Whether a step is among those that are kept.
+    pub fn holds(&self, step: u64) -> bool {
+        self.kept.iter().any(|kept| kept.state.step == step)
+    }
+
     /// Hands over every step since `step`, the oldest first, and keeps the earlier ones.
     pub fn take_since(&mut self, step: u64, mut to: impl FnMut(&State, &[ContactSample])) {
         let from = self.kept.iter().position(|kept| kept.state.step >= step).unwrap_or(self.kept.len());

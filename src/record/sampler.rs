@@ -20,6 +20,13 @@ use crate::shown::{ContactForce, Shown};
 use crate::state::State;
 use crate::work::Work;
 
+/// Largest amount of something so far, and its step where no sample shows it.
+#[derive(Default)]
+struct Maximum {
+    amount: f64,
+    step: Ring,
+}
+
 /// Steps before and after one that decides that are recorded whatever the rate of samples.
 const AROUND: u64 = 4;
 
@@ -34,6 +41,8 @@ pub struct Sampler {
     geometry: Option<GeometryLedger>,
     watch: Option<Watch>,
     ring: Ring,
+    /// Steps of the most contacts and of the deepest overlap, which the row tells; samples that beat them come first.
+    maxima: [Maximum; 2],
     /// Step of the last sample, and steps that are still to be recorded after one that decides.
     last: u64,
     ahead: u64,
@@ -49,6 +58,7 @@ impl Sampler {
             geometry: None,
             watch: None,
             ring: Ring::default(),
+            maxima: Default::default(),
             last: 0,
             ahead: 0,
         }
@@ -87,10 +97,34 @@ impl Sampler {
         }
     }
 
-    /// Keeps a step that is no sample, in case that it turns out to decide.
-    pub fn keep(&mut self, state: &State, contacts: impl Iterator<Item = ContactForce>) {
+    /// Keeps a step that is no sample, judged already, in case that it turns out to decide.
+    pub fn keep(
+        &mut self,
+        state: &State,
+        contacts: impl ExactSizeIterator<Item = ContactForce> + Clone,
+        judge: &Judge,
+    ) {
         let with_contacts = self.streams.any_contact();
-        self.ring.keep(state, contacts.map(contact_sample).filter(|_| with_contacts));
+        let sampled = || contacts.clone().map(contact_sample).filter(|_| with_contacts);
+        self.ring.keep(state, sampled());
+        let amounts = [contacts.len() as f64, judge.geometry.penetration_max_m.unwrap_or(0.0)];
+        for (maximum, amount) in self.maxima.iter_mut().zip(amounts) {
+            if amount > maximum.amount {
+                maximum.amount = amount;
+                maximum.step.keep_one(state, sampled());
+            }
+        }
+    }
+
+    /// Notes the amounts of a step that is a sample.
+    pub fn note(&mut self, contacts: usize, judge: &Judge) {
+        let amounts = [contacts as f64, judge.geometry.penetration_max_m.unwrap_or(0.0)];
+        for (maximum, amount) in self.maxima.iter_mut().zip(amounts) {
+            if amount > maximum.amount {
+                maximum.amount = amount;
+                maximum.step.clear();
+            }
+        }
     }
 
     /// Adds a sample; `contacts` are those of the step that led to `state`.
@@ -111,8 +145,8 @@ impl Sampler {
 
     /// Records what was kept from a step on.
     fn take_since(&mut self, model: &Model, step: u64) {
-        let Sampler { writer, streams, geometry, ring, .. } = self;
-        ring.take_since(step, |state, contacts| {
+        let Sampler { writer, streams, geometry, ring, maxima, .. } = self;
+        let mut write = |state: &State, contacts: &[ContactSample]| {
             let batch = writer.batch();
             if streams.any_contact() {
                 batch.contacts_len.push(contacts.len() as u32);
@@ -120,7 +154,28 @@ impl Sampler {
             }
             push(batch, *streams, geometry, model, state);
             writer.sample_done();
+        };
+        ring.take_since(step, |state, contacts| {
+            for maximum in maxima.iter_mut().filter(|maximum| maximum.step.holds(state.step)) {
+                maximum.step.clear();
+            }
+            write(state, contacts);
         });
+    }
+
+    /// Records the steps of the maxima that no sample shows.
+    fn take_maxima(&mut self, model: &Model) {
+        let mut steps: Vec<Ring> = self.maxima.iter_mut().map(|maximum| std::mem::take(&mut maximum.step)).collect();
+        let mut taken = None;
+        for step in &mut steps {
+            step.take_since(0, |state, contacts| {
+                if taken != Some(state.step) {
+                    taken = Some(state.step);
+                    self.ring.keep(state, contacts.iter().copied());
+                    self.take_since(model, state.step);
+                }
+            });
+        }
     }
 
     /// Says how the run ended, and what is in doubt about it: a warning of a method that solves the law of contact, a
@@ -129,6 +184,7 @@ impl Sampler {
         if measured.outcome != Outcome::Finished {
             self.take_since(model, 0);
         }
+        self.take_maxima(model);
         let (severity, text) = match (&measured.outcome, &measured.criterion) {
             (Outcome::Finished, _) => (Severity::Info, "finished".to_string()),
             (Outcome::Diverged, Some(criterion)) => (Severity::Error, format!("diverged: {criterion}")),

@@ -6,6 +6,7 @@ pub enum Decisive {
     FirstContact,
     FirstGain,
     LargestGain,
+    Onset,
     MostContacts,
     End,
 }
@@ -17,6 +18,7 @@ impl Decisive {
             Decisive::FirstContact => "first contact",
             Decisive::FirstGain => "first step that gains energy",
             Decisive::LargestGain => "largest gain in a step",
+            Decisive::Onset => "from here on more energy than at the start",
             Decisive::MostContacts => "most contacts",
             Decisive::End => "end",
         }

@@ -96,6 +96,8 @@ pub struct Watch {
     work: Work,
     most: Option<(usize, u64, f64)>,
     largest: Option<(f64, EnergyGain)>,
+    /// The step that left the calm, if it was never found again.
+    onset: Option<EnergyGain>,
     first_s: Option<f64>,
     last_s: f64,
 }
@@ -124,6 +126,7 @@ impl Watch {
             work: Work::default(),
             most: None,
             largest: None,
+            onset: None,
             first_s: None,
             last_s: 0.0,
         }
@@ -192,6 +195,12 @@ impl Watch {
             let text = format!("{} → {} J, × {}", brief(before_j), brief(after_j), brief(ratio));
             story.turns.push(TurningPoint { what: Decisive::LargestGain, step, time_s, text });
         }
+        if let Some(EnergyGain { step, time_s, before_j, after_j }) =
+            self.onset.filter(|_| outcome == Outcome::Diverged)
+        {
+            let text = format!("{} → {} J", brief(before_j), brief(after_j));
+            story.turns.push(TurningPoint { what: Decisive::Onset, step, time_s, text });
+        }
         if let Some((contacts, step, time_s)) = self.most {
             let text = format!("{contacts} contact{} at once", if contacts == 1 { "" } else { "s" });
             story.turns.push(TurningPoint { what: Decisive::MostContacts, step, time_s, text });
@@ -201,7 +210,7 @@ impl Watch {
         story.turns.push(TurningPoint { what: Decisive::End, step, time_s: end_s, text: said });
         let stretch_s = match (outcome, self.first_s) {
             (Outcome::Diverged, _) => [story.calm_until_s - 0.15 * end_s, end_s],
-            (_, Some(first_s)) => [first_s - 0.1 * end_s, self.last_s + 0.25 * end_s],
+            (_, Some(first_s)) if self.last_s > first_s => [first_s - 0.1 * end_s, self.last_s + 0.25 * end_s],
             _ => [0.0, end_s],
         };
         story.stretch_s = stretch_s.map(|t| t.clamp(0.0, end_s));
@@ -308,7 +317,11 @@ impl Watch {
         }
         let [body, other] = names(model, touch.pair.bodies);
         let speed = brief(touch.approach_m_s.max(0.0));
-        let text = format!("{body} and {other}, approaching at {speed} m/s");
+        let from_start = touch.approach_m_s <= SLOW * self.fastest_m_s || after.step <= 1 && touch.approach_m_s <= 0.0;
+        let text = match from_start {
+            true => format!("{body} and {other}"),
+            false => format!("{body} and {other}, approaching at {speed} m/s"),
+        };
         let (step, time_s) = (after.step, after.time_s);
         self.up_to_now.turns.push(TurningPoint { what: Decisive::FirstContact, step, time_s, text });
         self.first_s.get_or_insert(time_s);
@@ -317,15 +330,21 @@ impl Watch {
 
     /// Whether the step gained energy.
     fn energy(&mut self, model: &Model, after: &State, judge: &Judge) -> bool {
-        self.kinetic_max_j = self.kinetic_max_j.max(Energy::of(model, after).kinetic_j);
+        let kinetic_j = Energy::of(model, after).kinetic_j;
         let (before_j, after_j) = (self.last_j, judge.energy.without_work_j());
         self.last_j = after_j;
+        // Against what there was before: an explosion is its own scale.
         let scale_j = self.kinetic_max_j.max(LEAST * self.fall_j);
-        // What explodes is its own scale no more.
+        self.kinetic_max_j = self.kinetic_max_j.max(kinetic_j);
         let start_j = self.up_to_now.start_j;
-        if after_j <= start_j + CALM * start_j.abs().max(LEAST * self.fall_j) {
+        let is_calm = after_j <= start_j + CALM * start_j.abs().max(LEAST * self.fall_j);
+        if is_calm {
             self.up_to_now.calm_until_s = after.time_s;
+            self.onset = None;
+        } else if self.onset.is_none() {
+            self.onset = Some(EnergyGain { step: after.step, time_s: after.time_s, before_j, after_j });
         }
+        let scale_j = if scale_j > 0.0 { scale_j } else { self.kinetic_max_j };
         let is_gain = after_j - before_j > GAIN * scale_j;
         if !is_gain {
             return false;

@@ -98,7 +98,7 @@ impl<'a> Samples<'a> {
         let decides = self.sampler.look(model, shown, judge);
         match shown.way {
             Some(way) => self.show_way(way, model, shown.after, decides || last),
-            None => self.show_step(model, shown, decides || last),
+            None => self.show_step(model, shown, judge, decides || last),
         }
     }
 
@@ -117,16 +117,17 @@ impl<'a> Samples<'a> {
         }
     }
 
-    fn show_step(&mut self, model: &Model, shown: &Shown, end_is_wanted: bool) {
+    fn show_step(&mut self, model: &Model, shown: &Shown, judge: &Judge, end_is_wanted: bool) {
         let due = self.sampler.is_due(shown.after.step) && (self.every_step || !shown.is_part());
         // A stalled run is back at a state that has been sampled if it was due.
         let wanted = if shown.stalled.is_some() { !due } else { due || end_is_wanted };
         let step_s = if let Acted::Kick { step_s, .. } = shown.acted { step_s } else { self.step_s };
         let forces = shown.impulses().iter().map(|solved| ContactForce::mean(solved, step_s));
         if wanted {
+            self.sampler.note(forces.len(), judge);
             self.sampler.sample(model, shown.after, forces);
         } else if shown.stalled.is_none() && !shown.is_part() {
-            self.sampler.keep(shown.after, forces);
+            self.sampler.keep(shown.after, forces, judge);
         }
     }
 }

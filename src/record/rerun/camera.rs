@@ -9,11 +9,11 @@ const FROM: [f64; 3] = [0.45, 0.34, 0.83];
 const ANGLE: f64 = 0.96;
 const ASPECT: f64 = 1.1;
 /// Part of the view's height, or width, that the motion takes.
-const PART: f64 = 0.62;
+const PART: f64 = 0.68;
 /// Length of the way in bodies' diameters from which the camera follows a body that is alone.
 const FAR: f64 = 9.0;
 /// Distance of a camera that follows, in bounding radii.
-const FOLLOWING: f64 = 9.0;
+const FOLLOWING: f64 = 20.0;
 
 /// Where the eye is and what it looks at.
 #[derive(Clone, Copy, Debug)]
@@ -29,15 +29,31 @@ pub struct Camera {
     pub half_m: f64,
 }
 
+/// Lengths that the viewer shows as they are; smaller and larger scenes are drawn to this scale, as its near plane
+/// stands still.
+const SHOWN_M: [f64; 2] = [0.5, 500.0];
+
+/// Factor by which a scene of this size is drawn: a power of ten, 1 where the viewer can show it as it is.
+pub fn drawn_scale(size_m: f64) -> f64 {
+    if !(size_m > 0.0 && size_m.is_finite()) || (SHOWN_M[0]..SHOWN_M[1]).contains(&size_m) {
+        return 1.0;
+    }
+    libm::exp10(libm::round(libm::log10(10.0 / size_m)))
+}
+
 /// Camera of a run that was calm until a time; None where there is nothing to see.
 pub fn camera(header: &Header, seen: &Seen, calm_until_s: f64) -> Option<Camera> {
-    let room = seen.room_until(calm_until_s)?;
+    camera_on(header, seen.room_until(calm_until_s)?)
+}
+
+/// Camera on a room that is swept.
+pub fn camera_on(header: &Header, room: Room) -> Option<Camera> {
     let radius_m = header.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max);
     let (mut low, mut high) = (room.low, room.high);
     if let Some((floor, ceiling)) = header.container_box_m() {
         for i in 0..3 {
-            low[i] = low[i].max(floor[i] - radius_m).min(high[i]);
-            high[i] = high[i].min(ceiling[i] + radius_m).max(low[i]);
+            low[i] = low[i].max(floor[i]).min(high[i]);
+            high[i] = high[i].min(ceiling[i]).max(low[i]);
         }
     }
     let follows = header.bodies.len() == 1 && way_m(room, radius_m) > FAR * 2.0 * radius_m && header.streams.bodies;

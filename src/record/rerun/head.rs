@@ -1,6 +1,6 @@
 //! Head of an .rrd, once, before the first sample: layout, names, surfaces, colours, configuration.
 
-use super::camera::{Camera, camera};
+use super::camera::{Camera, camera, drawn_scale};
 use super::names::{
     APPLICATION, CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, FRICTION_USE, GAINS, GROUND,
     HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, SIM_TIME, STEP, TRAILS, WORLD, energy_path,
@@ -16,7 +16,7 @@ use ::rerun::sink::MemorySinkStorage;
 use ::rerun::{
     AnyValues, ApplicationId, Arrows3D, Color, ComponentIdentifier, EntityPath, LineStrips3D, Mesh3D, Points3D,
     RecordingStream, RecordingStreamBuilder, RecordingStreamResult, Scalars, SeriesLines, SeriesPoints, StoreId,
-    TextDocument, ViewCoordinates,
+    TextDocument, Transform3D, ViewCoordinates,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -34,7 +34,7 @@ const MARK_SIZE: f32 = 4.0;
 const FACETED_TRIANGLES: usize = 20_000;
 /// Most triangles of a body whose edges are drawn, and most bodies of which they are.
 const EDGED_TRIANGLES: usize = 4_000;
-const EDGED_BODIES: usize = 400;
+pub const EDGED_BODIES: usize = 400;
 
 /// Opacity of the ground, of 255: what is below it, and forces on it, should be seen.
 const GROUND_ALPHA: u8 = 70;
@@ -60,15 +60,13 @@ pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<
     describe(header, &stream)?;
     if header.streams.bodies {
         for ((body, path), colour) in header.bodies.iter().zip(bodies).zip(schema::BODY_COLOURS.iter().cycle()) {
-            stream.log_static(path.clone(), &surface(body, *colour))?;
+            stream.log_static(path.clone(), &surface(body, *colour, u8::MAX))?;
             if header.bodies.len() <= EDGED_BODIES {
                 details(body, path, &stream)?;
             }
         }
     }
-    if !header.container_strips_m.is_empty() {
-        stream.log_static(CONTAINER, &container(header))?;
-    }
+    walls(header, &stream)?;
     let size_m = header.scene_size_m();
     ground(header, [0.0; 3], 2.0 * size_m, &stream)?;
     styles(header, &stream)?;
@@ -155,12 +153,30 @@ fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<
     );
     stream.log_static(CONFIG, &TextDocument::from_markdown(page))?;
     stream.log_static(HEADLINE, &TextDocument::from_markdown(headline::begun(header)))?;
-    stream.log_static(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())
+    stream.log_static("/", &ViewCoordinates::RIGHT_HAND_Y_UP())?;
+    stream.log_static(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())?;
+    let scale = scale(header);
+    if scale != 1.0 {
+        stream.log_static(WORLD, &Transform3D::from_scale(scale as f32))?;
+    }
+    Ok(())
 }
 
-fn surface(body: &BodyHeader, [r, g, b]: Rgb) -> Mesh3D {
-    let mesh = if body.triangles.len() <= FACETED_TRIANGLES { faceted(body) } else { smooth(body) };
-    mesh.with_albedo_factor(*Color::from_rgb(r, g, b))
+/// Factor by which the scene is drawn; the numbers beside the picture are not touched by it.
+pub fn scale(header: &Header) -> f64 {
+    drawn_scale(header.bodies.iter().map(|body| 4.0 * body.bounding_radius_m).fold(0.0, f64::max))
+}
+
+/// A body's surface in a colour of this opacity.
+pub fn surface(body: &BodyHeader, [r, g, b]: Rgb, alpha: u8) -> Mesh3D {
+    let is_faceted = body.triangles.len() <= FACETED_TRIANGLES && !is_round(body);
+    let mesh = if is_faceted { faceted(body) } else { smooth(body) };
+    mesh.with_albedo_factor(*Color::from_unmultiplied_rgba(r, g, b, alpha))
+}
+
+/// Whether no edge of it is sharp.
+fn is_round(body: &BodyHeader) -> bool {
+    body.triangles.len() <= FACETED_TRIANGLES && !body.touches_with_nodes && sharp_edges(body).is_empty()
 }
 
 /// Triangles with corners and normals of their own: edges show.
@@ -201,7 +217,7 @@ fn corners_and_normal(body: &BodyHeader, triangle: &[u32; 3]) -> Option<([[f64; 
 }
 
 /// What makes a turn visible: edges, nodes that touch, places on pins, and of a body without a shape its axes.
-fn details(body: &BodyHeader, path: &EntityPath, stream: &RecordingStream) -> RecordingStreamResult<()> {
+pub fn details(body: &BodyHeader, path: &EntityPath, stream: &RecordingStream) -> RecordingStreamResult<()> {
     let below = |name: &str| path.join(&EntityPath::from_single_string(name));
     let strips = if body.triangles.len() <= EDGED_TRIANGLES { edges(body) } else { Vec::new() };
     if !strips.is_empty() {
@@ -235,11 +251,13 @@ fn details(body: &BodyHeader, path: &EntityPath, stream: &RecordingStream) -> Re
     Ok(())
 }
 
-/// Lines on a body: of a mesh all edges, of another one the sharp ones, of a round one its three great circles.
-fn edges(body: &BodyHeader) -> Vec<Vec<[f64; 3]>> {
+/// Edges of a mesh by their ends, with the normals of the facets that meet there.
+type Edges = BTreeMap<[[u64; 3]; 2], ([[f64; 3]; 2], Vec<[f64; 3]>)>;
+
+fn all_edges(body: &BodyHeader) -> Edges {
     let place = |p: [f64; 3]| p.map(|x| if x == 0.0 { 0 } else { x.to_bits() });
     // Facets may have corners of their own at the same place.
-    let mut facets: BTreeMap<[[u64; 3]; 2], ([[f64; 3]; 2], Vec<[f64; 3]>)> = BTreeMap::new();
+    let mut facets = Edges::new();
     for triangle in &body.triangles {
         let Some((corners, normal)) = corners_and_normal(body, triangle) else { continue };
         let length = norm(normal);
@@ -250,24 +268,34 @@ fn edges(body: &BodyHeader) -> Vec<Vec<[f64; 3]>> {
             at.1.push(normal.map(|x| x / length));
         }
     }
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let is_flat = |normals: &[[f64; 3]]| matches!(normals, [a, b] if dot(*a, *b) > 0.9999);
+    facets
+}
+
+fn sharp_edges(body: &BodyHeader) -> Vec<Vec<[f64; 3]>> {
     let is_sharp = |normals: &[[f64; 3]]| !matches!(normals, [a, b] if dot(*a, *b) > SHARP);
-    let sharp = facets.values().filter(|(_, normals)| is_sharp(normals)).map(|(ends, _)| ends.to_vec());
-    let sharp: Vec<_> = sharp.collect();
+    let edges = all_edges(body).into_values();
+    edges.filter(|(_, normals)| is_sharp(normals)).map(|(ends, _)| ends.to_vec()).collect()
+}
+
+/// Lines on a body: of a mesh its squares, of another one the sharp edges, of a round one its three great circles.
+fn edges(body: &BodyHeader) -> Vec<Vec<[f64; 3]>> {
     if body.touches_with_nodes {
-        // A diagonal of a square of the mesh is left out: the mesh is read by its squares.
-        let longest = |ends: &[[f64; 3]; 2], normals: &[[f64; 3]]| {
-            is_flat(normals)
-                && minus(ends[0], ends[1]).iter().filter(|x| x.abs() > 1e-9 * norm(minus(ends[0], ends[1]))).count() > 1
+        // The diagonal of a square of the mesh lies in a face and along no axis.
+        const FLAT: f64 = 0.9999;
+        let is_diagonal = |[a, b]: [[f64; 3]; 2], normals: &[[f64; 3]]| {
+            let along = minus(b, a);
+            let oblique = along.iter().filter(|x| x.abs() > 1e-9 * norm(along)).count() > 1;
+            oblique && matches!(normals, [a, b] if dot(*a, *b) > FLAT)
         };
-        return facets
-            .values()
-            .filter(|(ends, normals)| !longest(ends, normals))
-            .map(|(ends, _)| ends.to_vec())
-            .collect();
+        let edges = all_edges(body).into_values();
+        return edges.filter(|(ends, normals)| !is_diagonal(*ends, normals)).map(|(ends, _)| ends.to_vec()).collect();
     }
-    if !sharp.is_empty() { sharp } else { great_circles(body) }
+    let sharp = sharp_edges(body);
+    if sharp.is_empty() { great_circles(body) } else { sharp }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Three loops about a round body, a little outside.
@@ -300,6 +328,14 @@ fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| a[i] - b[i])
 }
 
+/// The edges of a container of box form.
+pub fn walls(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    if header.container_strips_m.is_empty() {
+        return Ok(());
+    }
+    stream.log_static(CONTAINER, &container(header))
+}
+
 fn container(header: &Header) -> LineStrips3D {
     let strips =
         header.container_strips_m.iter().map(|strip| strip.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>());
@@ -309,7 +345,7 @@ fn container(header: &Header) -> LineStrips3D {
 }
 
 /// The ground: a box's floor, squares of planes about the middle of the motion.
-fn ground(header: &Header, middle: [f64; 3], half_m: f64, stream: &RecordingStream) -> RecordingStreamResult<()> {
+pub fn ground(header: &Header, middle: [f64; 3], half_m: f64, stream: &RecordingStream) -> RecordingStreamResult<()> {
     let squares: Vec<[[f64; 3]; 4]> = match header.container_box_m() {
         Some((low, high)) => {
             let corner = |x: f64, z: f64| [x, low[1], z];
@@ -334,7 +370,6 @@ fn ground(header: &Header, middle: [f64; 3], half_m: f64, stream: &RecordingStre
 
 /// Corners of a square in a plane, about the point of it that is nearest to the middle.
 fn square((normal, offset_m): ([f64; 3], f64), middle: [f64; 3], half_m: f64) -> [[f64; 3]; 4] {
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let cross =
         |u: [f64; 3], v: [f64; 3]| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     let height_m = dot(normal, middle) - offset_m;
@@ -418,10 +453,12 @@ fn styles(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()
     Ok(())
 }
 
-fn line(label: &str, colour: Rgb) -> SeriesLines {
+/// The line of a plot.
+pub fn line(label: &str, colour: Rgb) -> SeriesLines {
     SeriesLines::new().with_names([label]).with_colors([color(colour)]).with_widths([PLOT_WIDTH])
 }
 
-fn color([r, g, b]: Rgb) -> Color {
+/// A colour without opacity of its own.
+pub fn color([r, g, b]: Rgb) -> Color {
     Color::from_rgb(r, g, b)
 }

@@ -37,7 +37,7 @@ pub fn page(header: &Header, ending: &Ending) -> String {
     }
     page += &table(&ending.story, ending.outcome);
     page += &measures(ending);
-    page += &legend(header);
+    page += &legend(header, ending);
     page
 }
 
@@ -87,7 +87,7 @@ fn table(story: &Story, outcome: Outcome) -> String {
             Decisive::End => text.clone(),
             what => format!("{}: {text}", what.name()),
         };
-        let decides = *what == Decisive::LargestGain && outcome == Outcome::Diverged;
+        let decides = *what == Decisive::Onset && outcome == Outcome::Diverged;
         let bold = if decides { "**" } else { "" };
         let _ = writeln!(table, "| {bold}{} s{bold} | {step} | {bold}{text}{bold} |", brief(*time_s));
     }
@@ -104,13 +104,14 @@ fn measures(ending: &Ending) -> String {
     if rows.is_empty() { rows } else { format!("| measure | value |\n|---|---|\n{rows}\n") }
 }
 
-fn legend(header: &Header) -> String {
+fn legend(header: &Header, ending: &Ending) -> String {
     let mut lines = Vec::new();
-    if header.streams.contacts {
+    let touched = ending.row.get("contacts_max").and_then(Value::as_u64).is_none_or(|most| most > 0);
+    if header.streams.contacts && touched {
         let modes = ContactMode::ALL.map(|mode| format!("{} {}", schema::mode_word(mode), mode.name()));
         lines.push(format!("Contact points: {}.", modes.join(", ")));
     }
-    if header.streams.forces {
+    if header.streams.forces && touched {
         lines.push(match header.arrow_weight_n {
             Some(weight_n) => format!(
                 "Force arrows, on both bodies: {} N, a weight, are {} m; none is longer than the scene.",

@@ -4,9 +4,9 @@
 //! The viewer takes the last.
 
 use super::camera::{Camera, spacing_m};
-use super::head::application;
+use super::head::{application, scale};
 use super::names::{
-    CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION, SIM_TIME, WORLD,
+    CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION, SIM_TIME,
 };
 use super::seen::{Between, Seen};
 use crate::record::sample::{Ending, Header, norm};
@@ -24,7 +24,7 @@ use ::rerun::external::re_sdk_types::blueprint::components::{
     BackgroundKind, Corner2D, LinkAxis, LoopMode, PanelState, PlayState,
 };
 use ::rerun::log::LogMsg;
-use ::rerun::{AsComponents, RecordingStreamBuilder, StoreId};
+use ::rerun::{ApplicationId, AsComponents, RecordingStreamBuilder, StoreId};
 use std::error::Error;
 
 /// What a layout is made for that comes with the end: the end, what was seen, the camera.
@@ -36,63 +36,98 @@ const GROWTH: f64 = 10.0;
 const ENERGY_FLOOR: f64 = 1e-3;
 const LENGTH_FLOOR: f64 = 1e-6;
 /// Part of a plot's height that is left for its legend.
-const LEGEND: f64 = 0.3;
+const LEGEND: f64 = 0.42;
 /// Seconds in which the decisive stretch is played.
 const PLAYED_S: f64 = 5.0;
 
 const BACKGROUND: [u8; 3] = [26, 29, 34];
 const GRID: [u8; 4] = [120, 125, 140, 60];
 
-/// A plot, the range of its values, and whether it has more than one line.
-struct Plot {
-    name: &'static str,
-    path: &'static str,
-    range: Option<[f64; 2]>,
-    several: bool,
+/// A plot, the range of its values, and the corner of its legend, if it has more than one line.
+pub struct Plot {
+    pub name: &'static str,
+    pub path: &'static str,
+    pub range: Option<[f64; 2]>,
+    pub legend: Option<Corner2D>,
 }
 
-/// The layout as messages of a blueprint store, complete with its activation.
+/// What a recording opens with.
+pub struct Opening {
+    pub application: ApplicationId,
+    pub eye: Option<EyeControls3D>,
+    pub grid: LineGrid3D,
+    pub energy: Option<Plot>,
+    pub contacts: Vec<Plot>,
+    /// Whether there is a page with the configuration.
+    pub has_config: bool,
+    /// Part of the run that is played.
+    pub stretch_s: Option<[f64; 2]>,
+}
+
+/// The layout of a recording, before its end or with it, as messages of a blueprint store, complete with its
+/// activation.
 ///
 /// # Errors
 /// Rerun's own.
 pub fn messages(header: &Header, known: Option<Known<'_>>) -> Result<Vec<LogMsg>, Box<dyn Error>> {
-    let mut properties = Properties::default();
-    let scene: ContainerLike = Spatial3DView::new("scene").with_origin(WORLD).into();
-    let [r, g, b] = BACKGROUND;
-    let background = Background::new(BackgroundKind::SolidColor).with_color(Color::from_rgb(r, g, b));
-    properties.add(&scene, "Background", background);
     let camera = known.and_then(|(.., camera)| camera);
-    if let Some(eye) = eye(header, camera) {
-        properties.add(&scene, "EyeControls3D", eye);
-    }
-    properties.add(&scene, "LineGrid3D", grid(header, camera));
-    let mut views = |plot: Plot| {
-        let view: ContainerLike = TimeSeriesView::new(plot.name).with_origin(plot.path).into();
-        let legend = PlotLegend::new().with_visible(plot.several).with_corner(Corner2D::LeftTop);
-        properties.add(&view, "PlotLegend", legend);
-        properties.add(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
-        if let Some([low, high]) = plot.range {
-            properties.add(&view, "ScalarAxis", ScalarAxis::new().with_range(Range1D::new(low, high)));
-        }
-        view
+    let opening = Opening {
+        application: application(header)?,
+        eye: eye(header, camera),
+        grid: grid(header, camera),
+        energy: energy_plot(header, known),
+        contacts: contact_plots(header, known),
+        has_config: true,
+        stretch_s: known.map(|(ending, ..)| ending.story.stretch_s),
     };
-    let energy = energy_plot(header, known).map(&mut views);
-    let contacts: Vec<_> = contact_plots(header, known).into_iter().map(&mut views).collect();
+    opening.messages()
+}
 
-    // The public interface only sends a layout through a recording's stream; the recording is thrown away.
-    let (stream, memory) = RecordingStreamBuilder::new(application(header)?).enabled(true).memory()?;
-    blueprint(scene, energy, contacts, known).send(&stream, BlueprintActivation::default())?;
-    let mut messages = memory.take();
-    let recording = memory.store_id();
-    messages.retain(|message| Some(message.store_id()) != recording.as_ref());
+impl Opening {
+    /// The layout as messages of a blueprint store, complete with its activation.
+    ///
+    /// # Errors
+    /// Rerun's own.
+    pub fn messages(self) -> Result<Vec<LogMsg>, Box<dyn Error>> {
+        let Opening { application, eye, grid, energy, contacts, has_config, stretch_s } = self;
+        let mut properties = Properties::default();
+        let scene: ContainerLike = Spatial3DView::new("scene").with_origin("/").with_contents(["+ /world/**"]).into();
+        let [r, g, b] = BACKGROUND;
+        let background = Background::new(BackgroundKind::SolidColor).with_color(Color::from_rgb(r, g, b));
+        properties.add(&scene, "Background", background);
+        if let Some(eye) = eye {
+            properties.add(&scene, "EyeControls3D", eye);
+        }
+        properties.add(&scene, "LineGrid3D", grid);
+        let mut view = |plot: Plot| {
+            let view: ContainerLike = TimeSeriesView::new(plot.name).with_origin(plot.path).into();
+            let legend = PlotLegend::new().with_visible(plot.legend.is_some());
+            let legend = plot.legend.into_iter().fold(legend, PlotLegend::with_corner);
+            properties.add(&view, "PlotLegend", legend);
+            properties.add(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
+            if let Some([low, high]) = plot.range {
+                properties.add(&view, "ScalarAxis", ScalarAxis::new().with_range(Range1D::new(low, high)));
+            }
+            view
+        };
+        let energy = energy.map(&mut view);
+        let contacts: Vec<_> = contacts.into_iter().map(&mut view).collect();
 
-    // The activation ends a layout; whatever comes later is not part of it.
-    let last = messages.iter().rposition(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
-    if let Some(last) = last {
-        let store = messages[last].store_id().clone();
-        messages.splice(last..last, properties.messages(&store)?);
+        // The public interface only sends a layout through a recording's stream; the recording is thrown away.
+        let (stream, memory) = RecordingStreamBuilder::new(application).enabled(true).memory()?;
+        blueprint(scene, energy, contacts, has_config, stretch_s).send(&stream, BlueprintActivation::default())?;
+        let mut messages = memory.take();
+        let recording = memory.store_id();
+        messages.retain(|message| Some(message.store_id()) != recording.as_ref());
+
+        // The activation ends a layout; whatever comes later is not part of it.
+        let last = messages.iter().rposition(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
+        if let Some(last) = last {
+            let store = messages[last].store_id().clone();
+            messages.splice(last..last, properties.messages(&store)?);
+        }
+        Ok(messages)
     }
-    Ok(messages)
 }
 
 /// Properties of views that the public interface has no words for: camera, legend.
@@ -124,12 +159,14 @@ fn blueprint(
     scene: ContainerLike,
     energy: Option<ContainerLike>,
     contacts: Vec<ContainerLike>,
-    known: Option<Known<'_>>,
+    has_config: bool,
+    stretch_s: Option<[f64; 2]>,
 ) -> Blueprint {
-    let notes = Tabs::new([
-        TextLogView::new("events").with_origin(LOG).into(),
-        TextDocumentView::new("configuration").with_origin(CONFIG).into(),
-    ]);
+    let mut notes: Vec<ContainerLike> = vec![TextLogView::new("events").with_origin(LOG).into()];
+    if has_config {
+        notes.push(TextDocumentView::new("configuration").with_origin(CONFIG).into());
+    }
+    let notes = Tabs::new(notes);
     let left = Vertical::new([scene, notes.into()]).with_row_shares([3.2, 1.0]);
     let headline: ContainerLike = TextDocumentView::new("what happened").with_origin(HEADLINE).into();
     let mut right = vec![headline];
@@ -150,15 +187,14 @@ fn blueprint(
         .with_auto_layout(false)
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
         .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
-        .with_time_panel(match known {
-            Some((ending, ..)) => played(time, ending),
+        .with_time_panel(match stretch_s {
+            Some(stretch_s) => played(time, stretch_s),
             None => time,
         })
 }
 
 /// Plays the decisive stretch again and again, in a few seconds.
-fn played(time: TimePanel, ending: &Ending) -> TimePanel {
-    let [from_s, to_s] = ending.story.stretch_s;
+fn played(time: TimePanel, [from_s, to_s]: [f64; 2]) -> TimePanel {
     let length_s = to_s - from_s;
     if length_s.is_nan() || length_s <= 0.0 {
         return time;
@@ -195,20 +231,31 @@ fn energy_plot(header: &Header, known: Option<Known<'_>>) -> Option<Plot> {
     if !header.streams.energy {
         return None;
     }
-    let linear = Plot { name: "energy [J]", path: ENERGY, range: None, several: true };
+    // Where the plot is low: energies mostly fall, and what explodes does so at the end.
+    let falls = known.is_none_or(|(_, seen, _)| seen.falls());
+    let corner = if falls { Corner2D::RightTop } else { Corner2D::LeftTop };
+    let linear = Plot { name: "energy [J]", path: ENERGY, range: None, legend: Some(corner) };
     let Some((ending, seen, _)) = known else { return Some(linear) };
     if seen.energy_j.is_empty() {
         return None;
     }
-    let log = seen.log_energy;
-    if log.most > libm::log10(GROWTH) {
-        let limit = header.energy_factor.map_or(log.most, |factor| libm::log10(factor).max(log.most));
-        let range = with_legend([log.least.min(0.0) - 0.15, limit + 0.15]);
-        return Some(Plot { name: "energy: log₁₀ E / E₀", path: LOG_ENERGY, range: Some(range), several: true });
+    if let Some(range) = log_range(seen.log_energy, header.energy_factor) {
+        return Some(Plot { range: Some(range), ..log_energy_plot() });
     }
     let floor_j = ENERGY_FLOOR * ending.story.start_j.abs();
     let range = with_legend(widened(seen.energy_j, floor_j));
     Some(Plot { range: Some(range), ..linear })
+}
+
+/// The plot of energies' logarithms.
+pub fn log_energy_plot() -> Plot {
+    Plot { name: "energy: log₁₀ E / E₀", path: LOG_ENERGY, range: None, legend: Some(Corner2D::LeftTop) }
+}
+
+/// Range of the logarithms, with the limit of divergence in it; None where they say less than the energies themselves.
+pub fn log_range(log: Between, factor: Option<f64>) -> Option<[f64; 2]> {
+    let limit = factor.map_or(log.most, |factor| libm::log10(factor).max(log.most));
+    (log.most > libm::log10(GROWTH)).then(|| with_legend([log.least.min(0.0) - 0.15, limit + 0.15]))
 }
 
 fn contact_plots(header: &Header, known: Option<Known<'_>>) -> Vec<Plot> {
@@ -229,27 +276,29 @@ fn contact_plots(header: &Header, known: Option<Known<'_>>) -> Vec<Plot> {
             // From nothing up; the friction that one wrong contact uses has no end.
             let most = |seen: Between| if path == FRICTION_USE { seen.most.min(2.0) } else { seen.most };
             let range = seen.map(|seen| [0.0, 1.08 * most(seen).max(floor)]);
-            Plot { name, path, range, several: false }
+            Plot { name, path, range, legend: None }
         })
         .collect()
 }
 
 /// A range of at least this height.
-fn widened(seen: Between, floor: f64) -> [f64; 2] {
+pub fn widened(seen: Between, floor: f64) -> [f64; 2] {
     let height = seen.most - seen.least;
     let more = if height < floor { 0.5 * (floor - height) } else { 0.05 * height };
     [seen.least - more, seen.most + more]
 }
 
 /// A range with room for a legend above what is plotted.
-fn with_legend([low, high]: [f64; 2]) -> [f64; 2] {
+pub fn with_legend([low, high]: [f64; 2]) -> [f64; 2] {
     [low, high + LEGEND * (high - low)]
 }
 
 /// What the bodies sweep in view; before that is known, the container.
-fn eye(header: &Header, camera: Option<Camera>) -> Option<EyeControls3D> {
+pub fn eye(header: &Header, camera: Option<Camera>) -> Option<EyeControls3D> {
+    let scale = scale(header);
+    let drawn = |p: [f64; 3]| p.map(|x| x * scale);
     if let Some(camera) = camera {
-        let eye = EyeControls3D::new().with_position(camera.position).with_look_target(camera.target);
+        let eye = EyeControls3D::new().with_position(drawn(camera.position)).with_look_target(drawn(camera.target));
         let eye = eye.with_eye_up([0.0, 1.0, 0.0]);
         return Some(match header.bodies.first().filter(|_| camera.follows) {
             Some(body) => eye.with_tracking_entity(super::body_path(&body.name).to_string()),
@@ -262,19 +311,20 @@ fn eye(header: &Header, camera: Option<Camera>) -> Option<EyeControls3D> {
     let size_m = norm(std::array::from_fn(|i| high[i] - low[i]));
     let centre: [f64; 3] = std::array::from_fn(|i| 0.5 * (low[i] + high[i]));
     let position: [f64; 3] = std::array::from_fn(|i| centre[i] + size_m * EYE[i]);
-    let eye = EyeControls3D::new().with_position(position).with_look_target(centre);
+    let eye = EyeControls3D::new().with_position(drawn(position)).with_look_target(drawn(centre));
     Some(eye.with_eye_up([0.0, 1.0, 0.0]))
 }
 
 /// A grid on the ground, to the scale of the motion; without ground there is none.
-fn grid(header: &Header, camera: Option<Camera>) -> LineGrid3D {
+pub fn grid(header: &Header, camera: Option<Camera>) -> LineGrid3D {
+    let scale = scale(header);
     let Some((normal, offset_m)) = header.planes.first() else { return LineGrid3D::new().with_visible(false) };
     let [r, g, b, a] = GRID;
     let size_m = camera.map_or(header.scene_size_m(), |camera| camera.size_m);
     let normal = normal.map(|x| x as f32);
     LineGrid3D::new()
         .with_visible(true)
-        .with_plane(Plane3D::new(normal, *offset_m as f32))
-        .with_spacing(spacing_m(size_m) as f32)
+        .with_plane(Plane3D::new(normal, (*offset_m * scale) as f32))
+        .with_spacing((spacing_m(size_m) * scale) as f32)
         .with_color(Color::from_unmultiplied_rgba(r, g, b, a))
 }

@@ -40,7 +40,7 @@ pub struct Room {
 }
 
 impl Room {
-    fn with(self, other: Room) -> Room {
+    pub fn with(self, other: Room) -> Room {
         Room {
             from_s: self.from_s.min(other.from_s),
             low: std::array::from_fn(|i| self.low[i].min(other.low[i])),
@@ -61,7 +61,11 @@ pub struct Seen {
     stride: usize,
     since: usize,
     pub samples: usize,
+    /// Total energy of the first sample and of the last.
+    totals_j: [f64; 2],
+    /// Of kinetic, potential and total energy, and of the total alone.
     pub energy_j: Between,
+    pub total_j: Between,
     pub log_energy: Between,
     pub contacts: Between,
     pub force_n: Between,
@@ -81,7 +85,9 @@ impl Seen {
             stride: 1,
             since: 0,
             samples: 0,
+            totals_j: [0.0; 2],
             energy_j: Between::NOTHING,
+            total_j: Between::NOTHING,
             log_energy: Between::NOTHING,
             contacts: Between::NOTHING,
             force_n: Between::NOTHING,
@@ -102,11 +108,21 @@ impl Seen {
             for x in [energy.kinetic_j, energy.potential_j, energy.total_j] {
                 self.energy_j.add(x);
             }
+            self.total_j.add(energy.total_j);
             self.penetration_m.add(energy.penetration_m);
+            if self.samples == 1 {
+                self.totals_j[0] = energy.total_j;
+            }
+            self.totals_j[1] = energy.total_j;
         }
         if let Some(x) = log_energy {
             self.log_energy.add(x);
         }
+    }
+
+    /// Whether there is less energy at the end than at the start.
+    pub fn falls(&self) -> bool {
+        self.totals_j[1] < self.totals_j[0]
     }
 
     /// Room that the bodies take up to a time, from the start on.

@@ -34,6 +34,7 @@ pub fn header(case: &Case, name: &RecordingName, model: &Model, start: &State, c
         bodies: (0..model.bodies.len()).map(|i| body_header(model, i, start, clock)).collect(),
         container_strips_m: container_strips(container),
         planes: planes(container),
+        ground: ground(model, start, clock),
         arrow_m_per_n,
         arrow_weight_n,
         energy_factor: case.experiment.diverge.energy_factor,
@@ -137,6 +138,20 @@ fn container_strips(container: Option<&Container>) -> Vec<Vec<[f64; 3]>> {
         Some(Container::Box(size)) => box_strips(size),
         _ => Vec::new(),
     }
+}
+
+/// Middle of the bodies at the start, and how far from it the ground is to reach: some bodies' sizes, and the way that
+/// they set out for, up to a few more.
+fn ground(model: &Model, start: &State, clock: &Clock) -> ([f64; 3], f64) {
+    const SIZES: f64 = 4.0;
+    const MOST_SIZES: f64 = 16.0;
+    let count = start.bodies.len().max(1) as f64;
+    let middle = start.bodies.iter().map(|body| body.p_WB).sum::<Vector3<f64>>() / count;
+    let size_m = model.largest_radius_m();
+    let apart_m = start.bodies.iter().map(|body| (body.p_WB - middle).norm()).fold(0.0, f64::max);
+    let fastest_m_s = start.bodies.iter().map(|body| body.v_WB.norm()).fold(0.0, f64::max);
+    let way_m = (fastest_m_s * clock.end_s).min(MOST_SIZES * size_m);
+    (middle.into(), apart_m + SIZES * size_m + way_m)
 }
 
 fn planes(container: Option<&Container>) -> Vec<([f64; 3], f64)> {

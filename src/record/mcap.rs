@@ -10,6 +10,7 @@ use foxglove::Encode;
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, Compression, McapResult, WriteOptions};
 use prost::Message;
+use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -236,6 +237,7 @@ fn said(header: &Header) -> BTreeMap<String, String> {
         ("case", header.case.clone()),
         ("title", header.title.clone()),
         ("schema", schema::VERSION.to_owned()),
+        (schema::AXES, Value::from(header.axes.iter().map(|(path, _)| path.as_str()).collect::<Vec<_>>()).to_string()),
         ("question", header.question.clone()),
         ("method", header.method.clone()),
         ("time", "simulated, from zero".to_owned()),

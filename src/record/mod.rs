@@ -5,6 +5,7 @@
 
 pub mod head;
 pub mod mcap;
+pub mod mend;
 pub mod name;
 pub mod read;
 mod recorder;
@@ -15,6 +16,7 @@ pub mod sample;
 pub mod sampler;
 mod scene;
 pub mod schema;
+pub mod series;
 pub mod story;
 mod watch;
 pub mod writer;

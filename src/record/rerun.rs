@@ -11,6 +11,7 @@ pub mod ghosts;
 mod head;
 mod headline;
 mod layout;
+pub mod mend;
 mod names;
 mod seen;
 

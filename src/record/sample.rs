@@ -57,6 +57,8 @@ pub struct Header {
     pub container_strips_m: Vec<Vec<[f64; 3]>>,
     /// Free half-spaces n·x ≥ offset whose boundary is drawn as ground, as large as the motion: unit normal, offset.
     pub planes: Vec<([f64; 3], f64)>,
+    /// Middle and half side of the squares of planes, as far as the start tells.
+    pub ground: ([f64; 3], f64),
     /// Length of a force arrow: metres a newton.
     pub arrow_m_per_n: f64,
     /// Weight that an arrow as long as `arrow_body_m` stands for; None without gravity.
@@ -90,12 +92,16 @@ impl Header {
         })
     }
 
-    /// Length that the scene's drawings are in proportion to: the container's diagonal, else the largest body's
-    /// diameter.
+    /// Corners of the squares that planes are drawn as, about the point of each that is nearest to a middle.
+    pub fn squares(&self, middle: [f64; 3], half_m: f64) -> Vec<[[f64; 3]; 4]> {
+        self.planes.iter().map(|plane| square(*plane, middle, half_m)).collect()
+    }
+
+    /// Length that the scene's drawings are in proportion to: the container's diagonal, else the ground's side.
     pub fn scene_size_m(&self) -> f64 {
         match self.container_box_m() {
             Some((low, high)) => norm(std::array::from_fn(|i| high[i] - low[i])),
-            None => self.bodies.iter().map(|body| 2.0 * body.bounding_radius_m).fold(0.0, f64::max),
+            None => 2.0 * self.ground.1,
         }
     }
 
@@ -118,6 +124,26 @@ impl ForceArrows {
         let cut = if length_m > self.longest_m { self.longest_m / length_m } else { 1.0 };
         force_n.map(|f| f * self.m_per_n * cut)
     }
+}
+
+fn square((normal, offset_m): ([f64; 3], f64), middle: [f64; 3], half_m: f64) -> [[f64; 3]; 4] {
+    let height_m = dot(normal, middle) - offset_m;
+    let centre: [f64; 3] = std::array::from_fn(|i| middle[i] - height_m * normal[i]);
+    // Along the world's axes where the plane is level.
+    let along = if normal[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+    let t2 = cross(along, normal);
+    let t2 = t2.map(|x| x / norm(t2));
+    let t1 = cross(normal, t2);
+    [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(a, b)| std::array::from_fn(|i| centre[i] + half_m * (a * t1[i] + b * t2[i])))
+}
+
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(super) fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 }
 
 pub(super) fn norm([x, y, z]: [f64; 3]) -> f64 {
@@ -269,8 +295,7 @@ const EDGE: f64 = 1e-6;
 
 /// Mode of a contact and the use it makes of its friction, from its force.
 pub fn contact_mode(force_n: [f64; 3], normal: [f64; 3], friction: f64) -> (ContactMode, f64) {
-    let along = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let normal_n = along(force_n, normal);
+    let normal_n = dot(force_n, normal);
     let tangential_n = norm(std::array::from_fn(|i| force_n[i] - normal_n * normal[i]));
     if normal_n == 0.0 && tangential_n == 0.0 {
         return (ContactMode::Open, 0.0);

@@ -29,6 +29,12 @@ pub const LOG: &str = "/log";
 /// Version of what stands in a recording and what it is called; it rises when either changes.
 pub const VERSION: &str = "2";
 
+/// Version of Rerun that .rrd files are of; a viewer of the same or a later one shows them.
+pub const RERUN_VERSION: &str = "0.36.3";
+
+/// Key of the list of axes among what a recording says of itself, as JSON.
+pub const AXES: &str = "axes";
+
 /// Name of the configuration attached to a recording.
 pub const CONFIG_FILE: &str = "experiment.yaml";
 /// Name of the record of case, axes, program and step, at the start; and of the same with name and outcome, at the end.
@@ -40,8 +46,27 @@ pub fn text(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
+/// A value on an axis for people: of a word with settings the word and the settings, e.g. `lecture sweeps=50`.
+pub fn label(value: &Value) -> String {
+    match value {
+        Value::Object(map) => {
+            let parts = map.iter().map(|(key, value)| match value {
+                Value::Object(settings) => {
+                    let settings = settings.iter().map(|(key, value)| format!(" {key}={}", label(value)));
+                    format!("{key}{}", settings.collect::<String>())
+                }
+                value => format!("{key}={}", label(value)),
+            });
+            parts.collect::<Vec<_>>().join(" ")
+        }
+        value => text(value),
+    }
+}
+
 /// The frame that everything is in, and what `other` says for a contact with the container.
 pub const WORLD: &str = "world";
+/// The frame that the world stands upright in for viewers whose z is up.
+pub const ROOT: &str = "root";
 pub const CONTAINER: &str = "container";
 
 /// A colour: red, green, blue, of 255.

@@ -5,5 +5,8 @@ mod modes;
 #[cfg(feature = "rerun")]
 mod rerun;
 mod schema;
+mod story;
 mod synthetic;
+#[cfg(feature = "rerun")]
+mod viewer;
 mod writer;

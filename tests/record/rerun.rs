@@ -175,7 +175,7 @@ fn the_layout_comes_first_and_the_configuration_is_shown() {
     // No other recording has it.
     let applications: std::collections::BTreeSet<_> =
         messages.iter().map(|message| message.store_id().application_id().to_string()).collect();
-    assert_eq!(applications, ["gotai 0.5_fine.01234567".to_string()].into());
+    assert_eq!(applications, ["gotai 0-5_fine-01234567".to_string()].into());
 
     let store = read(&path);
     let config = store.iter_physical_chunks().find(|chunk| chunk.entity_path().to_string() == "/config").unwrap();

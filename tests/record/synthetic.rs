@@ -43,6 +43,7 @@ pub fn header(streams: Streams) -> Header {
         }],
         container_strips_m: box_strips(),
         planes: vec![([0.0, 1.0, 0.0], 0.0)],
+        ground: ([0.0; 3], 2.0),
         arrow_m_per_n: 0.02,
         arrow_weight_n: Some(9.8),
         energy_factor: Some(1000.0),

@@ -57,6 +57,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         "record",
         &[
             "shown",
+            "shape",
             "collide",
             "work",
             "measure",

@@ -1,7 +1,7 @@
 //! The camera that a recording opens with: on what the bodies sweep, not on the container.
 
 use super::seen::{Room, Seen};
-use crate::record::sample::{Header, norm};
+use crate::record::sample::{Header, cross, dot, norm};
 
 /// Direction from the middle to the eye: in front, to the right, above.
 const FROM: [f64; 3] = [0.45, 0.34, 0.83];
@@ -33,8 +33,10 @@ pub struct Camera {
 /// stands still.
 const SHOWN_M: [f64; 2] = [0.5, 500.0];
 
-/// Factor by which a scene of this size is drawn: a power of ten, 1 where the viewer can show it as it is.
-pub fn drawn_scale(size_m: f64) -> f64 {
+/// Factor by which a scene is drawn: a power of ten, 1 where the viewer can show it as it is. The numbers beside the
+/// picture are not touched by it.
+pub fn scale(header: &Header) -> f64 {
+    let size_m = header.bodies.iter().map(|body| 4.0 * body.bounding_radius_m).fold(0.0, f64::max);
     if !(size_m > 0.0 && size_m.is_finite()) || (SHOWN_M[0]..SHOWN_M[1]).contains(&size_m) {
         return 1.0;
     }
@@ -83,14 +85,9 @@ fn way_m(room: Room, radius_m: f64) -> f64 {
 
 /// Distance from which a box of these half sides takes its part of the view.
 fn distance_m(half: [f64; 3], from: [f64; 3]) -> f64 {
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let right = [from[2], 0.0, -from[0]];
     let right = right.map(|x| x / norm(right));
-    let up = [
-        from[1] * right[2] - from[2] * right[1],
-        from[2] * right[0] - from[0] * right[2],
-        from[0] * right[1] - from[1] * right[0],
-    ];
+    let up = cross(from, right);
     let tangent = libm::tan(0.5 * ANGLE);
     let corners = (0..8).map(|i| std::array::from_fn(|axis| if i >> axis & 1 == 1 { half[axis] } else { -half[axis] }));
     let needed = |corner: [f64; 3]| {

@@ -1,23 +1,22 @@
 //! Several cases in one .rrd, on one timeline: the first as it is, the others as ghosts; one plot of all energies.
 
-use super::camera::camera_on;
-use super::head::{EDGED_BODIES, color, details, ground, line, scale, surface};
+use super::camera::{camera_on, scale};
+use super::head::{EDGED_BODIES, color, details, ground, line, surface};
 use super::layout::{self, Opening, Plot};
-use super::names::{APPLICATION, CONTACT_COUNT, ENERGY, HEADLINE, LOG, LOG_ENERGY, TRAILS, WORLD};
+use super::names::{CONTACT_COUNT, ENERGY, HEADLINE, LOG, LOG_ENERGY, TRAILS, WORLD, application};
 use super::seen::{Room, Seen};
 use super::{Out, Written, log_part, times};
 use crate::record::RecordError;
 use crate::record::read::ReadBack;
 use crate::record::sample::Header;
-use crate::record::schema::{self, Rgb};
+use crate::record::schema::Rgb;
 use crate::record::story::brief;
 use ::rerun::components::Radius;
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
 use ::rerun::external::re_sdk_types::blueprint::components::Corner2D;
 use ::rerun::{
-    ApplicationId, Color, EntityPath, LineStrips3D, Points3D, RecordingStreamBuilder, TextDocument, Transform3D,
-    ViewCoordinates,
+    Color, EntityPath, LineStrips3D, Points3D, RecordingStreamBuilder, TextDocument, Transform3D, ViewCoordinates,
 };
 use std::fmt::Write;
 use std::fs::File;
@@ -80,7 +79,7 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Written {
     let drawn: Vec<Drawn<'_>> = cases.iter().zip(COLOURS).enumerate().map(|(i, of)| Drawn::new(i, of)).collect();
     let Some(first) = cases.first() else { return Ok(()) };
     let labels: Vec<&str> = cases.iter().map(|case| case.label.as_str()).collect();
-    let application = ApplicationId::try_new(format!("{APPLICATION} {differing}: {}", labels.join(", ")))?;
+    let application = application(&format!("{differing} {}", labels.join(" ")))?;
     let ids: Vec<&str> = cases.iter().map(|case| case.header.case.as_str()).collect();
     let (stream, memory) = RecordingStreamBuilder::new(application.clone())
         .recording_id(format!("{} {}", ids.join(" "), first.header.build))
@@ -119,7 +118,7 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Written {
     stream.log_static(HEADLINE, &TextDocument::from_markdown(page(differing, cases)))?;
     match camera {
         Some(camera) => ground(&first.header, camera.middle, 1.6 * camera.half_m, &stream)?,
-        None => ground(&first.header, [0.0; 3], 2.0 * first.header.scene_size_m(), &stream)?,
+        None => ground(&first.header, first.header.ground.0, first.header.ground.1, &stream)?,
     }
     super::head::walls(&first.header, &stream)?;
     for case in &drawn {
@@ -252,7 +251,7 @@ fn energy_plot(drawn: &[Drawn<'_>], factor: Option<f64>) -> Option<Plot> {
 fn page(differing: &str, cases: &[GhostCase]) -> String {
     let question = cases.first().map_or("", |case| case.header.question.as_str());
     let mut page = format!("# {} cases of {differing}\n\n**{question}**\n\n", cases.len());
-    page += "| case | colour | outcome | at | energy, of the start's | largest gain of a contact solve | residual |\n";
+    page += "| case | colour | outcome | at | E / E₀ ≤ | gain ≤ | residual ≤ |\n";
     page += "|---|---|---|---|---|---|---|\n";
     for ((case, word), i) in cases.iter().zip(COLOUR_WORDS).zip(0..) {
         let said = |key: &str| case.recording.said.get(key).cloned();
@@ -270,5 +269,6 @@ fn page(differing: &str, cases: &[GhostCase]) -> String {
             number("residual_max"),
         );
     }
-    page + "\nA case that has ended stays where it was.\n"
+    page + "\nE / E₀: the largest energy, of the start's; gain: the largest of a contact solve. A case that has ended stays \
+            where it was.\n"
 }

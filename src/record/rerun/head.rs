@@ -1,22 +1,22 @@
 //! Head of an .rrd, once, before the first sample: layout, names, surfaces, colours, configuration.
 
-use super::camera::{Camera, camera, drawn_scale};
+use super::camera::{Camera, camera, scale};
 use super::names::{
-    APPLICATION, CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, FRICTION_USE, GAINS, GROUND,
-    HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, SIM_TIME, STEP, TRAILS, WORLD, energy_path,
+    CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, FRICTION_USE, GAINS, GROUND, HEADLINE, LIMIT,
+    LOG_ENERGY_TOTAL, LOG_GAINS, SIM_TIME, STEP, TRAILS, WORLD, application, energy_path,
 };
 use super::seen::Seen;
 use super::{headline, layout};
-use crate::record::sample::{BodyHeader, Ending, Header, norm};
+use crate::record::sample::{BodyHeader, Ending, Header, cross, dot, norm};
 use crate::record::schema::{self, Rgb};
 use crate::record::story::EnergyGain;
 use ::rerun::components::{Radius, Scalar, Text};
 use ::rerun::log::LogMsg;
 use ::rerun::sink::MemorySinkStorage;
 use ::rerun::{
-    AnyValues, ApplicationId, Arrows3D, Color, ComponentIdentifier, EntityPath, LineStrips3D, Mesh3D, Points3D,
-    RecordingStream, RecordingStreamBuilder, RecordingStreamResult, Scalars, SeriesLines, SeriesPoints, StoreId,
-    TextDocument, Transform3D, ViewCoordinates,
+    AnyValues, Arrows3D, Color, ComponentIdentifier, EntityPath, LineStrips3D, Mesh3D, Points3D, RecordingStream,
+    RecordingStreamBuilder, RecordingStreamResult, Scalars, SeriesLines, SeriesPoints, StoreId, TextDocument,
+    Transform3D, ViewCoordinates,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -45,6 +45,7 @@ const SHARP: f64 = 0.94;
 /// Colours of what stands beside the bodies.
 const GROUND_COLOUR: Rgb = [110, 120, 140];
 const EDGE_COLOUR: Rgb = [24, 28, 36];
+const LIGHT_EDGE_COLOUR: Rgb = [190, 205, 225];
 const LIMIT_COLOUR: Rgb = [225, 87, 89];
 const AXES_COLOURS: [Rgb; 3] = [[235, 80, 80], [100, 210, 90], [90, 140, 250]];
 
@@ -67,8 +68,7 @@ pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<
         }
     }
     walls(header, &stream)?;
-    let size_m = header.scene_size_m();
-    ground(header, [0.0; 3], 2.0 * size_m, &stream)?;
+    ground(header, header.ground.0, header.ground.1, &stream)?;
     styles(header, &stream)?;
     messages.extend(memory.take());
     Ok((store, messages))
@@ -78,14 +78,6 @@ pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<
 /// recordings that share one.
 fn recording_id(header: &Header) -> String {
     format!("{} {}", header.case, header.build)
-}
-
-/// Name of the application: one of its own for every recording, as all recordings of an application share a layout.
-///
-/// # Errors
-/// Rerun's own.
-pub fn application(header: &Header) -> Result<ApplicationId, Box<dyn Error>> {
-    Ok(ApplicationId::try_new(format!("{APPLICATION} {}", header.name.begun()))?)
 }
 
 /// Messages that the end of a run adds to its recording: its name, how the run ended, the page and the layout that it
@@ -125,7 +117,10 @@ pub fn ending(header: &Header, ending: &Ending, seen: &Seen) -> Result<Vec<LogMs
 }
 
 fn stream(header: &Header) -> Result<(RecordingStream, MemorySinkStorage), Box<dyn Error>> {
-    Ok(RecordingStreamBuilder::new(application(header)?).recording_id(recording_id(header)).enabled(true).memory()?)
+    Ok(RecordingStreamBuilder::new(application(&header.name.begun())?)
+        .recording_id(recording_id(header))
+        .enabled(true)
+        .memory()?)
 }
 
 fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
@@ -160,11 +155,6 @@ fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<
         stream.log_static(WORLD, &Transform3D::from_scale(scale as f32))?;
     }
     Ok(())
-}
-
-/// Factor by which the scene is drawn; the numbers beside the picture are not touched by it.
-pub fn scale(header: &Header) -> f64 {
-    drawn_scale(header.bodies.iter().map(|body| 4.0 * body.bounding_radius_m).fold(0.0, f64::max))
 }
 
 /// A body's surface in a colour of this opacity.
@@ -212,8 +202,7 @@ fn corners_and_normal(body: &BodyHeader, triangle: &[u32; 3]) -> Option<([[f64; 
     let corner = |i: usize| body.vertices_m.get(triangle[i] as usize).copied();
     let (a, b, c) = (corner(0)?, corner(1)?, corner(2)?);
     let (u, v) = (minus(b, a), minus(c, a));
-    let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    Some(([a, b, c], normal))
+    Some(([a, b, c], cross(u, v)))
 }
 
 /// What makes a turn visible: edges, nodes that touch, places on pins, and of a body without a shape its axes.
@@ -221,9 +210,11 @@ pub fn details(body: &BodyHeader, path: &EntityPath, stream: &RecordingStream) -
     let below = |name: &str| path.join(&EntityPath::from_single_string(name));
     let strips = if body.triangles.len() <= EDGED_TRIANGLES { edges(body) } else { Vec::new() };
     if !strips.is_empty() {
+        // What has no shape is seen by its lines.
+        let edge_colour = if body.has_no_shape { LIGHT_EDGE_COLOUR } else { EDGE_COLOUR };
         let lines =
             LineStrips3D::new(strips.iter().map(|strip| strip.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>()));
-        let lines = lines.with_colors([color(EDGE_COLOUR)]).with_radii([Radius::new_ui_points(EDGE_RADIUS)]);
+        let lines = lines.with_colors([color(edge_colour)]).with_radii([Radius::new_ui_points(EDGE_RADIUS)]);
         stream.log_static(below("edges"), &lines)?;
     }
     if body.touches_with_nodes {
@@ -294,10 +285,6 @@ fn edges(body: &BodyHeader) -> Vec<Vec<[f64; 3]>> {
     if sharp.is_empty() { great_circles(body) } else { sharp }
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
 /// Three loops about a round body, a little outside.
 fn great_circles(body: &BodyHeader) -> Vec<Vec<[f64; 3]>> {
     const POINTS: usize = 48;
@@ -351,7 +338,7 @@ pub fn ground(header: &Header, middle: [f64; 3], half_m: f64, stream: &Recording
             let corner = |x: f64, z: f64| [x, low[1], z];
             vec![[corner(low[0], low[2]), corner(low[0], high[2]), corner(high[0], high[2]), corner(high[0], low[2])]]
         }
-        None => header.planes.iter().map(|plane| square(*plane, middle, half_m)).collect(),
+        None => header.squares(middle, half_m),
     };
     if squares.is_empty() || half_m.is_nan() || half_m <= 0.0 {
         return Ok(());
@@ -366,21 +353,6 @@ pub fn ground(header: &Header, middle: [f64; 3], half_m: f64, stream: &Recording
         stream.log_static(CONTAINER, &lines.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
     }
     Ok(())
-}
-
-/// Corners of a square in a plane, about the point of it that is nearest to the middle.
-fn square((normal, offset_m): ([f64; 3], f64), middle: [f64; 3], half_m: f64) -> [[f64; 3]; 4] {
-    let cross =
-        |u: [f64; 3], v: [f64; 3]| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    let height_m = dot(normal, middle) - offset_m;
-    let centre: [f64; 3] = std::array::from_fn(|i| middle[i] - height_m * normal[i]);
-    // Along the world's axes where the plane is level.
-    let along = if normal[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-    let t2 = cross(along, normal);
-    let t2 = t2.map(|x| x / norm(t2));
-    let t1 = cross(normal, t2);
-    [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-        .map(|(a, b)| std::array::from_fn(|i| centre[i] + half_m * (a * t1[i] + b * t2[i])))
 }
 
 /// The ways of the bodies, each in its body's colour.

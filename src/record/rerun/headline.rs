@@ -70,7 +70,7 @@ fn asked(header: &Header) -> String {
     let mut line = if header.question.is_empty() { String::new() } else { format!("**{}** ", header.question) };
     let axes = header.axes.iter().map(|(path, value)| {
         let name = path.rsplit('.').next().unwrap_or(path);
-        format!("`{name} = {}`", schema::text(value))
+        format!("`{name} = {}`", schema::label(value))
     });
     let method = (!header.axes.iter().any(|(path, _)| path == "method")).then(|| format!("`{}`", header.method));
     let step = format!("Δt = {} s", brief(header.step_s));

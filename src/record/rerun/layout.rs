@@ -3,10 +3,10 @@
 //! It is written twice: at the head for a recording that is cut, and, since a story is known at its end, with the end.
 //! The viewer takes the last.
 
-use super::camera::{Camera, spacing_m};
-use super::head::{application, scale};
+use super::camera::{Camera, scale, spacing_m};
 use super::names::{
     CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION, SIM_TIME,
+    application,
 };
 use super::seen::{Between, Seen};
 use crate::record::sample::{Ending, Header, norm};
@@ -72,7 +72,7 @@ pub struct Opening {
 pub fn messages(header: &Header, known: Option<Known<'_>>) -> Result<Vec<LogMsg>, Box<dyn Error>> {
     let camera = known.and_then(|(.., camera)| camera);
     let opening = Opening {
-        application: application(header)?,
+        application: application(&header.name.begun())?,
         eye: eye(header, camera),
         grid: grid(header, camera),
         energy: energy_plot(header, known),

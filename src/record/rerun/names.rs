@@ -1,11 +1,22 @@
 //! Names in an .rrd: application, timelines, entities.
 
 use crate::record::schema::Series;
-use ::rerun::EntityPath;
+use ::rerun::{ApplicationId, EntityPath};
+use std::error::Error;
 
-/// Beginning of the application's id. Recordings of one application share a layout, and every recording opens with
-/// its own.
-pub const APPLICATION: &str = "gotai";
+/// Beginning of an application's name. Recordings of one application share a layout, and every recording opens with its
+/// own.
+const APPLICATION: &str = "gotai";
+
+/// Name of a recording's application: one of its own for every recording. What no name may hold becomes a hyphen.
+///
+/// # Errors
+/// Rerun's own.
+pub fn application(named: &str) -> Result<ApplicationId, Box<dyn Error>> {
+    let is_safe = |c: char| c.is_alphanumeric() || c == '_' || c == '-' || c == ' ';
+    let safe: String = named.chars().map(|c| if is_safe(c) { c } else { '-' }).collect();
+    Ok(ApplicationId::try_new(format!("{APPLICATION} {safe}"))?)
+}
 
 /// Timelines: simulated time, and the number of the step.
 pub const SIM_TIME: &str = "sim_time";

@@ -79,8 +79,11 @@ fn pinned_at(pin: &Pin, i: usize) -> Vec<Vector3<f64>> {
     own.into_iter().chain(others).collect()
 }
 
+/// Points and triangles.
+type Surface = (Vec<Vector3<f64>>, Vec<[u32; 3]>);
+
 /// Ellipsoid of the body's mass and moments of inertia; None of a point, whose moments mean nothing.
-fn of_inertia(body: &Body) -> Option<(Vec<Vector3<f64>>, Vec<[u32; 3]>)> {
+fn of_inertia(body: &Body) -> Option<Surface> {
     if body.isotropic && body.I_B == Matrix3::identity() * body.mass_kg {
         return None;
     }
@@ -112,7 +115,7 @@ fn point_radius_m(model: &Model, i: usize, start: &State, clock: &Clock) -> f64 
 }
 
 /// An ellipsoid by its semi-axes along the columns of a matrix, as a picture has it.
-fn ellipsoid(semi_axes: &Vector3<f64>, axes: &Matrix3<f64>) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
+fn ellipsoid(semi_axes: &Vector3<f64>, axes: &Matrix3<f64>) -> Surface {
     let ball = Solid::Sphere { radius_m: 1.0 };
     let (points, triangles) = ball.triangles();
     (points.iter().map(|p| axes * p.component_mul(semi_axes)).collect(), triangles)

@@ -13,37 +13,28 @@ mod headline;
 mod layout;
 pub mod mend;
 mod names;
+mod out;
 mod seen;
 
 use self::names::{
-    BODIES, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG, LOG_ENERGY_TOTAL, SIM_TIME, STEP,
-    energy_path,
+    CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, body_path, energy_path,
 };
-use self::seen::Seen;
+use self::out::{Out, Times, Written, times};
+use self::seen::{Seen, log_part};
 use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, norm};
 use super::schema::{self};
 use super::{RecordError, Recorder};
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
-use ::rerun::log::{Chunk, ChunkId, LogMsg};
-use ::rerun::{
-    Arrows3D, Color, EntityPath, Points3D, Scalars, SerializedComponentColumn, StoreId, TextLog, TimeColumn,
-    Transform3D,
-};
+use ::rerun::{Arrows3D, Color, EntityPath, Points3D, Transform3D};
 use std::error::Error;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-/// Result of a write. Rerun's errors come from five crates; all end as the reason of a `RecordError`.
-type Written = Result<(), Box<dyn Error>>;
-
 /// Most contacts of a sample that are drawn, those with the largest forces: more make a file that no viewer opens at
 /// once. All are counted, and all are in an .mcap.
 const MOST_CONTACTS: usize = 1_000;
-
-/// Least part of the energy at the start that has a logarithm on the plot.
-const LEAST_PART: f64 = 1e-6;
 
 /// A recording as one .rrd file.
 pub struct RerunRecorder {
@@ -91,7 +82,7 @@ impl RerunRecorder {
         let streams = self.header.streams;
         batch.check(streams, self.bodies.len())?;
         self.look(batch);
-        if batch.len() > 0 {
+        if !batch.step.is_empty() {
             let times = times(&batch.step, &batch.time_s);
             if streams.bodies {
                 self.poses(batch, &times)?;
@@ -182,12 +173,6 @@ impl RerunRecorder {
     }
 }
 
-/// Decimal logarithm of an energy as a part of the start's.
-fn log_part(energy_j: f64, start_j: Option<f64>) -> Option<f64> {
-    let part = energy_j / start_j?;
-    part.is_finite().then(|| libm::log10(part.max(LEAST_PART)))
-}
-
 /// Contacts of a sample that are drawn, in their order.
 fn drawn<'a>(sample: &Sample<'a>) -> Vec<&'a ContactSample> {
     let mut contacts: Vec<_> = sample.contacts.iter().enumerate().collect();
@@ -217,63 +202,4 @@ impl Recorder for RerunRecorder {
     fn finish(mut self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {
         self.close(ending).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
-}
-
-/// The file, and the name of the recording in it.
-struct Out {
-    store: StoreId,
-    encoder: Encoder<BufWriter<File>>,
-}
-
-impl Out {
-    /// A batch of one entity: as many rows as there are times.
-    fn columns(
-        &mut self,
-        path: EntityPath,
-        times: &Times,
-        columns: impl Iterator<Item = SerializedComponentColumn>,
-    ) -> Written {
-        let timelines = times.iter().map(|column| (*column.timeline().name(), column.clone())).collect();
-        let components = columns.map(|column| (column.descriptor, column.list_array)).collect();
-        let chunk = Chunk::from_auto_row_ids(ChunkId::new(), path, timelines, components)?;
-        self.encoder.append(&LogMsg::ArrowMsg(self.store.clone(), chunk.to_arrow_msg()?))?;
-        Ok(())
-    }
-
-    fn scalars(&mut self, path: EntityPath, times: &Times, values: impl Iterator<Item = f64>) -> Written {
-        let scalars = Scalars::update_fields().with_scalars(values);
-        self.columns(path, times, scalars.columns_of_unit_batches()?)
-    }
-
-    fn events(&mut self, events: &[Event]) -> Written {
-        self.events_at(LOG.into(), events)
-    }
-
-    fn events_at(&mut self, path: EntityPath, events: &[Event]) -> Written {
-        if events.is_empty() {
-            return Ok(());
-        }
-        let column = |of: fn(&Event) -> u64| events.iter().map(of).collect::<Vec<_>>();
-        let times_s: Vec<f64> = events.iter().map(|event| event.time_s).collect();
-        let text = TextLog::update_fields()
-            .with_many_text(events.iter().map(|event| event.text.as_str()))
-            .with_many_level(events.iter().map(|event| headline::level(event.severity)));
-        self.columns(path, &times(&column(|event| event.step), &times_s), text.columns_of_unit_batches()?)
-    }
-}
-
-type Times = [TimeColumn; 2];
-
-fn times(step: &[u64], time_s: &[f64]) -> Times {
-    // Both timelines are i64; 2⁶³ nanoseconds are 292 years.
-    let signed = |n: u64| i64::try_from(n).unwrap_or(i64::MAX);
-    [
-        TimeColumn::new_duration_nanos(SIM_TIME, time_s.iter().map(|&t| signed(schema::time_ns(t)))),
-        TimeColumn::new_sequence(STEP, step.iter().map(|&n| signed(n))),
-    ]
-}
-
-/// A body's name is one part of the path, whatever characters it has.
-fn body_path(name: &str) -> EntityPath {
-    EntityPath::from(BODIES).join(&EntityPath::from_single_string(name))
 }

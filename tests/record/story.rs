@@ -29,16 +29,16 @@ record: { every_s: 0.11 }
 ";
 
 /// An explosion of the lecture's cube.
-const EXPLODES: [&str; 9] = [
+pub const EXPLODES: [&str; 9] = [
     "configs/lecture/demo.yaml",
     "--set",
     "method={lecture: {}}",
     "--set",
-    "time.step_s=0.03",
+    "time.step_s=0.04",
     "--set",
-    "record.every_s=0.3",
+    "record.every_s=0.4",
     "--set",
-    "diverge.energy_factor=3",
+    "scene.bodies.cube.mesh.nodes_per_edge=5",
 ];
 
 #[test]

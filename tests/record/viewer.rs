@@ -84,8 +84,7 @@ fn of_run(args: &[&str]) -> (scratch::Folder, PathBuf) {
 #[test]
 fn a_recording_opens_on_what_happened() {
     let Some(rerun) = tools::viewer() else { return };
-    let sets = ["--set", "method={lecture: {}}", "--set", "time.step_s=0.03", "--set", "time.end_s=3"];
-    let (_folder, file) = of_run(&[&["configs/lecture/demo.yaml"][..], &sets].concat());
+    let (_folder, file) = of_run(&super::story::EXPLODES);
     let picture = shown(&rerun, &file, "0.3");
     assert!(picture.bright(HEADLINE) > 400, "a headline: {}", picture.bright(HEADLINE));
     let lines = picture.all(ENERGY).filter(|(_, [r, _, b])| *r > 150 && *b < 120).count();

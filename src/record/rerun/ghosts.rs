@@ -1,11 +1,11 @@
 //! Several cases in one .rrd, on one timeline: the first as it is, the others as ghosts; one plot of all energies.
 
-use super::camera::{camera_on, scale};
-use super::head::{EDGED_BODIES, color, details, ground, line, surface};
+use super::camera::{Camera, camera_on, scale};
+use super::head::{EDGED_BODIES, color, details, ground, line, surface, walls};
 use super::layout::{self, Opening, Plot};
 use super::names::{CONTACT_COUNT, ENERGY, HEADLINE, LOG, LOG_ENERGY, TRAILS, WORLD, application};
-use super::seen::{Room, Seen};
-use super::{Out, Written, log_part, times};
+use super::out::{Out, Written, times};
+use super::seen::{Between, Room, Seen, log_part};
 use crate::record::RecordError;
 use crate::record::read::ReadBack;
 use crate::record::sample::Header;
@@ -87,7 +87,7 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Written {
         .memory()?;
     let store = memory.store_id().ok_or("Rerun made no recording")?;
     let room = drawn.iter().filter_map(Drawn::room).reduce(Room::with);
-    let camera = room.and_then(|room| camera_on(&first.header, room)).map(|camera| super::camera::Camera {
+    let camera = room.and_then(|room| camera_on(&first.header, room)).map(|camera| Camera {
         // One of several bodies cannot be gone along with.
         follows: false,
         ..camera
@@ -120,7 +120,7 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Written {
         Some(camera) => ground(&first.header, camera.middle, 1.6 * camera.half_m, &stream)?,
         None => ground(&first.header, first.header.ground.0, first.header.ground.1, &stream)?,
     }
-    super::head::walls(&first.header, &stream)?;
+    walls(&first.header, &stream)?;
     for case in &drawn {
         case.styles(&stream)?;
     }
@@ -232,12 +232,12 @@ fn stretch_s(cases: &[GhostCase]) -> Option<[f64; 2]> {
 }
 
 fn energy_plot(drawn: &[Drawn<'_>], factor: Option<f64>) -> Option<Plot> {
-    let all = |pick: fn(&Seen) -> super::seen::Between| {
+    let all = |pick: fn(&Seen) -> Between| {
         drawn
             .iter()
             .map(|case| pick(&case.seen))
             .filter(|seen| !seen.is_empty())
-            .reduce(|a, b| super::seen::Between { least: a.least.min(b.least), most: a.most.max(b.most) })
+            .reduce(|a, b| Between { least: a.least.min(b.least), most: a.most.max(b.most) })
     };
     if let Some(range) = all(|seen| seen.log_energy).and_then(|log| layout::log_range(log, factor)) {
         return Some(Plot { range: Some(range), ..layout::log_energy_plot() });
@@ -269,6 +269,6 @@ fn page(differing: &str, cases: &[GhostCase]) -> String {
             number("residual_max"),
         );
     }
-    page + "\nE / E₀: the largest energy, of the start's; gain: the largest of a contact solve. A case that has ended stays \
-            where it was.\n"
+    page += "\nE / E₀: the largest energy, of the start's; gain: the largest of a contact solve. ";
+    page + "A case that has ended stays where it was.\n"
 }

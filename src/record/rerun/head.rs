@@ -5,7 +5,7 @@ use super::names::{
     CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, FRICTION_USE, GAINS, GROUND, HEADLINE, LIMIT,
     LOG_ENERGY_TOTAL, LOG_GAINS, SIM_TIME, STEP, TRAILS, WORLD, application, energy_path,
 };
-use super::seen::Seen;
+use super::seen::{Seen, log_part};
 use super::{headline, layout};
 use crate::record::sample::{BodyHeader, Ending, Header, cross, dot, norm};
 use crate::record::schema::{self, Rgb};
@@ -395,7 +395,7 @@ fn marks(header: &Header, ending: &Ending, seen: &Seen, stream: &RecordingStream
     for EnergyGain { step, time_s, after_j, .. } in &ending.story.gains {
         at(*step, *time_s);
         stream.log(GAINS, &Scalars::single(*after_j))?;
-        if let Some(part) = super::log_part(*after_j, Some(start_j)).filter(|_| start_j > 0.0) {
+        if let Some(part) = log_part(*after_j, Some(start_j)).filter(|_| start_j > 0.0) {
             stream.log(LOG_GAINS, &Scalars::single(part))?;
         }
     }

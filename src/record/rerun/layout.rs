@@ -6,7 +6,7 @@
 use super::camera::{Camera, scale, spacing_m};
 use super::names::{
     CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION, SIM_TIME,
-    application,
+    application, body_path,
 };
 use super::seen::{Between, Seen};
 use crate::record::sample::{Ending, Header, norm};
@@ -301,7 +301,7 @@ pub fn eye(header: &Header, camera: Option<Camera>) -> Option<EyeControls3D> {
         let eye = EyeControls3D::new().with_position(drawn(camera.position)).with_look_target(drawn(camera.target));
         let eye = eye.with_eye_up([0.0, 1.0, 0.0]);
         return Some(match header.bodies.first().filter(|_| camera.follows) {
-            Some(body) => eye.with_tracking_entity(super::body_path(&body.name).to_string()),
+            Some(body) => eye.with_tracking_entity(body_path(&body.name).to_string()),
             None => eye,
         });
     }

@@ -52,3 +52,8 @@ pub fn energy_path(series: &Series) -> EntityPath {
         name => format!("{ENERGY}/{name}").into(),
     }
 }
+
+/// A body's name is one part of the path, whatever characters it has.
+pub fn body_path(name: &str) -> EntityPath {
+    EntityPath::from(BODIES).join(&EntityPath::from_single_string(name))
+}

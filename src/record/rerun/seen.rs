@@ -9,6 +9,15 @@ const MOST_POINTS: usize = 1024;
 /// Most bodies whose ways are drawn: more are a tangle.
 const MOST_WAYS: usize = 24;
 
+/// Least part of the energy at the start that has a logarithm on the plot.
+const LEAST_PART: f64 = 1e-6;
+
+/// Decimal logarithm of an energy as a part of the start's.
+pub fn log_part(energy_j: f64, start_j: Option<f64>) -> Option<f64> {
+    let part = energy_j / start_j?;
+    part.is_finite().then(|| libm::log10(part.max(LEAST_PART)))
+}
+
 /// Smallest and largest value; the first is larger than the second where there is none.
 #[derive(Clone, Copy, Debug)]
 pub struct Between {

@@ -7,8 +7,6 @@ use crate::files::make_folder;
 use crate::record::head::header;
 use crate::record::name::RecordingName;
 use crate::record::read::{ReadBack, recording_of};
-#[cfg(feature = "rerun")]
-use crate::record::rerun::ghosts::{GhostCase, MOST_CASES, write_ghosts};
 use crate::record::sample::Header;
 use crate::record::schema::{self, label};
 use crate::record::writer::Target;
@@ -30,10 +28,7 @@ pub(super) struct Ghosts {
 
 impl Ghosts {
     /// Most of them that can be told apart.
-    #[cfg(feature = "rerun")]
-    pub(super) const MOST: usize = MOST_CASES;
-    #[cfg(not(feature = "rerun"))]
-    pub(super) const MOST: usize = 1;
+    pub(super) const MOST: usize = schema::MOST_TOGETHER;
 
     /// Of recordings (.mcap), told apart by the axes in which they differ, or by their names.
     ///
@@ -91,29 +86,28 @@ impl Ghosts {
     ///
     /// # Errors
     /// The machine failed, or this build has no Rerun.
-    #[cfg(feature = "rerun")]
     pub(super) fn write(self, dir: &Path) -> Result<PathBuf, CliError> {
         make_folder(dir)?;
-        let Ghosts { differing, cases } = self;
-        let labels: Vec<String> = cases.iter().map(|(label, ..)| label.clone()).collect();
-        let ids: Vec<&str> = cases.iter().map(|(_, header, _)| header.case.as_str()).collect();
-        let digits = sha256(ids.join(" "), 4);
+        let labels = self.cases.iter().map(|(label, ..)| label.clone());
         let values: Vec<String> = std::iter::once("ghosts".to_string()).chain(labels).collect();
-        let path = Target::Rerun.path(dir, &RecordingName::new(&values, &digits).begun());
-        let cases: Vec<GhostCase> =
-            cases.into_iter().map(|(label, header, recording)| GhostCase { label, header, recording }).collect();
-        write_ghosts(&path, &differing, &cases)?;
+        let ids: Vec<&str> = self.cases.iter().map(|(_, header, _)| header.case.as_str()).collect();
+        let path = Target::Rerun.path(dir, &RecordingName::new(&values, &sha256(ids.join(" "), 4)).begun());
+        write_into(&path, self)?;
         Ok(path)
     }
+}
 
-    /// Refused: this build has no Rerun.
-    ///
-    /// # Errors
-    /// Always.
-    #[cfg(not(feature = "rerun"))]
-    pub(super) fn write(self, _: &Path) -> Result<PathBuf, CliError> {
-        Err(CliError::Input("this gotai was built without Rerun (cargo feature `rerun`)".into()))
-    }
+#[cfg(feature = "rerun")]
+fn write_into(path: &Path, ghosts: Ghosts) -> Result<(), CliError> {
+    use crate::record::rerun::ghosts::{GhostCase, write_ghosts};
+    let cases = ghosts.cases.into_iter().map(|(label, header, recording)| GhostCase { label, header, recording });
+    Ok(write_ghosts(path, &ghosts.differing, &cases.collect::<Vec<_>>())?)
+}
+
+#[cfg(not(feature = "rerun"))]
+fn write_into(_: &Path, ghosts: Ghosts) -> Result<(), CliError> {
+    let Ghosts { differing, .. } = ghosts;
+    Err(CliError::Input(format!("{differing}: this gotai was built without Rerun (cargo feature `rerun`)")))
 }
 
 /// Head of a recording, from the experiment in it.

@@ -146,33 +146,23 @@ impl Sampler {
     /// Records what was kept from a step on.
     fn take_since(&mut self, model: &Model, step: u64) {
         let Sampler { writer, streams, geometry, ring, maxima, .. } = self;
-        let mut write = |state: &State, contacts: &[ContactSample]| {
-            let batch = writer.batch();
-            if streams.any_contact() {
-                batch.contacts_len.push(contacts.len() as u32);
-                batch.contacts.extend_from_slice(contacts);
-            }
-            push(batch, *streams, geometry, model, state);
-            writer.sample_done();
-        };
         ring.take_since(step, |state, contacts| {
             for maximum in maxima.iter_mut().filter(|maximum| maximum.step.holds(state.step)) {
                 maximum.step.clear();
             }
-            write(state, contacts);
+            add(writer, *streams, geometry, model, (state, contacts));
         });
     }
 
-    /// Records the steps of the maxima that no sample shows.
+    /// Records the steps of the maxima that no sample shows, each once.
     fn take_maxima(&mut self, model: &Model) {
-        let mut steps: Vec<Ring> = self.maxima.iter_mut().map(|maximum| std::mem::take(&mut maximum.step)).collect();
+        let Sampler { writer, streams, geometry, maxima, .. } = self;
         let mut taken = None;
-        for step in &mut steps {
-            step.take_since(0, |state, contacts| {
+        for maximum in maxima {
+            maximum.step.take_since(0, |state, contacts| {
                 if taken != Some(state.step) {
                     taken = Some(state.step);
-                    self.ring.keep(state, contacts.iter().copied());
-                    self.take_since(model, state.step);
+                    add(writer, *streams, geometry, model, (state, contacts));
                 }
             });
         }
@@ -233,6 +223,23 @@ impl Sampler {
     pub fn finish(self) -> Result<(), RecordError> {
         self.ending.map_or(Ok(()), |ending| self.writer.finish(ending))
     }
+}
+
+/// Adds a step that was kept.
+fn add(
+    writer: &mut Writer,
+    streams: Streams,
+    geometry: &mut Option<GeometryLedger>,
+    model: &Model,
+    (state, contacts): (&State, &[ContactSample]),
+) {
+    let batch = writer.batch();
+    if streams.any_contact() {
+        batch.contacts_len.push(contacts.len() as u32);
+        batch.contacts.extend_from_slice(contacts);
+    }
+    push(batch, streams, geometry, model, state);
+    writer.sample_done();
 }
 
 /// Adds a state to a batch: what does not depend on its contacts.

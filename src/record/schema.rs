@@ -32,6 +32,9 @@ pub const VERSION: &str = "2";
 /// Version of Rerun that .rrd files are of; a viewer of the same or a later one shows them.
 pub const RERUN_VERSION: &str = "0.36.3";
 
+/// Most cases that are shown together: as many as have colours apart from each other.
+pub const MOST_TOGETHER: usize = 12;
+
 /// Key of the list of axes among what a recording says of itself, as JSON.
 pub const AXES: &str = "axes";
 

@@ -9,7 +9,7 @@ use super::seen::{Between, Room, Seen, log_part};
 use crate::record::RecordError;
 use crate::record::read::ReadBack;
 use crate::record::sample::Header;
-use crate::record::schema::Rgb;
+use crate::record::schema::{MOST_TOGETHER, Rgb};
 use crate::record::story::brief;
 use ::rerun::components::Radius;
 use ::rerun::external::re_build_info::CrateVersion;
@@ -29,7 +29,7 @@ const POINT_RADIUS: f32 = 3.5;
 const LINE_RADIUS: f32 = 1.0;
 
 /// Colours of the cases, apart from each other and from the ground.
-const COLOURS: [Rgb; 12] = [
+const COLOURS: [Rgb; MOST_TOGETHER] = [
     [242, 142, 43],
     [89, 190, 110],
     [110, 160, 230],
@@ -44,7 +44,7 @@ const COLOURS: [Rgb; 12] = [
     [170, 210, 70],
 ];
 /// Words for the same.
-const COLOUR_WORDS: [&str; 12] =
+const COLOUR_WORDS: [&str; MOST_TOGETHER] =
     ["orange", "green", "blue", "yellow", "red", "purple", "teal", "pink", "brown", "white", "violet", "lime"];
 
 /// A case among others, read back from its own recording.
@@ -71,9 +71,6 @@ struct Drawn<'a> {
 pub fn write_ghosts(path: &Path, differing: &str, cases: &[GhostCase]) -> Result<(), RecordError> {
     write(path, differing, cases).map_err(|error| RecordError::caused(path, error.as_ref()))
 }
-
-/// Most cases that one picture shows.
-pub const MOST_CASES: usize = COLOURS.len();
 
 fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Written {
     let drawn: Vec<Drawn<'_>> = cases.iter().zip(COLOURS).enumerate().map(|(i, of)| Drawn::new(i, of)).collect();

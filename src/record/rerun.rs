@@ -19,7 +19,7 @@ mod seen;
 use self::names::{
     CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, body_path, energy_path,
 };
-use self::out::{Out, Times, Written, times};
+use self::out::{Appended, Out, Times, times};
 use self::seen::{Seen, log_part};
 use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, norm};
 use super::schema::{self};
@@ -78,7 +78,7 @@ impl RerunRecorder {
         })
     }
 
-    fn batch(&mut self, batch: &Batch) -> Written {
+    fn batch(&mut self, batch: &Batch) -> Appended {
         let streams = self.header.streams;
         batch.check(streams, self.bodies.len())?;
         self.look(batch);
@@ -108,7 +108,7 @@ impl RerunRecorder {
         }
     }
 
-    fn close(&mut self, ending: &Ending) -> Written {
+    fn close(&mut self, ending: &Ending) -> Appended {
         let encoder = &mut self.out.encoder;
         for message in head::ending(&self.header, ending, &self.seen)? {
             encoder.append(&message)?;
@@ -117,7 +117,7 @@ impl RerunRecorder {
         Ok(encoder.flush_blocking()?)
     }
 
-    fn poses(&mut self, batch: &Batch, times: &Times) -> Written {
+    fn poses(&mut self, batch: &Batch, times: &Times) -> Appended {
         for (i, path) in self.bodies.iter().enumerate() {
             let states = || batch.bodies.iter().skip(i).step_by(self.bodies.len());
             let poses = Transform3D::update_fields()
@@ -130,7 +130,7 @@ impl RerunRecorder {
 
     /// Contact points, coloured by what they do, and forces, at one instant; series of their number, sum and use of
     /// friction.
-    fn contacts(&mut self, batch: &Batch, times: &Times) -> Written {
+    fn contacts(&mut self, batch: &Batch, times: &Times) -> Appended {
         let streams = self.header.streams;
         let drawn: Vec<Vec<&ContactSample>> = batch.samples().map(|sample| drawn(&sample)).collect();
         let all = || drawn.iter().flatten();
@@ -160,7 +160,7 @@ impl RerunRecorder {
         Ok(())
     }
 
-    fn energies(&mut self, batch: &Batch, times: &Times) -> Written {
+    fn energies(&mut self, batch: &Batch, times: &Times) -> Appended {
         for series in &schema::ENERGY_SERIES {
             let values = batch.energy.iter().map(series.value);
             self.out.scalars(energy_path(series), times, values)?;

@@ -4,7 +4,7 @@ use super::camera::{Camera, camera_on, scale};
 use super::head::{EDGED_BODIES, color, details, ground, line, surface, walls};
 use super::layout::{self, Opening, Plot};
 use super::names::{CONTACT_COUNT, ENERGY, HEADLINE, LOG, LOG_ENERGY, TRAILS, WORLD, application};
-use super::out::{Out, Written, times};
+use super::out::{Appended, Out, times};
 use super::seen::{Between, Room, Seen, log_part};
 use crate::record::RecordError;
 use crate::record::read::ReadBack;
@@ -72,7 +72,7 @@ pub fn write_ghosts(path: &Path, differing: &str, cases: &[GhostCase]) -> Result
     write(path, differing, cases).map_err(|error| RecordError::caused(path, error.as_ref()))
 }
 
-fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Written {
+fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
     let drawn: Vec<Drawn<'_>> = cases.iter().zip(COLOURS).enumerate().map(|(i, of)| Drawn::new(i, of)).collect();
     let Some(first) = cases.first() else { return Ok(()) };
     let labels: Vec<&str> = cases.iter().map(|case| case.label.as_str()).collect();
@@ -160,7 +160,7 @@ impl<'a> Drawn<'a> {
         EntityPath::from(of).join(&EntityPath::from_single_string(self.case.label.as_str()))
     }
 
-    fn styles(&self, stream: &::rerun::RecordingStream) -> Written {
+    fn styles(&self, stream: &::rerun::RecordingStream) -> Appended {
         let GhostCase { header, label, recording } = self.case;
         if !recording.samples.bodies.is_empty() {
             for body in &header.bodies {
@@ -186,7 +186,7 @@ impl<'a> Drawn<'a> {
         Ok(())
     }
 
-    fn samples(&self, out: &mut Out) -> Written {
+    fn samples(&self, out: &mut Out) -> Appended {
         let GhostCase { header, recording, .. } = self.case;
         let batch = &recording.samples;
         let clock = times(&batch.step, &batch.time_s);

@@ -24,7 +24,7 @@ const MEASURES: [(&str, &str); 10] = [
 /// Page of a recording that was cut before its end.
 pub fn begun(header: &Header) -> String {
     format!(
-        "# Not finished\n\nThe run, or its recording, was cut: there is no end, and nothing is known about it here.\n\n{}",
+        "# Not finished\n\nThe run, or its recording, was cut: nothing is known about its end here.\n\n{}",
         asked(header)
     )
 }

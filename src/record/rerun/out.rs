@@ -12,7 +12,7 @@ use std::fs::File;
 use std::io::BufWriter;
 
 /// Result of a write. Rerun's errors come from five crates; all end as the reason of a `RecordError`.
-pub type Written = Result<(), Box<dyn Error>>;
+pub type Appended = Result<(), Box<dyn Error>>;
 
 /// The file, and the name of the recording in it.
 pub struct Out {
@@ -27,7 +27,7 @@ impl Out {
         path: EntityPath,
         times: &Times,
         columns: impl Iterator<Item = SerializedComponentColumn>,
-    ) -> Written {
+    ) -> Appended {
         let timelines = times.iter().map(|column| (*column.timeline().name(), column.clone())).collect();
         let components = columns.map(|column| (column.descriptor, column.list_array)).collect();
         let chunk = Chunk::from_auto_row_ids(ChunkId::new(), path, timelines, components)?;
@@ -35,16 +35,16 @@ impl Out {
         Ok(())
     }
 
-    pub fn scalars(&mut self, path: EntityPath, times: &Times, values: impl Iterator<Item = f64>) -> Written {
+    pub fn scalars(&mut self, path: EntityPath, times: &Times, values: impl Iterator<Item = f64>) -> Appended {
         let scalars = Scalars::update_fields().with_scalars(values);
         self.columns(path, times, scalars.columns_of_unit_batches()?)
     }
 
-    pub fn events(&mut self, events: &[Event]) -> Written {
+    pub fn events(&mut self, events: &[Event]) -> Appended {
         self.events_at(LOG.into(), events)
     }
 
-    pub fn events_at(&mut self, path: EntityPath, events: &[Event]) -> Written {
+    pub fn events_at(&mut self, path: EntityPath, events: &[Event]) -> Appended {
         if events.is_empty() {
             return Ok(());
         }

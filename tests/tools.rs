@@ -14,6 +14,15 @@ pub fn tool(name: &str) -> Option<PathBuf> {
     available(name, on_path(name))
 }
 
+/// The Rerun Viewer, if it can draw without a screen: on Linux with a Vulkan driver. None: skip the test.
+///
+/// # Panics
+/// If it is missing and required, as `viewer`.
+pub fn viewer() -> Option<PathBuf> {
+    let drivers = std::fs::read_dir("/usr/share/vulkan/icd.d").is_ok_and(|mut drivers| drivers.next().is_some());
+    available("viewer", on_path("rerun").filter(|_| drivers))
+}
+
 /// A Python that can import `module`, whose name is also its name in `GOTAI_REQUIRE`. None: skip the test.
 ///
 /// # Panics

@@ -138,15 +138,9 @@ impl ExperimentArgs {
         Ok(ExperimentFile::load_given(config, &self.given)?)
     }
 
-    /// Refuses axes on the command line of a command that runs a single case.
-    pub(super) fn refuse_axes(&self) -> Result<(), CliError> {
-        match self.given.iter().find(|given| matches!(given, Given::Axis(_))) {
-            None => Ok(()),
-            Some(axis) => Err(CliError::Input(format!(
-                "--axis {}: not available in this version: `gotai run` runs a single case; use `gotai sweep`",
-                axis.text()
-            ))),
-        }
+    /// The first axis that is given on the command line.
+    pub(super) fn first_axis(&self) -> Option<&str> {
+        self.given.iter().find(|given| matches!(given, Given::Axis(_))).map(Given::text)
     }
 
     /// The experiment of a text that stands in a file of another kind, with the flags' changes.

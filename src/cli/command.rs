@@ -1,7 +1,7 @@
 //! The commands, one file each.
 
 use super::error::CliError;
-use super::{bench, check, clean, explain, list, rows, run, status, sweep};
+use super::{bench, check, clean, explain, export, list, repair, rows, run, status, sweep, view};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -33,6 +33,12 @@ enum Command {
     Status(status::Command),
     /// The rows of a folder of results, chosen, sorted, as a table
     Rows(rows::Command),
+    /// Open recordings in the Rerun Viewer; several cases together, on one timeline, as ghosts
+    View(view::Command),
+    /// The series of recordings (.mcap) as CSV or Parquet
+    Export(export::Command),
+    /// Mend a recording that was cut
+    Repair(repair::Command),
     /// Drop replays, half-written files, and what other builds have left in a folder of results
     Clean(clean::Command),
     /// What this scene needs, what is skipped and why; number of cases, steps, estimated time and bytes
@@ -54,6 +60,9 @@ impl Cli {
             Command::Bench(command) => command.run(),
             Command::Status(command) => command.run(),
             Command::Rows(command) => command.run(),
+            Command::View(command) => command.run(),
+            Command::Export(command) => command.run(),
+            Command::Repair(command) => command.run(),
             Command::Clean(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::List(command) => command.run(),

@@ -3,8 +3,7 @@
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
-const COMMANDS: [&str; 11] =
-    ["merge", "submit", "report", "view", "schema", "completions", "new", "compare", "export", "repair", "doctor"];
+const COMMANDS: [&str; 8] = ["merge", "submit", "report", "schema", "completions", "new", "compare", "doctor"];
 const FLAGS: [&str; 7] =
     ["--shard", "--live", "--progress", "--color", "--fail-fast", "--no-report", "--fail-on-regression"];
 

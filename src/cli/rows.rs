@@ -65,7 +65,7 @@ impl Command {
         let folder = Folder::read(&self.dir)?;
         let rows = Table::new(&folder.plan.axes, &folder.rows());
         let known: Vec<&str> = rows.names().collect();
-        let filter = self.filter(&known, &folder.plan)?;
+        let filter = filter(&self.filters, &known, &folder.plan)?;
         let mut chosen: Vec<&Cells> = rows.rows().filter(|row| takes(&filter, row)).collect();
         self.sort(&mut chosen, &known)?;
         let columns = self.columns(&folder, &known, &chosen)?;
@@ -91,19 +91,6 @@ impl Command {
             }
         }
         Ok(ExitCode::SUCCESS)
-    }
-
-    fn filter(&self, known: &[&str], plan: &PlanFile) -> Result<Filter, CliError> {
-        if let Some(text) = self.filters.iter().find(|text| !text.contains(['=', '<', '>', '≤', '≥', '≠'])) {
-            let expected = "expected COLUMN=VALUE, or another sign: != < <= > >=";
-            return Err(CliError::Input(format!("--where: {expected}, found `{text}`")));
-        }
-        let filter = Filter::of_texts(&self.filters)?;
-        for (name, condition) in &filter.0 {
-            find("--where", name, known)?;
-            refuse_unknown_value(name, condition, plan)?;
-        }
-        Ok(filter)
     }
 
     fn sort(&self, rows: &mut [&Cells], known: &[&str]) -> Result<(), CliError> {
@@ -146,8 +133,22 @@ impl Command {
     }
 }
 
+/// The filter of texts on the command line, over columns that are known.
+pub(super) fn filter(texts: &[String], known: &[&str], plan: &PlanFile) -> Result<Filter, CliError> {
+    if let Some(text) = texts.iter().find(|text| !text.contains(['=', '<', '>', '≤', '≥', '≠'])) {
+        let expected = "expected COLUMN=VALUE, or another sign: != < <= > >=";
+        return Err(CliError::Input(format!("--where: {expected}, found `{text}`")));
+    }
+    let filter = Filter::of_texts(texts)?;
+    for (name, condition) in &filter.0 {
+        find("--where", name, known)?;
+        refuse_unknown_value(name, condition, plan)?;
+    }
+    Ok(filter)
+}
+
 /// Whether a filter takes a row; of an id its first digits are enough.
-fn takes(filter: &Filter, row: &Cells) -> bool {
+pub(super) fn takes(filter: &Filter, row: &Cells) -> bool {
     let begins = |id: &str, values: &[Value]| values.iter().any(|value| id.starts_with(&shown_cell(value)));
     let holds = |(name, condition): &(String, Condition)| match (name.as_str(), condition, row.get(name)) {
         ("case", Condition::Is(values), Some(Value::String(id))) => begins(id, values),

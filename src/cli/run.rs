@@ -2,15 +2,20 @@
 
 use super::args::{ExperimentArgs, OutputArgs, RunArgs};
 use super::error::CliError;
+use super::ghosts::Ghosts;
 use super::output::{print, print_json};
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen, table_of};
 use super::replay::replay;
 use super::shown::{describe_plan, document, say_where, summary};
+use super::sweeping::{SweepArgs, Swept};
 use crate::experiment::ExperimentFile;
+use crate::experiment::types::RecordTo;
 use crate::outcome::Outcome;
 use crate::plan::Plan;
 use crate::record::read::experiment_of;
+use crate::record::schema::text;
+use crate::record::writer::Target;
 use crate::rows::cells;
 use crate::study::{Place, reference};
 use crate::sweep::build::build;
@@ -19,7 +24,8 @@ use crate::sweep::plan::SweepPlan;
 use crate::sweep::runner::{Progress, run_one};
 use crate::sweep::store::Store;
 use clap::Args;
-use std::path::PathBuf;
+use serde_json::json;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 #[derive(Args)]
@@ -64,7 +70,9 @@ impl Command {
     }
 
     fn run_experiment(&self) -> Result<ExitCode, CliError> {
-        self.experiment.refuse_axes()?;
+        if let Some(axis) = self.experiment.first_axis() {
+            return self.run_together(axis);
+        }
         let file = self.load()?;
         let plan = SweepPlan::single(&file)?;
         let planned = &plan.cases[0];
@@ -101,6 +109,49 @@ impl Command {
             say_where(&dir, &name, &targets);
         }
         Ok(ExitCode::from(u8::from(ended.measured.outcome == Outcome::Failed)))
+    }
+
+    /// Runs the few cases of the axes on the command line, and writes one recording of all.
+    fn run_together(&self, axis: &str) -> Result<ExitCode, CliError> {
+        let file = self.load()?;
+        let cases = file.axes().len();
+        if cases > Ghosts::MOST || file.search().is_some() {
+            return Err(CliError::Input(format!(
+                "--axis {axis}: expected at most {} cases, which are shown together, found {cases}; `gotai sweep` runs \
+                 any number",
+                Ghosts::MOST
+            )));
+        }
+        let record = self.run.targets(file.case(&file.axes().point(0))?.record.to)?;
+        let sweep = SweepArgs::for_run(self.experiment.clone(), self.run.clone(), self.output);
+        let pool = self.run.pool()?;
+        // One recording of all is made of those of the cases.
+        let together = record.contains(&Target::Rerun);
+        let to = if record.is_empty() { RecordTo::None } else { RecordTo::Mcap };
+        let planned = pool.install(|| sweep.planned_into(self.config.clone(), file, to))?;
+        let swept = pool.install(|| sweep.sweep(&planned))?;
+        let recordings = swept.rows.iter().filter_map(|row| row.recording.as_deref());
+        let files: Vec<PathBuf> = recordings.map(|name| Target::Mcap.path(&swept.dir, name)).collect();
+        let shown = match together && !files.is_empty() {
+            true => Some(Ghosts::of_files(&files)?.write(&swept.dir)?),
+            false => None,
+        };
+        if self.output.json {
+            let name = shown.as_deref().and_then(Path::file_stem).map(|name| name.to_string_lossy().into_owned());
+            let mut document = json!({ "dir": swept.dir, "rows": swept.rows, "recording": name });
+            Swept::remarks(&[&swept]).put_into(&mut document);
+            print_json(&document);
+        } else {
+            for row in &swept.rows {
+                let axes: Vec<_> = row.axes.iter().map(|(path, value)| format!("{path} = {}", text(value))).collect();
+                print(format!("{}\n{}", axes.join(", "), summary(&row.case, &row.measured)));
+            }
+        }
+        Swept::remarks(&[&swept]).say(self.output.quiet);
+        if let Some(path) = shown.filter(|_| !self.output.quiet) {
+            eprintln!("wrote {}   (open: gotai view {0})", path.display());
+        }
+        Ok(ExitCode::from(u8::from(swept.failed() > 0)))
     }
 
     fn load(&self) -> Result<ExperimentFile, CliError> {

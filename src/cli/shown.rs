@@ -119,7 +119,7 @@ pub(super) fn say_where(dir: &Path, name: &str, targets: &[Target]) {
     for target in targets {
         let path = target.path(dir, name);
         match target {
-            Target::Rerun => eprintln!("wrote {}   (open: rerun {0}, of rerun-sdk==0.36.3)", path.display()),
+            Target::Rerun => eprintln!("wrote {}   (open: gotai view {0})", path.display()),
             Target::Mcap => eprintln!("wrote {}", path.display()),
         }
     }

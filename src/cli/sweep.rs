@@ -4,7 +4,8 @@ use super::error::CliError;
 use super::output::{print, print_json};
 use super::sweeping::{SweepArgs, Swept, configs};
 use crate::outcome::Outcome;
-use crate::rows::count;
+use crate::record::writer::Target;
+use crate::rows::{Row, count};
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
@@ -53,7 +54,31 @@ fn summary(swept: &Swept) -> String {
             n => text += &format!(" · {n} {}", outcome.name()),
         }
     }
-    text + &format!("\n  rows: {}", swept.dir.join("rows.csv").display())
+    text += &format!("\n  rows: {}", swept.dir.join("rows.csv").display());
+    if let Some((recordings, telling)) = most_telling(&swept.rows) {
+        let files = Target::ALL.map(|target| target.path(&swept.dir, telling));
+        if let Some(file) = files.iter().find(|file| file.is_file()) {
+            text += &format!("\n  recordings: {recordings}; the most telling: gotai view {}", file.display());
+        }
+    }
+    text
+}
+
+/// Number of recordings, and the name of the one that tells most: of a run that diverged or stalled, if there is one,
+/// that with the largest rise of energy.
+fn most_telling(rows: &[Row]) -> Option<(usize, &str)> {
+    let recorded = || rows.iter().filter_map(|row| Some((row, row.recording.as_deref()?)));
+    let rank = |row: &Row| {
+        let ended_badly = row.measured.outcome != Outcome::Finished;
+        (ended_badly, row.measured.energy_rise_max_rel.unwrap_or(f64::INFINITY))
+    };
+    // The first of equals.
+    let better = |a: &Row, b: &Row| {
+        let ((a_bad, a_rise), (b_bad, b_rise)) = (rank(a), rank(b));
+        a_bad.cmp(&b_bad).then(a_rise.total_cmp(&b_rise)).is_lt()
+    };
+    let best = recorded().reduce(|best, next| if better(best.0, next.0) { next } else { best })?;
+    Some((recorded().count(), best.1))
 }
 
 /// Prints one object for a file, a list for a folder, in which each has remarks of its own.

@@ -12,7 +12,7 @@ use crate::rows::{Row, cells, count};
 use crate::sweep::folder::Folder;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::planned::Planned;
-use crate::sweep::runner::{Job, build_and_run, lock};
+use crate::sweep::runner::{Job, build_and_run, lock, targets};
 use crate::sweep::store::Store;
 use clap::Args;
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -82,6 +82,26 @@ impl Swept {
 }
 
 impl SweepArgs {
+    /// Of a command that runs its few cases as a sweep does.
+    pub(super) fn for_run(experiment: ExperimentArgs, run: RunArgs, output: OutputArgs) -> Self {
+        SweepArgs { keep: false, retry_failed: false, csv: false, experiment, run, output }
+    }
+
+    /// A file's sweep, recorded into this kind of file whatever the flags say.
+    ///
+    /// # Errors
+    /// A case is wrong, or this build cannot write what is asked for.
+    pub(super) fn planned_into(
+        &self,
+        path: PathBuf,
+        file: ExperimentFile,
+        to: RecordTo,
+    ) -> Result<PlannedSweep, CliError> {
+        let config = Config { path, below: PathBuf::new(), is_of_folder: false };
+        let plan = SweepPlan::new(&file)?;
+        Ok(PlannedSweep { config, file, plan, targets: targets(Some(to)) })
+    }
+
     /// The file with the flags' changes.
     ///
     /// # Errors

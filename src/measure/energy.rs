@@ -154,7 +154,8 @@ impl EnergyLedger {
         self.taken.parts += taken.parts * times;
     }
 
-    fn without_work_j(&self) -> f64 {
+    /// Energy less the work of loads and of driven bodies.
+    pub fn without_work_j(&self) -> f64 {
         self.end.total_j() - self.work_j
     }
 

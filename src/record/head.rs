@@ -8,15 +8,22 @@ use crate::case::Case;
 use crate::clock::Clock;
 use crate::experiment::to_yaml;
 use crate::experiment::types::{Container, ContainerBox, Plane};
-use crate::model::{Body, Model};
-use nalgebra::Vector3;
+use crate::model::pins::{Anchor, Pin};
+use crate::model::{Body, Geometry, Model};
+use crate::shape::solid::Solid;
+use crate::state::State;
+use nalgebra::{Matrix3, Vector3};
 
-pub fn header(case: &Case, name: &RecordingName, model: &Model, clock: &Clock) -> Header {
+pub fn header(case: &Case, name: &RecordingName, model: &Model, start: &State, clock: &Clock) -> Header {
     let record = &case.experiment.record;
+    let container = case.experiment.scene.container.as_ref();
+    let (arrow_m_per_n, arrow_weight_n) = arrow(model);
     Header {
         case: case.id.clone(),
         name: name.clone(),
         title: title(case),
+        question: case.experiment.question.as_deref().unwrap_or_default().trim().to_string(),
+        method: case.experiment.method.word().to_string(),
         axes: case.axes.iter().map(|(path, value)| (path.clone(), value.clone())).collect(),
         program: PROGRAM.to_string(),
         build: BUILD.to_string(),
@@ -24,9 +31,13 @@ pub fn header(case: &Case, name: &RecordingName, model: &Model, clock: &Clock) -
         step_s: clock.step_s,
         sample_every_s: steps_between(record, clock) as f64 * clock.step_s,
         streams: streams(record),
-        bodies: model.bodies.iter().map(body_header).collect(),
-        container_strips_m: container_strips(case.experiment.scene.container.as_ref(), model),
-        arrow_m_per_n: arrow_m_per_n(model),
+        bodies: (0..model.bodies.len()).map(|i| body_header(model, i, start, clock)).collect(),
+        container_strips_m: container_strips(container),
+        planes: planes(container),
+        ground: ground(model, start, clock),
+        arrow_m_per_n,
+        arrow_weight_n,
+        energy_factor: case.experiment.diverge.energy_factor,
     }
 }
 
@@ -36,33 +47,126 @@ fn title(case: &Case) -> String {
     if axes.is_empty() { question.to_string() } else { format!("{question} · {}", axes.join(", ")) }
 }
 
-fn body_header(body: &Body) -> BodyHeader {
-    let (vertices, triangles) = body.surface();
+fn body_header(model: &Model, i: usize, start: &State, clock: &Clock) -> BodyHeader {
+    let body = &model.bodies[i];
+    let (mut vertices, mut triangles) = body.surface();
+    let has_no_shape = matches!(body.geometry, Geometry::None);
+    if has_no_shape {
+        (vertices, triangles) = of_inertia(body).unwrap_or_else(|| {
+            let radius_m = point_radius_m(model, i, start, clock);
+            ellipsoid(&Vector3::repeat(radius_m), &Matrix3::identity())
+        });
+    }
+    let farthest_m = vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
     BodyHeader {
         name: body.name.clone(),
+        has_no_shape,
+        touches_with_nodes: matches!(body.geometry, Geometry::Mesh { .. }),
+        pins_m: model.pins.iter().flat_map(|pin| pinned_at(pin, i)).map(|r_B| r_B.into()).collect(),
         vertices_m: vertices.iter().map(|v| (*v).into()).collect(),
         triangles,
-        bounding_radius_m: body.bounding_radius_m,
+        bounding_radius_m: body.bounding_radius_m.max(farthest_m),
     }
 }
 
-/// A body's weight is drawn as long as its radius; without gravity, that of the lecture.
-fn arrow_m_per_n(model: &Model) -> f64 {
-    const LECTURE_GRAVITY: f64 = 9.8;
-    let gravity = model.gravity_m_s2.norm();
-    let gravity = if gravity > 0.0 { gravity } else { LECTURE_GRAVITY };
-    let longest = model.bodies.iter().map(|body| body.bounding_radius_m / (body.mass_kg * gravity)).fold(0.0, f64::max);
-    if longest > 0.0 { longest } else { 1.0 }
+/// Places on a body that a pin holds, from its centre of mass, body axes.
+fn pinned_at(pin: &Pin, i: usize) -> Vec<Vector3<f64>> {
+    let own = (pin.body == i).then_some(pin.r_B);
+    let others = match pin.anchor {
+        Anchor::Body(other, r_B) if other == i => Some(r_B),
+        _ => None,
+    };
+    own.into_iter().chain(others).collect()
 }
 
-/// Line strips: a box's edges, a square of each plane.
-fn container_strips(container: Option<&Container>, model: &Model) -> Vec<Vec<[f64; 3]>> {
-    let reach_m = 4.0 * model.bodies.iter().map(|body| body.bounding_radius_m).fold(0.5, f64::max);
+/// Points and triangles.
+type Surface = (Vec<Vector3<f64>>, Vec<[u32; 3]>);
+
+/// Ellipsoid of the body's mass and moments of inertia; None of a point, whose moments mean nothing.
+fn of_inertia(body: &Body) -> Option<Surface> {
+    if body.isotropic && body.I_B == Matrix3::identity() * body.mass_kg {
+        return None;
+    }
+    let principal = body.I_B.symmetric_eigen();
+    let [a, b, c]: [f64; 3] = principal.eigenvalues.into();
+    let squared = Vector3::new(b + c - a, c + a - b, a + b - c) * (2.5 / body.mass_kg);
+    let longest = squared.max();
+    if !(longest > 0.0 && longest.is_finite()) {
+        return None;
+    }
+    // A disc of no thickness, or a rod, can still be seen.
+    const THINNEST: f64 = 1e-3;
+    let semi_axes = squared.map(|x| x.max(THINNEST * longest).sqrt());
+    Some(ellipsoid(&semi_axes, &principal.eigenvectors))
+}
+
+/// Radius of the ball that a point is drawn as: a part of its pendulum, or of the way that it sets out for.
+fn point_radius_m(model: &Model, i: usize, start: &State, clock: &Clock) -> f64 {
+    const OF_ARM: f64 = 0.08;
+    const OF_WAY: f64 = 0.02;
+    let body = &start.bodies[i];
+    let arms = model.pins.iter().filter(|pin| pin.body == i).map(|pin| pin.r_B.norm() * OF_ARM);
+    let others = model.bodies.iter().map(|body| body.bounding_radius_m * OF_ARM);
+    let fall_m = 0.5 * model.gravity_m_s2.norm() * clock.end_s * clock.end_s;
+    let way_m = (body.v_WB.norm() * clock.end_s).max(fall_m) * OF_WAY;
+    let radius_m = arms.fold(0.0, f64::max).max(others.fold(0.0, f64::max));
+    let radius_m = if radius_m > 0.0 { radius_m } else { way_m };
+    if radius_m > 0.0 && radius_m.is_finite() { radius_m } else { OF_ARM }
+}
+
+/// An ellipsoid by its semi-axes along the columns of a matrix, as a picture has it.
+fn ellipsoid(semi_axes: &Vector3<f64>, axes: &Matrix3<f64>) -> Surface {
+    let ball = Solid::Sphere { radius_m: 1.0 };
+    let (points, triangles) = ball.triangles();
+    (points.iter().map(|p| axes * p.component_mul(semi_axes)).collect(), triangles)
+}
+
+/// Length of an arrow a newton, and the weight that one as long as its body's radius stands for: that of the body
+/// whose arrows are the longest. Without gravity, a weight on Earth, which nothing says.
+fn arrow(model: &Model) -> (f64, Option<f64>) {
+    const EARTH: f64 = 9.8;
+    let gravity = model.gravity_m_s2.norm();
+    let weighing = if gravity > 0.0 { gravity } else { EARTH };
+    let per_n = |body: &Body| (body.bounding_radius_m / (body.mass_kg * weighing), body.mass_kg * weighing);
+    let longest = model.bodies.iter().map(per_n).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
+    match longest {
+        (per_n, weight_n) if per_n > 0.0 => (per_n, (gravity > 0.0).then_some(weight_n)),
+        _ => (1.0, None),
+    }
+}
+
+/// Line strips of a box's edges.
+fn container_strips(container: Option<&Container>) -> Vec<Vec<[f64; 3]>> {
+    match container {
+        Some(Container::Box(size)) => box_strips(size),
+        _ => Vec::new(),
+    }
+}
+
+/// Middle of the bodies at the start, and how far from it the ground is to reach: some bodies' sizes, and the way that
+/// they set out for, up to a few more.
+fn ground(model: &Model, start: &State, clock: &Clock) -> ([f64; 3], f64) {
+    const SIZES: f64 = 4.0;
+    const MOST_SIZES: f64 = 16.0;
+    let count = start.bodies.len().max(1) as f64;
+    let middle = start.bodies.iter().map(|body| body.p_WB).sum::<Vector3<f64>>() / count;
+    let size_m = model.largest_radius_m();
+    let apart_m = start.bodies.iter().map(|body| (body.p_WB - middle).norm()).fold(0.0, f64::max);
+    let fastest_m_s = start.bodies.iter().map(|body| body.v_WB.norm()).fold(0.0, f64::max);
+    let way_m = (fastest_m_s * clock.end_s).min(MOST_SIZES * size_m);
+    (middle.into(), apart_m + SIZES * size_m + way_m)
+}
+
+fn planes(container: Option<&Container>) -> Vec<([f64; 3], f64)> {
+    let of = |plane: &Plane| {
+        let length = Vector3::from(plane.normal).norm();
+        (plane.normal.map(|x| x / length), plane.offset_m)
+    };
     match container {
         None => Vec::new(),
-        Some(Container::Box(size)) => box_strips(size),
-        Some(Container::Plane(plane)) => vec![square(plane, reach_m)],
-        Some(Container::Planes(planes)) => planes.iter().map(|plane| square(plane, reach_m)).collect(),
+        Some(Container::Box(size)) => vec![([0.0, 1.0, 0.0], size.center()[1] - 0.5 * size.size_m[1])],
+        Some(Container::Plane(plane)) => vec![of(plane)],
+        Some(Container::Planes(planes)) => planes.iter().map(of).collect(),
     }
 }
 
@@ -75,14 +179,4 @@ fn box_strips(container: &ContainerBox) -> Vec<Vec<[f64; 3]>> {
     let level = |sy: f64| around.iter().chain(&around[..1]).map(|(sx, sz)| corner(*sx, sy, *sz)).collect();
     let uprights = around.iter().map(|(sx, sz)| vec![corner(*sx, -1.0, *sz), corner(*sx, 1.0, *sz)]);
     [level(-1.0), level(1.0)].into_iter().chain(uprights).collect()
-}
-
-/// A square of half side `reach_m` in the plane, about the point of the plane nearest to the origin, with its cross.
-fn square(plane: &Plane, reach_m: f64) -> Vec<[f64; 3]> {
-    let normal = Vector3::from(plane.normal).normalize();
-    let centre = normal * plane.offset_m;
-    let t1 = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize() * reach_m;
-    let t2 = normal.cross(&t1);
-    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, 1.0)];
-    corners.iter().map(|(a, b)| (centre + t1 * *a + t2 * *b).into()).collect()
 }

@@ -10,6 +10,7 @@ use foxglove::Encode;
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, Compression, McapResult, WriteOptions};
 use prost::Message;
+use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -66,6 +67,24 @@ impl McapRecorder {
         })
     }
 
+    /// Samples and events, each event after the sample of its step.
+    fn batch(&mut self, batch: &Batch) -> McapResult<()> {
+        let mut events = batch.events.iter().peekable();
+        for sample in batch.samples() {
+            while let Some(event) = events.next_if(|event| event.step < sample.step) {
+                self.log(event)?;
+            }
+            self.sample(&sample)?;
+        }
+        events.try_for_each(|event| self.log(event))?;
+        self.out.writer.flush()
+    }
+
+    fn log(&mut self, event: &Event) -> McapResult<()> {
+        let time_ns = schema::time_ns(event.time_s);
+        self.out.send(self.channels.log, time_ns, event.step, &log(event, time_ns))
+    }
+
     fn sample(&mut self, sample: &Sample<'_>) -> McapResult<()> {
         let Self { out, channels, messages, .. } = self;
         let time_ns = schema::time_ns(sample.time_s);
@@ -103,20 +122,11 @@ impl Recorder for McapRecorder {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
         let bodies = self.messages.bodies.bodies.len();
         batch.check(self.streams, bodies).map_err(|reason| RecordError::new(&self.path, reason))?;
-        batch
-            .samples()
-            .try_for_each(|sample| self.sample(&sample))
-            .and_then(|()| self.out.writer.flush())
-            .map_err(|error| RecordError::caused(&self.path, &error))
+        self.batch(batch).map_err(|error| RecordError::caused(&self.path, &error))
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        let time_ns = schema::time_ns(event.time_s);
-        let log = log(event, time_ns);
-        self.out
-            .send(self.channels.log, time_ns, event.step, &log)
-            .and_then(|()| self.out.writer.flush())
-            .map_err(|error| RecordError::caused(&self.path, &error))
+        self.log(event).and_then(|()| self.out.writer.flush()).map_err(|error| RecordError::caused(&self.path, &error))
     }
 
     fn finish(self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {
@@ -226,24 +236,33 @@ fn said(header: &Header) -> BTreeMap<String, String> {
     let known = [
         ("case", header.case.clone()),
         ("title", header.title.clone()),
+        ("schema", schema::VERSION.to_owned()),
+        (schema::AXES, Value::from(header.axes.iter().map(|(path, _)| path.as_str()).collect::<Vec<_>>()).to_string()),
+        ("question", header.question.clone()),
+        ("method", header.method.clone()),
+        ("time", "simulated, from zero".to_owned()),
+        ("up", "y in the frame world, z in the frame root".to_owned()),
         ("program", header.program.clone()),
         ("build", header.build.clone()),
         ("step_s", header.step_s.to_string()),
         ("sample_every_s", header.sample_every_s.to_string()),
     ];
-    axes.chain(known).map(|(key, value)| (key.to_owned(), value)).collect()
+    known.into_iter().chain(axes).map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
 /// Statements that the end adds.
 fn ended(name: &RecordingName, ending: &Ending) -> impl Iterator<Item = (String, String)> {
+    let row = ending.row.iter().map(|(column, cell)| (column.as_str(), schema::text(cell)));
     let texts = ending.texts().map(|(field, text)| (field, text.to_owned()));
     let known = [
         ("name", name.ended(ending.outcome)),
         ("outcome", ending.outcome.name().to_owned()),
         ("end_time_s", ending.end_time_s.to_string()),
         ("steps", ending.steps.to_string()),
+        ("calm_until_s", ending.story.calm_until_s.to_string()),
+        ("stretch_s", format!("{} {}", ending.story.stretch_s[0], ending.story.stretch_s[1])),
     ];
-    known.into_iter().chain(texts).map(|(key, value)| (key.to_owned(), value))
+    row.chain(known).chain(texts).map(|(key, value)| (key.to_owned(), value))
 }
 
 /// Messages that are filled again for every sample; their memory and the bodies' names stay.
@@ -286,6 +305,8 @@ impl Messages {
             set(&mut to.normal, if streams.contacts { &from.normal } else { &[] });
             set(&mut to.force_n, if streams.forces { &from.force_n } else { &[] });
             to.gap_m = if streams.contacts { from.gap_m } else { f64::NAN };
+            to.friction_use = if streams.forces { from.friction_use } else { f64::NAN };
+            if streams.forces { from.mode.name() } else { "" }.clone_into(&mut to.mode);
         }
         message
     }

@@ -5,15 +5,20 @@
 
 pub mod head;
 pub mod mcap;
+pub mod mend;
 pub mod name;
 pub mod read;
 mod recorder;
 #[cfg(feature = "rerun")]
 pub mod rerun;
+mod ring;
 pub mod sample;
 pub mod sampler;
 mod scene;
 pub mod schema;
+pub mod series;
+pub mod story;
+mod watch;
 pub mod writer;
 
 pub use recorder::{RecordError, Recorder};

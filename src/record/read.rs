@@ -1,10 +1,30 @@
-//! Reader of what a recording says of itself.
+//! Reader of recordings: what an .mcap of ours says of itself, and its samples.
 
+use super::sample::{Batch, ContactMode, ContactSample, EnergySample, Event, Severity};
 use super::schema;
 use crate::files::{self, FileError};
+use crate::rows::BodyRow;
+use foxglove::messages::Log;
+use foxglove::messages::log::Level;
+use mcap::MessageStream;
 use mcap::read::{LinearReader, Options};
 use mcap::records::Record;
+use prost::Message;
+use std::collections::BTreeMap;
 use std::path::Path;
+
+/// A recording that has been read back.
+#[derive(Clone, Debug, Default)]
+pub struct ReadBack {
+    /// What the recording says of itself; of a torn one, what its head says.
+    pub said: BTreeMap<String, String>,
+    /// The experiment, as YAML.
+    pub experiment: String,
+    /// Names of the bodies, in the order of their states.
+    pub bodies: Vec<String>,
+    /// Samples in the order of time, and events. Streams that were not recorded are empty.
+    pub samples: Batch,
+}
 
 /// The experiment that an .mcap of ours shows, as YAML, of a torn file too; None where there is none in it.
 ///
@@ -12,10 +32,135 @@ use std::path::Path;
 /// The file cannot be read.
 pub fn experiment_of(path: &Path) -> Result<Option<String>, FileError> {
     let bytes = files::read(path)?;
-    let Ok(reader) = LinearReader::new_with_options(&bytes, Options::IgnoreEndMagic.into()) else { return Ok(None) };
-    let config = reader.map_while(Result::ok).find_map(|record| match record {
-        Record::Attachment { header, data, .. } if header.name == schema::CONFIG_FILE => Some(data.into_owned()),
-        _ => None,
-    });
-    Ok(config.and_then(|text| String::from_utf8(text).ok()))
+    Ok(about(&bytes).map(|(experiment, _)| experiment))
+}
+
+/// A recording of ours with its samples, of a torn file as many as are whole; None where it is none.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn recording_of(path: &Path) -> Result<Option<ReadBack>, FileError> {
+    let bytes = files::read(path)?;
+    let Some((experiment, said)) = about(&bytes) else { return Ok(None) };
+    let Some(found) = Found::in_file(&bytes) else { return Ok(None) };
+    Ok(Some(found.read_back(experiment, said)))
+}
+
+/// The experiment in a file, and what it says of itself.
+fn about(bytes: &[u8]) -> Option<(String, BTreeMap<String, String>)> {
+    let reader = LinearReader::new_with_options(bytes, Options::IgnoreEndMagic.into()).ok()?;
+    let (mut experiment, mut said) = (None, BTreeMap::new());
+    for record in reader.map_while(Result::ok) {
+        match record {
+            Record::Attachment { header, data, .. } if header.name == schema::CONFIG_FILE => {
+                experiment = String::from_utf8(data.into_owned()).ok();
+            }
+            Record::Metadata(metadata) if [schema::METADATA_START, schema::METADATA].contains(&&*metadata.name) => {
+                said.extend(metadata.metadata);
+            }
+            _ => {}
+        }
+    }
+    Some((experiment?, said))
+}
+
+/// Messages of a file, by topic, in the order of the file.
+#[derive(Default)]
+struct Found {
+    bodies: Vec<schema::Bodies>,
+    contacts: Vec<schema::Contacts>,
+    energies: Vec<schema::Energy>,
+    events: Vec<Event>,
+}
+
+impl Found {
+    fn in_file(bytes: &[u8]) -> Option<Found> {
+        let mut found = Found::default();
+        let stream = MessageStream::new_with_options(bytes, Options::IgnoreEndMagic.into()).ok()?;
+        // A file that ends early gives its complete chunks, then one error.
+        for message in stream.map_while(Result::ok) {
+            let data = &message.data[..];
+            match message.channel.topic.as_str() {
+                schema::BODIES => found.bodies.extend(schema::Bodies::decode(data).ok()),
+                schema::CONTACTS | schema::FORCES => found.contacts.extend(schema::Contacts::decode(data).ok()),
+                schema::ENERGY => found.energies.extend(schema::Energy::decode(data).ok()),
+                schema::LOG => found.events.extend(Log::decode(data).ok().map(|log| event(&log, message.sequence))),
+                _ => {}
+            }
+        }
+        Some(found)
+    }
+
+    fn read_back(self, experiment: String, said: BTreeMap<String, String>) -> ReadBack {
+        let names = |first: &schema::Bodies| first.bodies.iter().map(|body| body.name.clone()).collect();
+        let bodies: Vec<String> = self.bodies.first().map(names).unwrap_or_default();
+        // Each stream that is there has a message a sample; a torn file may lack the last of one.
+        let lengths = [self.bodies.len(), self.contacts.len(), self.energies.len()];
+        let samples = lengths.into_iter().filter(|len| *len > 0).min().unwrap_or(0);
+        let clock = |i: usize| {
+            let of_bodies = self.bodies.get(i).map(|message| (message.time_s, message.step));
+            let of_contacts = self.contacts.get(i).map(|message| (message.time_s, message.step));
+            of_bodies.or(of_contacts).or(self.energies.get(i).map(|message| (message.time_s, message.step)))
+        };
+        let mut order: Vec<(f64, u64, usize)> =
+            (0..samples).filter_map(|i| clock(i).map(|(time_s, step)| (time_s, step, i))).collect();
+        // Steps that turned out to decide stand behind those that came later.
+        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut batch = Batch { events: self.events, ..Batch::default() };
+        for (time_s, step, i) in order {
+            batch.time_s.push(time_s);
+            batch.step.push(step);
+            batch.bodies.extend(self.bodies.get(i).into_iter().flat_map(|message| &message.bodies).map(body_row));
+            if let Some(message) = self.contacts.get(i) {
+                batch.contacts_len.push(message.contacts.len() as u32);
+                batch.contacts.extend(message.contacts.iter().map(|contact| contact_sample(contact, &bodies)));
+            }
+            batch.energy.extend(self.energies.get(i).map(|message| EnergySample {
+                kinetic_j: message.kinetic_j,
+                potential_j: message.potential_j,
+                total_j: message.total_j,
+                penetration_m: message.penetration_m,
+            }));
+        }
+        ReadBack { said, experiment, bodies, samples: batch }
+    }
+}
+
+fn body_row(body: &schema::BodyState) -> BodyRow {
+    BodyRow {
+        position_m: numbers(&body.position_m),
+        orientation_xyzw: numbers(&body.orientation_xyzw),
+        velocity_m_s: numbers(&body.velocity_m_s),
+        angular_velocity_rad_s: numbers(&body.angular_velocity_rad_s),
+    }
+}
+
+fn contact_sample(contact: &schema::Contact, bodies: &[String]) -> ContactSample {
+    let index = |name: &str| bodies.iter().position(|body| body == name).map(|i| i as u32);
+    let mode = ContactMode::ALL.into_iter().find(|mode| mode.name() == contact.mode).unwrap_or_default();
+    ContactSample {
+        body: index(&contact.body).unwrap_or(0),
+        other: index(&contact.other),
+        point_m: numbers(&contact.point_m),
+        normal: numbers(&contact.normal),
+        force_n: numbers(&contact.force_n),
+        gap_m: contact.gap_m,
+        friction_use: contact.friction_use,
+        mode,
+    }
+}
+
+/// Numbers of a vector; not numbers where there are none.
+fn numbers<const N: usize>(values: &[f64]) -> [f64; N] {
+    std::array::from_fn(|i| values.get(i).copied().unwrap_or(f64::NAN))
+}
+
+fn event(log: &Log, sequence: u32) -> Event {
+    let severity = match Level::try_from(log.level) {
+        Ok(Level::Warning) => Severity::Warning,
+        Ok(Level::Error | Level::Fatal) => Severity::Error,
+        _ => Severity::Info,
+    };
+    let time_s = log.timestamp.map_or(0.0, |at| f64::from(at.sec()) + 1e-9 * f64::from(at.nsec()));
+    Event { step: u64::from(sequence), time_s, severity, text: log.message.clone() }
 }

@@ -26,15 +26,21 @@ pub trait Recorder: Send {
 
 /// Failure of the machine: disk full, no permission.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {path}: {reason}")]
+#[error("cannot {verb} {path}: {reason}")]
 pub struct RecordError {
+    verb: &'static str,
     pub path: PathBuf,
     pub reason: String,
 }
 
 impl RecordError {
     pub fn new(path: &Path, reason: impl Display) -> Self {
-        RecordError { path: path.to_path_buf(), reason: reason.to_string() }
+        RecordError { verb: "write", path: path.to_path_buf(), reason: reason.to_string() }
+    }
+
+    /// Of a file that cannot be read.
+    pub fn unread(path: &Path, reason: impl Display) -> Self {
+        RecordError { verb: "read", path: path.to_path_buf(), reason: reason.to_string() }
     }
 
     /// Error with every cause: libraries say "cannot write" and keep "no space left" for the next in the chain.

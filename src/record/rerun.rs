@@ -6,38 +6,45 @@
 //!
 //! 3-D data is f32 in this format; the plotted numbers are f64.
 
+mod camera;
+pub mod ghosts;
 mod head;
+mod headline;
 mod layout;
+pub mod mend;
 mod names;
+mod out;
+mod seen;
 
-use self::names::{BODIES, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, LOG, SIM_TIME, STEP, energy_path};
-use super::name::RecordingName;
-use super::sample::{Batch, Ending, Event, ForceArrows, Header, Severity, Streams, norm};
+use self::names::{
+    CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, body_path, energy_path,
+};
+use self::out::{Appended, Out, Times, times};
+use self::seen::{Seen, log_part};
+use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, norm};
 use super::schema::{self};
 use super::{RecordError, Recorder};
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
-use ::rerun::log::{Chunk, ChunkId, LogMsg};
-use ::rerun::{
-    Arrows3D, EntityPath, Points3D, Scalars, SerializedComponentColumn, StoreId, TextLog, TextLogLevel, TimeColumn,
-    Transform3D,
-};
+use ::rerun::{Arrows3D, Color, EntityPath, Points3D, Transform3D};
 use std::error::Error;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-/// Result of a write. Rerun's errors come from five crates; all end as the reason of a `RecordError`.
-type Written = Result<(), Box<dyn Error>>;
+/// Most contacts of a sample that are drawn, those with the largest forces: more make a file that no viewer opens at
+/// once. All are counted, and all are in an .mcap.
+const MOST_CONTACTS: usize = 1_000;
 
 /// A recording as one .rrd file.
 pub struct RerunRecorder {
     path: PathBuf,
-    streams: Streams,
+    header: Header,
     arrows: ForceArrows,
     bodies: Vec<EntityPath>,
-    recording_id: String,
-    name: RecordingName,
+    seen: Seen,
+    /// Energy of the first sample, if the energies of others can be held against it.
+    start_j: Option<f64>,
     out: Out,
 }
 
@@ -62,49 +69,55 @@ impl RerunRecorder {
         out.encoder.flush_blocking()?;
         Ok(RerunRecorder {
             path: path.to_path_buf(),
-            streams: header.streams,
             arrows: header.force_arrows(),
             bodies,
-            recording_id: head::recording_id(header),
-            name: header.name.clone(),
+            seen: Seen::new(header),
+            header: header.clone(),
+            start_j: None,
             out,
         })
     }
 
-    fn batch(&mut self, batch: &Batch) -> Written {
-        batch.check(self.streams, self.bodies.len())?;
-        if batch.is_empty() {
-            return Ok(());
-        }
-        let times = times(&batch.step, &batch.time_s);
-        if self.streams.bodies {
-            self.poses(batch, &times)?;
-        }
-        if self.streams.contacts {
-            self.contact_points(batch, &times)?;
-        }
-        if self.streams.forces {
-            self.forces(batch, &times)?;
-        }
-        if self.streams.energy {
-            for series in &schema::ENERGY_SERIES {
-                let values = batch.energy.iter().map(series.value);
-                self.out.scalars(energy_path(series), &times, values)?;
+    fn batch(&mut self, batch: &Batch) -> Appended {
+        let streams = self.header.streams;
+        batch.check(streams, self.bodies.len())?;
+        self.look(batch);
+        if !batch.step.is_empty() {
+            let times = times(&batch.step, &batch.time_s);
+            if streams.bodies {
+                self.poses(batch, &times)?;
+            }
+            if streams.any_contact() {
+                self.contacts(batch, &times)?;
+            }
+            if streams.energy {
+                self.energies(batch, &times)?;
             }
         }
+        self.out.events(&batch.events)?;
         Ok(self.out.encoder.flush_blocking()?)
     }
 
-    fn close(&mut self, ending: &Ending) -> Written {
+    fn look(&mut self, batch: &Batch) {
+        for sample in batch.samples() {
+            let total_j = sample.energy.map(|energy| energy.total_j);
+            if self.seen.samples == 0 {
+                self.start_j = total_j.filter(|total_j| *total_j > 0.0);
+            }
+            self.seen.look(&sample, total_j.and_then(|total_j| log_part(total_j, self.start_j)));
+        }
+    }
+
+    fn close(&mut self, ending: &Ending) -> Appended {
         let encoder = &mut self.out.encoder;
-        for message in head::ending(&self.recording_id, &self.name, ending)? {
+        for message in head::ending(&self.header, ending, &self.seen)? {
             encoder.append(&message)?;
         }
         encoder.finish()?;
         Ok(encoder.flush_blocking()?)
     }
 
-    fn poses(&mut self, batch: &Batch, times: &Times) -> Written {
+    fn poses(&mut self, batch: &Batch, times: &Times) -> Appended {
         for (i, path) in self.bodies.iter().enumerate() {
             let states = || batch.bodies.iter().skip(i).step_by(self.bodies.len());
             let poses = Transform3D::update_fields()
@@ -115,20 +128,64 @@ impl RerunRecorder {
         Ok(())
     }
 
-    fn contact_points(&mut self, batch: &Batch, times: &Times) -> Written {
-        let points = Points3D::update_fields().with_positions(batch.contacts.iter().map(|contact| contact.point_m));
-        self.out.columns(CONTACTS.into(), times, points.columns(lengths(batch))?)?;
-        self.out.scalars(CONTACT_COUNT.into(), times, batch.contacts_len.iter().map(|&len| f64::from(len)))
+    /// Contact points, coloured by what they do, and forces, at one instant; series of their number, sum and use of
+    /// friction.
+    fn contacts(&mut self, batch: &Batch, times: &Times) -> Appended {
+        let streams = self.header.streams;
+        let drawn: Vec<Vec<&ContactSample>> = batch.samples().map(|sample| drawn(&sample)).collect();
+        let all = || drawn.iter().flatten();
+        if streams.contacts {
+            let points = Points3D::update_fields()
+                .with_positions(all().map(|contact| contact.point_m))
+                .with_colors(all().map(|contact| color(schema::mode_colour(contact.mode))));
+            let lengths: Vec<usize> = drawn.iter().map(Vec::len).collect();
+            self.out.columns(CONTACTS.into(), times, points.columns(lengths)?)?;
+            self.out.scalars(CONTACT_COUNT.into(), times, batch.contacts_len.iter().map(|&len| f64::from(len)))?;
+        }
+        if streams.forces {
+            let arrow = |contact: &&ContactSample| self.arrows.vector_m(contact.force_n);
+            let arrows = Arrows3D::update_fields()
+                .with_vectors(all().map(arrow).flat_map(|v| [v, v.map(|x| -x)]))
+                .with_origins(all().flat_map(|contact| [contact.point_m; 2]));
+            let lengths: Vec<usize> = drawn.iter().map(|contacts| 2 * contacts.len()).collect();
+            self.out.columns(FORCES.into(), times, arrows.columns(lengths)?)?;
+            let sums = batch.samples().map(|sample| sample.contacts.iter().map(|contact| norm(contact.force_n)).sum());
+            self.out.scalars(CONTACT_FORCE.into(), times, sums)?;
+            let used = batch.samples().map(|sample| {
+                let finite = sample.contacts.iter().map(|contact| contact.friction_use).filter(|x| x.is_finite());
+                finite.fold(0.0, f64::max)
+            });
+            self.out.scalars(FRICTION_USE.into(), times, used)?;
+        }
+        Ok(())
     }
 
-    fn forces(&mut self, batch: &Batch, times: &Times) -> Written {
-        let arrows = Arrows3D::update_fields()
-            .with_vectors(batch.contacts.iter().map(|contact| self.arrows.vector_m(contact.force_n)))
-            .with_origins(batch.contacts.iter().map(|contact| contact.point_m));
-        self.out.columns(FORCES.into(), times, arrows.columns(lengths(batch))?)?;
-        let sums = batch.samples().map(|sample| sample.contacts.iter().map(|contact| norm(contact.force_n)).sum());
-        self.out.scalars(CONTACT_FORCE.into(), times, sums)
+    fn energies(&mut self, batch: &Batch, times: &Times) -> Appended {
+        for series in &schema::ENERGY_SERIES {
+            let values = batch.energy.iter().map(series.value);
+            self.out.scalars(energy_path(series), times, values)?;
+        }
+        if self.start_j.is_some() {
+            let parts = batch.energy.iter().map(|energy| log_part(energy.total_j, self.start_j).unwrap_or(f64::NAN));
+            self.out.scalars(LOG_ENERGY_TOTAL.into(), times, parts)?;
+        }
+        Ok(())
     }
+}
+
+/// Contacts of a sample that are drawn, in their order.
+fn drawn<'a>(sample: &Sample<'a>) -> Vec<&'a ContactSample> {
+    let mut contacts: Vec<_> = sample.contacts.iter().enumerate().collect();
+    if contacts.len() > MOST_CONTACTS {
+        contacts.sort_by(|(_, a), (_, b)| norm(b.force_n).total_cmp(&norm(a.force_n)));
+        contacts.truncate(MOST_CONTACTS);
+        contacts.sort_by_key(|(i, _)| *i);
+    }
+    contacts.into_iter().map(|(_, contact)| contact).collect()
+}
+
+fn color([r, g, b]: schema::Rgb) -> Color {
+    Color::from_rgb(r, g, b)
 }
 
 impl Recorder for RerunRecorder {
@@ -137,67 +194,12 @@ impl Recorder for RerunRecorder {
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        self.out.event(event).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
+        let logged =
+            self.out.events(std::slice::from_ref(event)).and_then(|()| Ok(self.out.encoder.flush_blocking()?));
+        logged.map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
     fn finish(mut self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {
         self.close(ending).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
-}
-
-/// The file, and the name of the recording in it.
-struct Out {
-    store: StoreId,
-    encoder: Encoder<BufWriter<File>>,
-}
-
-impl Out {
-    /// A batch of one entity: as many rows as there are times.
-    fn columns(
-        &mut self,
-        path: EntityPath,
-        times: &Times,
-        columns: impl Iterator<Item = SerializedComponentColumn>,
-    ) -> Written {
-        let timelines = times.iter().map(|column| (*column.timeline().name(), column.clone())).collect();
-        let components = columns.map(|column| (column.descriptor, column.list_array)).collect();
-        let chunk = Chunk::from_auto_row_ids(ChunkId::new(), path, timelines, components)?;
-        self.encoder.append(&LogMsg::ArrowMsg(self.store.clone(), chunk.to_arrow_msg()?))?;
-        Ok(())
-    }
-
-    fn scalars(&mut self, path: EntityPath, times: &Times, values: impl Iterator<Item = f64>) -> Written {
-        let scalars = Scalars::update_fields().with_scalars(values);
-        self.columns(path, times, scalars.columns_of_unit_batches()?)
-    }
-
-    fn event(&mut self, event: &Event) -> Written {
-        let level = match event.severity {
-            Severity::Info => TextLogLevel::INFO,
-            Severity::Warning => TextLogLevel::WARN,
-        };
-        let text = TextLog::update_fields().with_many_text([event.text.as_str()]).with_many_level([level]);
-        self.columns(LOG.into(), &times(&[event.step], &[event.time_s]), text.columns_of_unit_batches()?)?;
-        Ok(self.encoder.flush_blocking()?)
-    }
-}
-
-type Times = [TimeColumn; 2];
-
-fn times(step: &[u64], time_s: &[f64]) -> Times {
-    // Both timelines are i64; 2⁶³ nanoseconds are 292 years.
-    let signed = |n: u64| i64::try_from(n).unwrap_or(i64::MAX);
-    [
-        TimeColumn::new_duration_nanos(SIM_TIME, time_s.iter().map(|&t| signed(schema::time_ns(t)))),
-        TimeColumn::new_sequence(STEP, step.iter().map(|&n| signed(n))),
-    ]
-}
-
-fn lengths(batch: &Batch) -> impl Iterator<Item = usize> + Clone {
-    batch.contacts_len.iter().map(|&len| len as usize)
-}
-
-/// A body's name is one part of the path, whatever characters it has.
-fn body_path(name: &str) -> EntityPath {
-    EntityPath::from(BODIES).join(&EntityPath::from_single_string(name))
 }

@@ -5,10 +5,11 @@
 //! off stay empty. Nothing here knows a file format or a method.
 
 use super::name::RecordingName;
+use super::story::Story;
 use crate::outcome::Outcome;
 use crate::rows::BodyRow;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 /// Choice of streams that are recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +36,10 @@ pub struct Header {
     pub name: RecordingName,
     /// One line for people: the experiment's question or name, and the values on the axes.
     pub title: String,
+    /// What the experiment asks; empty where it asks nothing.
+    pub question: String,
+    /// The method in words, as it stands in the configuration.
+    pub method: String,
     /// Axes of the sweep by their paths, with this case's values.
     pub axes: Vec<(String, Value)>,
     /// Program and version, e.g. `gotai 0.1.0`.
@@ -48,15 +53,29 @@ pub struct Header {
     pub sample_every_s: f64,
     pub streams: Streams,
     pub bodies: Vec<BodyHeader>,
-    /// Line strips that draw the container, world frame.
+    /// Line strips that draw a container of box form, world frame.
     pub container_strips_m: Vec<Vec<[f64; 3]>>,
+    /// Free half-spaces n·x ≥ offset whose boundary is drawn as ground, as large as the motion: unit normal, offset.
+    pub planes: Vec<([f64; 3], f64)>,
+    /// Middle and half side of the squares of planes, as far as the start tells.
+    pub ground: ([f64; 3], f64),
     /// Length of a force arrow: metres a newton.
     pub arrow_m_per_n: f64,
+    /// Weight that an arrow as long as `arrow_body_m` stands for; None without gravity.
+    pub arrow_weight_n: Option<f64>,
+    /// Multiple of the energy at the start at which the run counts as diverged.
+    pub energy_factor: Option<f64>,
 }
 
 #[derive(Clone, Debug)]
 pub struct BodyHeader {
     pub name: String,
+    /// Whether it is drawn by its moments of inertia, having no shape; a body with no moments either is a ball.
+    pub has_no_shape: bool,
+    /// Whether it touches with the vertices of its surface.
+    pub touches_with_nodes: bool,
+    /// Places that a pin holds, relative to the centre of mass, in body axes.
+    pub pins_m: Vec<[f64; 3]>,
     /// Surface, relative to the centre of mass, in body axes.
     pub vertices_m: Vec<[f64; 3]>,
     /// Corners of each triangle, counter-clockwise seen from outside.
@@ -73,12 +92,16 @@ impl Header {
         })
     }
 
-    /// Length that the scene's drawings are in proportion to: the container's diagonal, else the largest body's
-    /// diameter.
+    /// Corners of the squares that planes are drawn as, about the point of each that is nearest to a middle.
+    pub fn squares(&self, middle: [f64; 3], half_m: f64) -> Vec<[[f64; 3]; 4]> {
+        self.planes.iter().map(|plane| square(*plane, middle, half_m)).collect()
+    }
+
+    /// Length that the scene's drawings are in proportion to: the container's diagonal, else the ground's side.
     pub fn scene_size_m(&self) -> f64 {
         match self.container_box_m() {
             Some((low, high)) => norm(std::array::from_fn(|i| high[i] - low[i])),
-            None => self.bodies.iter().map(|body| 2.0 * body.bounding_radius_m).fold(0.0, f64::max),
+            None => 2.0 * self.ground.1,
         }
     }
 
@@ -103,6 +126,26 @@ impl ForceArrows {
     }
 }
 
+fn square((normal, offset_m): ([f64; 3], f64), middle: [f64; 3], half_m: f64) -> [[f64; 3]; 4] {
+    let height_m = dot(normal, middle) - offset_m;
+    let centre: [f64; 3] = std::array::from_fn(|i| middle[i] - height_m * normal[i]);
+    // Along the world's axes where the plane is level.
+    let along = if normal[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+    let t2 = cross(along, normal);
+    let t2 = t2.map(|x| x / norm(t2));
+    let t1 = cross(normal, t2);
+    [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(a, b)| std::array::from_fn(|i| centre[i] + half_m * (a * t1[i] + b * t2[i])))
+}
+
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(super) fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
 pub(super) fn norm([x, y, z]: [f64; 3]) -> f64 {
     (x * x + y * y + z * z).sqrt()
 }
@@ -120,6 +163,8 @@ pub struct Batch {
     pub contacts: Vec<ContactSample>,
     /// Energies, one a sample, when energy is on.
     pub energy: Vec<EnergySample>,
+    /// What happened since the batch before, in the order of time.
+    pub events: Vec<Event>,
 }
 
 impl Batch {
@@ -127,8 +172,9 @@ impl Batch {
         self.step.len()
     }
 
+    /// Whether there is neither a sample nor an event in it.
     pub fn is_empty(&self) -> bool {
-        self.step.is_empty()
+        self.step.is_empty() && self.events.is_empty()
     }
 
     /// Empties every column and keeps its memory.
@@ -139,6 +185,7 @@ impl Batch {
         self.contacts_len.clear();
         self.contacts.clear();
         self.energy.clear();
+        self.events.clear();
     }
 
     /// Checks that every column has the length that the streams ask for; the recorders rely on it.
@@ -208,6 +255,63 @@ pub struct ContactSample {
     pub force_n: [f64; 3],
     /// Gap along the normal; negative where there is penetration.
     pub gap_m: f64,
+    /// Part of the friction that Coulomb's law lets be: |f_t| / μ f_n; 0 where nothing pushes, infinite where only
+    /// friction does.
+    pub friction_use: f64,
+    pub mode: ContactMode,
+}
+
+/// What a contact does, by its force alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactMode {
+    /// It pushes nothing.
+    #[default]
+    Open,
+    /// Friction is inside Coulomb's cone.
+    Sticking,
+    /// Friction is on the cone: all that there can be.
+    Sliding,
+    /// The force is one that no law of contact allows: a pull, or outside the cone.
+    Unsolved,
+}
+
+impl ContactMode {
+    pub const ALL: [ContactMode; 4] =
+        [ContactMode::Open, ContactMode::Sticking, ContactMode::Sliding, ContactMode::Unsolved];
+
+    /// Word of the mode in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            ContactMode::Open => "open",
+            ContactMode::Sticking => "sticking",
+            ContactMode::Sliding => "sliding",
+            ContactMode::Unsolved => "unsolved",
+        }
+    }
+}
+
+/// Part of friction up to which the edge of the cone is met: an iteration ends within its tolerance of it.
+const EDGE: f64 = 1e-6;
+
+/// Mode of a contact and the use it makes of its friction, from its force.
+pub fn contact_mode(force_n: [f64; 3], normal: [f64; 3], friction: f64) -> (ContactMode, f64) {
+    let normal_n = dot(force_n, normal);
+    let tangential_n = norm(std::array::from_fn(|i| force_n[i] - normal_n * normal[i]));
+    if normal_n == 0.0 && tangential_n == 0.0 {
+        return (ContactMode::Open, 0.0);
+    }
+    let most_n = friction * normal_n;
+    let used = if tangential_n == 0.0 { 0.0 } else { (tangential_n / most_n).abs() };
+    // Without friction a rounding of the tangential force is none.
+    let is_rounding = tangential_n <= EDGE * EDGE * normal_n.abs();
+    let mode = match () {
+        () if normal_n < 0.0 || normal_n.is_nan() => ContactMode::Unsolved,
+        () if friction == 0.0 && is_rounding => return (ContactMode::Sliding, 0.0),
+        () if tangential_n > most_n * (1.0 + EDGE) => ContactMode::Unsolved,
+        () if tangential_n >= most_n * (1.0 - EDGE) => ContactMode::Sliding,
+        () => ContactMode::Sticking,
+    };
+    (mode, used)
 }
 
 /// Energies and deepest penetration of one state.
@@ -231,6 +335,9 @@ pub struct Ending {
     pub warnings: Option<String>,
     /// What is in doubt about the run, of another method.
     pub notes: Option<String>,
+    /// Columns of the row that are the same on every machine and not empty.
+    pub row: Map<String, Value>,
+    pub story: Story,
 }
 
 impl Ending {
@@ -254,4 +361,6 @@ pub struct Event {
 pub enum Severity {
     Info,
     Warning,
+    /// The run cannot be gone on with: it diverged.
+    Error,
 }

@@ -3,18 +3,32 @@
 //! A recorded run is the same run: the sampler only looks. What no stream asks for is not computed.
 
 use super::RecordError;
-use super::sample::{ContactSample, Ending, EnergySample, Event, Severity, Streams};
+use super::ring::Ring;
+use super::sample::{Batch, ContactSample, Ending, EnergySample, Event, Severity, Streams, contact_mode};
+use super::watch::Watch;
 use super::writer::Writer;
 use crate::clock::Clock;
 use crate::experiment::types::{Record, Stream};
+use crate::measure::Judge;
 use crate::measure::energy::Energy;
 use crate::measure::geometry::GeometryLedger;
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::rows::doubts::doubt;
 use crate::rows::{BodyRow, Measured, cells};
-use crate::shown::ContactForce;
+use crate::shown::{ContactForce, Shown};
 use crate::state::State;
+use crate::work::Work;
+
+/// Largest amount of something so far, and its step where no sample shows it.
+#[derive(Default)]
+struct Maximum {
+    amount: f64,
+    step: Ring,
+}
+
+/// Steps before and after one that decides that are recorded whatever the rate of samples.
+const AROUND: u64 = 4;
 
 /// Samples of one run.
 pub struct Sampler {
@@ -25,61 +39,171 @@ pub struct Sampler {
     ending: Option<Ending>,
     /// Of the stream of energies, which shows the deepest overlap.
     geometry: Option<GeometryLedger>,
+    watch: Option<Watch>,
+    ring: Ring,
+    /// Steps of the most contacts and of the deepest overlap, which the row tells; samples that beat them come first.
+    maxima: [Maximum; 2],
+    /// Step of the last sample, and steps that are still to be recorded after one that decides.
+    last: u64,
+    ahead: u64,
 }
 
 impl Sampler {
     pub fn new(writer: Writer, record: &Record, clock: &Clock) -> Self {
-        let every = steps_between(record, clock);
-        Sampler { writer, streams: streams(record), every, ending: None, geometry: None }
+        Sampler {
+            writer,
+            streams: streams(record),
+            every: steps_between(record, clock),
+            ending: None,
+            geometry: None,
+            watch: None,
+            ring: Ring::default(),
+            maxima: Default::default(),
+            last: 0,
+            ahead: 0,
+        }
     }
 
     pub fn is_due(&self, step: u64) -> bool {
         step.is_multiple_of(self.every)
     }
 
+    /// Begins with the first state, of a method that claims to solve the law of contact or does not.
+    pub fn start(&mut self, model: &Model, start: &State, solves_contacts: bool) {
+        self.watch = Some(Watch::new(model, start, solves_contacts));
+        self.sample(model, start, std::iter::empty());
+    }
+
+    /// Looks at a step, judged already; says whether it is to be recorded whatever the rate of samples. Those just
+    /// before one that decides are recorded now.
+    pub fn look(&mut self, model: &Model, shown: &Shown, judge: &Judge) -> bool {
+        let Some(watch) = &mut self.watch else { return false };
+        let is_notable = watch.look(model, shown, judge);
+        if is_notable {
+            let since = shown.after.step.saturating_sub(AROUND).max(self.last + 1);
+            self.take_since(model, since);
+            self.ahead = AROUND;
+        } else if self.ahead > 0 && !shown.is_part() {
+            self.ahead -= 1;
+            return true;
+        }
+        is_notable
+    }
+
+    /// Looks at the counters of work after a step.
+    pub fn count(&mut self, work: &Work, state: &State) {
+        if let Some(watch) = &mut self.watch {
+            watch.count(work, (state.step, state.time_s));
+        }
+    }
+
+    /// Keeps a step that is no sample, judged already, in case that it turns out to decide.
+    pub fn keep(
+        &mut self,
+        state: &State,
+        contacts: impl ExactSizeIterator<Item = ContactForce> + Clone,
+        judge: &Judge,
+    ) {
+        let with_contacts = self.streams.any_contact();
+        let sampled = || contacts.clone().map(contact_sample).filter(|_| with_contacts);
+        self.ring.keep(state, sampled());
+        let amounts = [contacts.len() as f64, judge.geometry.penetration_max_m.unwrap_or(0.0)];
+        for (maximum, amount) in self.maxima.iter_mut().zip(amounts) {
+            if amount > maximum.amount {
+                maximum.amount = amount;
+                maximum.step.keep_one(state, sampled());
+            }
+        }
+    }
+
+    /// Notes the amounts of a step that is a sample.
+    pub fn note(&mut self, contacts: usize, judge: &Judge) {
+        let amounts = [contacts as f64, judge.geometry.penetration_max_m.unwrap_or(0.0)];
+        for (maximum, amount) in self.maxima.iter_mut().zip(amounts) {
+            if amount > maximum.amount {
+                maximum.amount = amount;
+                maximum.step.clear();
+            }
+        }
+    }
+
     /// Adds a sample; `contacts` are those of the step that led to `state`.
     pub fn sample(&mut self, model: &Model, state: &State, contacts: impl ExactSizeIterator<Item = ContactForce>) {
-        let batch = self.writer.batch();
-        batch.step.push(state.step);
-        batch.time_s.push(state.time_s);
-        if self.streams.bodies {
-            batch.bodies.extend(state.bodies.iter().map(BodyRow::from));
-        }
-        if self.streams.any_contact() {
+        let Sampler { writer, streams, geometry, .. } = self;
+        let batch = writer.batch();
+        if streams.any_contact() {
             batch.contacts_len.push(contacts.len() as u32);
             batch.contacts.extend(contacts.map(contact_sample));
         }
-        if self.streams.energy {
-            let energy = Energy::of(model, state);
-            let geometry = self.geometry.get_or_insert_with(|| GeometryLedger::new(model, state, true));
-            batch.energy.push(EnergySample {
-                kinetic_j: energy.kinetic_j,
-                potential_j: energy.potential_j,
-                total_j: energy.total_j(),
-                penetration_m: geometry.penetration_m(model, state).unwrap_or(0.0),
-            });
+        push(batch, *streams, geometry, model, state);
+        if let Some(watch) = &mut self.watch {
+            batch.events.extend(watch.events());
         }
+        self.last = state.step;
         self.writer.sample_done();
     }
 
+    /// Records what was kept from a step on.
+    fn take_since(&mut self, model: &Model, step: u64) {
+        let Sampler { writer, streams, geometry, ring, maxima, .. } = self;
+        ring.take_since(step, |state, contacts| {
+            for maximum in maxima.iter_mut().filter(|maximum| maximum.step.holds(state.step)) {
+                maximum.step.clear();
+            }
+            add(writer, *streams, geometry, model, (state, contacts));
+        });
+    }
+
+    /// Records the steps of the maxima that no sample shows, each once.
+    fn take_maxima(&mut self, model: &Model) {
+        let Sampler { writer, streams, geometry, maxima, .. } = self;
+        let mut taken = None;
+        for maximum in maxima {
+            maximum.step.take_since(0, |state, contacts| {
+                if taken != Some(state.step) {
+                    taken = Some(state.step);
+                    add(writer, *streams, geometry, model, (state, contacts));
+                }
+            });
+        }
+    }
+
     /// Says how the run ended, and what is in doubt about it: a warning of a method that solves the law of contact, a
-    /// note of another one.
-    pub fn end(&mut self, state: &State, measured: &Measured, solves_contacts: bool) {
+    /// note of another one. The last steps of a run that came to no good end are recorded, all of them.
+    pub fn end(&mut self, model: &Model, state: &State, measured: &Measured, solves_contacts: bool) {
+        if measured.outcome != Outcome::Finished {
+            self.take_since(model, 0);
+        }
+        self.take_maxima(model);
         let (severity, text) = match (&measured.outcome, &measured.criterion) {
             (Outcome::Finished, _) => (Severity::Info, "finished".to_string()),
+            (Outcome::Diverged, Some(criterion)) => (Severity::Error, format!("diverged: {criterion}")),
             (outcome, Some(criterion)) => (Severity::Warning, format!("{}: {criterion}", outcome.name())),
             (_, None) => (Severity::Warning, "ended early".to_string()),
         };
+        let said = text.clone();
         let text = format!("{text} at t = {} s, step {}", state.time_s, state.step);
+        let (rest, unlogged) = self.watch.as_mut().map_or((Vec::new(), None), |watch| {
+            let rest: Vec<_> = watch.events().collect();
+            (rest, watch.unlogged())
+        });
+        for event in rest {
+            self.writer.event(event);
+        }
         let mut say = |severity, text| {
             self.writer.event(Event { step: state.step, time_s: state.time_s, severity, text });
         };
+        if let Some(unlogged) = unlogged {
+            say(Severity::Info, unlogged);
+        }
         say(severity, text);
-        let doubt = doubt(&[cells(measured)], 1).map(|doubt| doubt.said);
+        let row = cells(measured);
+        let doubt = doubt(std::slice::from_ref(&row), 1).map(|doubt| doubt.said);
         if let Some(said) = &doubt {
             say(if solves_contacts { Severity::Warning } else { Severity::Info }, said.clone());
         }
         let (warnings, notes) = if solves_contacts { (doubt, None) } else { (None, doubt) };
+        let story = self.watch.as_mut().map(|watch| watch.story(state, measured.outcome, said)).unwrap_or_default();
         self.ending = Some(Ending {
             outcome: measured.outcome,
             criterion: measured.criterion.clone(),
@@ -87,6 +211,8 @@ impl Sampler {
             steps: measured.steps,
             warnings,
             notes,
+            row: row.into_iter().filter(|(name, cell)| !cell.is_null() && !name.starts_with("wall_")).collect(),
+            story,
         });
     }
 
@@ -96,6 +222,42 @@ impl Sampler {
     /// The machine failed, in this call or in a write before it.
     pub fn finish(self) -> Result<(), RecordError> {
         self.ending.map_or(Ok(()), |ending| self.writer.finish(ending))
+    }
+}
+
+/// Adds a step that was kept.
+fn add(
+    writer: &mut Writer,
+    streams: Streams,
+    geometry: &mut Option<GeometryLedger>,
+    model: &Model,
+    (state, contacts): (&State, &[ContactSample]),
+) {
+    let batch = writer.batch();
+    if streams.any_contact() {
+        batch.contacts_len.push(contacts.len() as u32);
+        batch.contacts.extend_from_slice(contacts);
+    }
+    push(batch, streams, geometry, model, state);
+    writer.sample_done();
+}
+
+/// Adds a state to a batch: what does not depend on its contacts.
+fn push(batch: &mut Batch, streams: Streams, geometry: &mut Option<GeometryLedger>, model: &Model, state: &State) {
+    batch.step.push(state.step);
+    batch.time_s.push(state.time_s);
+    if streams.bodies {
+        batch.bodies.extend(state.bodies.iter().map(BodyRow::from));
+    }
+    if streams.energy {
+        let energy = Energy::of(model, state);
+        let geometry = geometry.get_or_insert_with(|| GeometryLedger::new(model, state, true));
+        batch.energy.push(EnergySample {
+            kinetic_j: energy.kinetic_j,
+            potential_j: energy.potential_j,
+            total_j: energy.total_j(),
+            penetration_m: geometry.penetration_m(model, state).unwrap_or(0.0),
+        });
     }
 }
 
@@ -115,7 +277,10 @@ pub fn steps_between(record: &Record, clock: &Clock) -> u64 {
 }
 
 fn contact_sample(ContactForce { contact, force_W }: ContactForce) -> ContactSample {
+    let (mode, friction_use) = contact_mode(force_W.into(), contact.normal.into(), contact.friction);
     ContactSample {
+        friction_use,
+        mode,
         body: contact.body as u32,
         other: contact.other.map(|other| other as u32),
         point_m: contact.p_WC.into(),

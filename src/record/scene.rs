@@ -38,7 +38,7 @@ impl Scene {
             streams: header.streams,
             size_m: header.scene_size_m(),
             arrows: header.force_arrows(),
-            transforms: FrameTransforms { transforms: header.bodies.iter().map(frame).collect() },
+            transforms: FrameTransforms { transforms: header.bodies.iter().map(frame).chain([upright()]).collect() },
             contacts: SceneUpdate { entities: vec![entity("contacts", schema::WORLD)], ..Default::default() },
             blank: true,
         }
@@ -50,6 +50,9 @@ impl Scene {
             frame.translation = Some(vector(body.position_m));
             let [x, y, z, w] = body.orientation_xyzw;
             frame.rotation = Some(Quaternion { x, y, z, w });
+        }
+        if let Some(upright) = self.transforms.transforms.last_mut() {
+            upright.timestamp = Some(timestamp(time_ns));
         }
         &self.transforms
     }
@@ -69,7 +72,8 @@ impl Scene {
                 entity.spheres.extend(sample.contacts.iter().map(|contact| sphere(contact, size_m)));
             }
             if self.streams.forces {
-                entity.arrows.extend(sample.contacts.iter().map(|contact| arrow(contact, size_m, arrows)));
+                let both = |contact: &ContactSample| [1.0, -1.0].map(|sign| arrow(contact, sign, size_m, arrows));
+                entity.arrows.extend(sample.contacts.iter().flat_map(both));
             }
         }
         Some(&self.contacts)
@@ -89,14 +93,18 @@ pub fn surfaces(header: &Header) -> SceneUpdate {
         }],
         ..entity(&body.name, &body.name)
     });
-    let lines = header.container_strips_m.iter().map(|strip| LinePrimitive {
+    let line = |strip: &[[f64; 3]]| LinePrimitive {
         r#type: LineStrip.into(),
         thickness: LINE_PIXELS,
         scale_invariant: true,
         points: strip.iter().map(|&p| point(p)).collect(),
         color: Some(color(schema::CONTAINER_COLOUR)),
         ..Default::default()
-    });
+    };
+    let (middle, half_m) = header.ground;
+    let squares = if header.container_strips_m.is_empty() { header.squares(middle, half_m) } else { Vec::new() };
+    let squares = squares.iter().map(|[a, b, c, d]| line(&[*a, *b, *c, *d, *a, *c]));
+    let lines = header.container_strips_m.iter().map(|strip| line(strip)).chain(squares);
     let container = SceneEntity { lines: lines.collect(), ..entity(schema::CONTAINER, schema::WORLD) };
     let drawn = !container.lines.is_empty();
     SceneUpdate { entities: drawn.then_some(container).into_iter().chain(bodies).collect(), ..Default::default() }
@@ -106,12 +114,25 @@ pub fn log(event: &Event, time_ns: u64) -> Log {
     let level = match event.severity {
         Severity::Info => Level::Info,
         Severity::Warning => Level::Warning,
+        Severity::Error => Level::Error,
     };
     Log {
         timestamp: Some(timestamp(time_ns)),
         level: level.into(),
         message: event.text.clone(),
         name: schema::METADATA.to_owned(),
+        ..Default::default()
+    }
+}
+
+/// The world, whose y is up, in a frame whose z is.
+fn upright() -> FrameTransform {
+    let half = 0.5_f64.sqrt();
+    FrameTransform {
+        parent_frame_id: schema::ROOT.to_owned(),
+        child_frame_id: schema::WORLD.to_owned(),
+        translation: Some(vector([0.0; 3])),
+        rotation: Some(Quaternion { x: half, y: 0.0, z: 0.0, w: half }),
         ..Default::default()
     }
 }
@@ -132,13 +153,13 @@ fn sphere(contact: &ContactSample, size_m: f64) -> SpherePrimitive {
     SpherePrimitive {
         pose: Some(Pose { position: Some(vector(contact.point_m)), orientation: Some(along_x([1.0, 0.0, 0.0])) }),
         size: Some(vector([diameter_m; 3])),
-        color: Some(color(schema::CONTACT_COLOUR)),
+        color: Some(color(schema::mode_colour(contact.mode))),
     }
 }
 
-/// Arrow from the contact point along the force on the body.
-fn arrow(contact: &ContactSample, size_m: f64, arrows: ForceArrows) -> ArrowPrimitive {
-    let vector_m = arrows.vector_m(contact.force_n);
+/// Arrow from the contact point along the force on the body, or along its reaction.
+fn arrow(contact: &ContactSample, sign: f64, size_m: f64, arrows: ForceArrows) -> ArrowPrimitive {
+    let vector_m = arrows.vector_m(contact.force_n.map(|f| sign * f));
     let length_m = norm(vector_m);
     let direction = if length_m > 0.0 { vector_m.map(|x| x / length_m) } else { [1.0, 0.0, 0.0] };
     let shaft_m = SHAFT_PART * size_m;

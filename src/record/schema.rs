@@ -4,7 +4,7 @@
 //! the descriptors that a reader needs. Vectors are arrays, which are shorter on the wire than a nested x, y, z. A
 //! field that is `required` here is optional in the descriptor: it is always on the wire, so that -0.0 keeps its sign.
 
-use super::sample::EnergySample;
+use super::sample::{ContactMode, EnergySample};
 use prost::Message;
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet};
@@ -26,6 +26,18 @@ pub const SCENE_CONTACTS: &str = "/scene/contacts";
 /// Topic of events: `foxglove.Log`.
 pub const LOG: &str = "/log";
 
+/// Version of what stands in a recording and what it is called; it rises when either changes.
+pub const VERSION: &str = "2";
+
+/// Version of Rerun that .rrd files are of; a viewer of the same or a later one shows them.
+pub const RERUN_VERSION: &str = "0.36.3";
+
+/// Most cases that are shown together: as many as have colours apart from each other.
+pub const MOST_TOGETHER: usize = 12;
+
+/// Key of the list of axes among what a recording says of itself, as JSON.
+pub const AXES: &str = "axes";
+
 /// Name of the configuration attached to a recording.
 pub const CONFIG_FILE: &str = "experiment.yaml";
 /// Name of the record of case, axes, program and step, at the start; and of the same with name and outcome, at the end.
@@ -37,8 +49,27 @@ pub fn text(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
+/// A value on an axis for people: of a word with settings the word and the settings, e.g. `lecture sweeps=50`.
+pub fn label(value: &Value) -> String {
+    match value {
+        Value::Object(map) => {
+            let parts = map.iter().map(|(key, value)| match value {
+                Value::Object(settings) => {
+                    let settings = settings.iter().map(|(key, value)| format!(" {key}={}", label(value)));
+                    format!("{key}{}", settings.collect::<String>())
+                }
+                value => format!("{key}={}", label(value)),
+            });
+            parts.collect::<Vec<_>>().join(" ")
+        }
+        value => text(value),
+    }
+}
+
 /// The frame that everything is in, and what `other` says for a contact with the container.
 pub const WORLD: &str = "world";
+/// The frame that the world stands upright in for viewers whose z is up.
+pub const ROOT: &str = "root";
 pub const CONTAINER: &str = "container";
 
 /// A colour: red, green, blue, of 255.
@@ -56,7 +87,25 @@ pub const BODY_COLOURS: [Rgb; 8] = [
     [156, 117, 95],
 ];
 pub const CONTAINER_COLOUR: Rgb = [150, 150, 160];
-pub const CONTACT_COLOUR: Rgb = [255, 235, 120];
+/// Colour of a contact by what it does, and the word for it.
+pub fn mode_colour(mode: ContactMode) -> Rgb {
+    match mode {
+        ContactMode::Open => [190, 190, 198],
+        ContactMode::Sticking => [90, 220, 130],
+        ContactMode::Sliding => [255, 214, 70],
+        ContactMode::Unsolved => [255, 70, 220],
+    }
+}
+
+pub fn mode_word(mode: ContactMode) -> &'static str {
+    match mode {
+        ContactMode::Open => "grey",
+        ContactMode::Sticking => "green",
+        ContactMode::Sliding => "yellow",
+        ContactMode::Unsolved => "magenta",
+    }
+}
+
 pub const FORCE_COLOUR: Rgb = [225, 87, 89];
 
 /// A number of every sample that a viewer plots.
@@ -138,6 +187,12 @@ pub struct Contact {
     /// Gap; negative where there is penetration, not a number on `/forces`.
     #[prost(double, required, tag = "6")]
     pub gap_m: f64,
+    /// |f_t| / μ f_n; not a number when forces are not recorded.
+    #[prost(double, required, tag = "7")]
+    pub friction_use: f64,
+    /// `open`, `sticking`, `sliding` or `unsolved`; empty when forces are not recorded.
+    #[prost(string, required, tag = "8")]
+    pub mode: String,
 }
 
 /// Energies and deepest penetration at one time.
@@ -186,6 +241,8 @@ pub fn descriptor_set() -> Vec<u8> {
                     ("normal", Kind::Array),
                     ("force_n", Kind::Array),
                     ("gap_m", F64),
+                    ("friction_use", F64),
+                    ("mode", TEXT),
                 ],
             ),
             message(

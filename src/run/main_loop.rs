@@ -49,7 +49,8 @@ pub fn run(
             parts.show(model, &shown, |part, state| against.observe(part, state));
         }
         if let Some(samples) = &mut samples {
-            samples.show(model, &shown, diverged.is_some() || shown.is_last);
+            samples.show(model, &shown, &judge, diverged.is_some() || shown.is_last);
+            samples.count(advance.work(), advance.state());
         }
     }
     let mut measured = summarize(model, &advance, &mut judge, diverged);
@@ -62,7 +63,7 @@ pub fn run(
     }
     measured.more = more::cells(experiment, model, state, &judge.watched);
     if let Some(sampler) = sampler {
-        sampler.end(state, &measured, experiment.method.facts().solves_contacts);
+        sampler.end(model, state, &measured, experiment.method.facts().solves_contacts);
     }
     Ended { measured, forces: advance.forces(model), state: state.clone() }
 }

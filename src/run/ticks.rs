@@ -3,10 +3,12 @@
 
 use crate::clock::Clock;
 use crate::experiment::types::Experiment;
+use crate::measure::Judge;
 use crate::model::Model;
 use crate::record::sampler::Sampler;
 use crate::shown::{Acted, ContactForce, Passage, Shown};
 use crate::state::State;
+use crate::work::Work;
 
 /// The times of a clock, on the way of a run.
 pub struct Due {
@@ -86,37 +88,46 @@ pub struct Samples<'a> {
 impl<'a> Samples<'a> {
     /// The first of them is the start.
     pub fn new(sampler: &'a mut Sampler, experiment: &Experiment, model: &Model, start: &State) -> Self {
-        sampler.sample(model, start, std::iter::empty());
+        sampler.start(model, start, experiment.method.facts().solves_contacts);
         let every_step = experiment.record.every_s == 0.0;
         Samples { sampler, ticks: Due::new(ticks(experiment), start), every_step, step_s: experiment.clock().step_s }
     }
 
-    /// What is due in a step, and its end if it is wanted or the `last` one.
-    pub fn show(&mut self, model: &Model, shown: &Shown, last: bool) {
+    /// What is due in a step, and its end if it is wanted, decides, or is the `last` one. `judge` has seen it.
+    pub fn show(&mut self, model: &Model, shown: &Shown, judge: &Judge, last: bool) {
+        let decides = self.sampler.look(model, shown, judge);
         match shown.way {
-            Some(way) => self.show_way(way, model, shown.after, last),
-            None => self.show_step(model, shown, last),
+            Some(way) => self.show_way(way, model, shown.after, decides || last),
+            None => self.show_step(model, shown, judge, decides || last),
         }
     }
 
-    fn show_way(&mut self, way: &dyn Passage, model: &Model, end: &State, last: bool) {
-        while !(self.every_step || last && self.ticks.next_s() == end.time_s) {
+    /// What the steps so far have cost.
+    pub fn count(&mut self, work: &Work, state: &State) {
+        self.sampler.count(work, state);
+    }
+
+    fn show_way(&mut self, way: &dyn Passage, model: &Model, end: &State, end_is_wanted: bool) {
+        while !(self.every_step || end_is_wanted && self.ticks.next_s() == end.time_s) {
             let Some(DueAt { state, .. }) = self.ticks.next(way, model, end) else { break };
             self.sampler.sample(model, state, way.forces_at(model, state).into_iter());
         }
-        if last || self.every_step {
+        if end_is_wanted || self.every_step {
             self.sampler.sample(model, end, way.forces_at(model, end).into_iter());
         }
     }
 
-    fn show_step(&mut self, model: &Model, shown: &Shown, last: bool) {
+    fn show_step(&mut self, model: &Model, shown: &Shown, judge: &Judge, end_is_wanted: bool) {
         let due = self.sampler.is_due(shown.after.step) && (self.every_step || !shown.is_part());
         // A stalled run is back at a state that has been sampled if it was due.
-        let wanted = if shown.stalled.is_some() { !due } else { due || last };
+        let wanted = if shown.stalled.is_some() { !due } else { due || end_is_wanted };
+        let step_s = if let Acted::Kick { step_s, .. } = shown.acted { step_s } else { self.step_s };
+        let forces = shown.impulses().iter().map(|solved| ContactForce::mean(solved, step_s));
         if wanted {
-            let step_s = if let Acted::Kick { step_s, .. } = shown.acted { step_s } else { self.step_s };
-            let forces = shown.impulses().iter().map(|solved| ContactForce::mean(solved, step_s));
+            self.sampler.note(forces.len(), judge);
             self.sampler.sample(model, shown.after, forces);
+        } else if shown.stalled.is_none() && !shown.is_part() {
+            self.sampler.keep(shown.after, forces, judge);
         }
     }
 }

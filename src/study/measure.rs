@@ -49,10 +49,11 @@ pub fn measure(experiment: &Experiment, model: &Model, start: State, place: &Pla
         |dir| reference::of_or_made(dir, experiment, model, &start),
     );
     let chosen = choose::method(experiment, model, &start);
-    let (mut sampler, opened) = match place.recording.map(|recording| recording.open(&chosen, model)).transpose() {
-        Ok(sampler) => (sampler, Ok(())),
-        Err(error) => (None, Err(error)),
-    };
+    let (mut sampler, opened) =
+        match place.recording.map(|recording| recording.open(&chosen, model, &start)).transpose() {
+            Ok(sampler) => (sampler, Ok(())),
+            Err(error) => (None, Err(error)),
+        };
     let Chosen { experiment, method, .. } = &chosen;
     let mut ended = run::run(experiment, method, model, start.clone(), sampler.as_mut(), reference.as_ref());
     let recorded = opened.and_then(|()| sampler.map_or(Ok(()), Sampler::finish));
@@ -62,9 +63,9 @@ pub fn measure(experiment: &Experiment, model: &Model, start: State, place: &Pla
 }
 
 impl Recording<'_> {
-    fn open(&self, chosen: &Chosen, model: &Model) -> Result<Sampler, RecordError> {
+    fn open(&self, chosen: &Chosen, model: &Model, start: &State) -> Result<Sampler, RecordError> {
         let clock = ticks::ticks(&chosen.experiment);
-        let writer = open(self.targets, self.dir, &header(self.case, self.name, model, &clock))?;
+        let writer = open(self.targets, self.dir, &header(self.case, self.name, model, start, &clock))?;
         Ok(Sampler::new(writer, &chosen.experiment.record, &clock))
     }
 }

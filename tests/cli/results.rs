@@ -71,12 +71,12 @@ fn a_folder_tells_its_question_and_shows_a_case_again() {
     assert!(replays.keys().eq([&name]) && before.contains_key(&name));
     let status = json(&["status", out, "--json"]);
     assert_eq!(status["bytes"]["replays"], replays[&name].len());
-    // At 2 ms, five times as many samples as the sweep has recorded.
+    // At 2 ms, five times as many samples as the sweep has recorded beside the steps about events.
     let fine = json(&["rows", out, "--where", "time.step_s=0.002", "--columns", "case,recording", "--json"])[0].clone();
     json(&["run", out, "--case", fine["case"].as_str().unwrap(), "--json", "--record", "mcap"]);
     let fine = format!("{}.mcap", fine["recording"].as_str().unwrap());
     let replay = folder.path().join("replays").join(&fine);
-    assert!(std::fs::metadata(&replay).unwrap().len() > 3 * before[&fine].len() as u64);
+    assert!(std::fs::metadata(&replay).unwrap().len() > 3 * before[&fine].len() as u64 / 2);
     std::fs::remove_file(replay).unwrap();
     // Dropped again, and nothing else.
     let cleaned = json(&["clean", out, "--json"]);

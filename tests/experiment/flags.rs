@@ -215,10 +215,10 @@ fn a_sweep_takes_axes_and_names_its_folder_by_all_flags_in_their_order() {
 }
 
 #[test]
-fn a_run_takes_no_axes_yet() {
-    let (code, _, err) = run(&["run", "configs/lecture/demo.yaml", "--axis", "seed=0..2"]);
+fn a_run_takes_axes_of_as_many_cases_as_one_picture_shows() {
+    let (code, _, err) = run(&["run", "configs/lecture/demo.yaml", "--axis", "seed=0..12"]);
     assert_eq!(code, 2);
-    assert!(err.contains("--axis seed=0..2: not available in this version"), "{err}");
+    assert!(err.contains("--axis seed=0..12: expected at most 12 cases"), "{err}");
     let (code, _, err) = run(&["sweep", "configs/lecture/demo.yaml", "--axis", "seed=3"]);
     assert!(code == 2 && err.contains("--axis seed=3: sweep.axes.seed: expected a list"), "{err}");
 }

@@ -89,6 +89,11 @@ fn pictures_come_at_display_rate_and_surfaces_once() {
     // One second at 1000 Hz, shown at 60 Hz.
     assert_eq!(frames.len(), 60);
     assert_eq!(frames[0].transforms[0].child_frame_id, "cube[0]");
+    // The world's y is the z of a frame for viewers that want it.
+    let root = &frames[0].transforms[1];
+    assert_eq!((root.parent_frame_id.as_str(), root.child_frame_id.as_str()), ("root", "world"));
+    let q = root.rotation.unwrap();
+    assert!((2.0 * (q.y * q.z + q.w * q.x) - 1.0).abs() < 1e-15, "{q:?}");
     let scene: Vec<SceneUpdate> = decode(&topics, schema::SCENE);
     assert_eq!(scene.len(), 1);
     let ids: Vec<_> = scene[0].entities.iter().map(|entity| (entity.id.as_str(), entity.frame_id.as_str())).collect();

@@ -1,8 +1,12 @@
 //! What is recorded is in the file: both formats are read back with their own libraries.
 
 mod mcap;
+mod modes;
 #[cfg(feature = "rerun")]
 mod rerun;
 mod schema;
+mod story;
 mod synthetic;
+#[cfg(feature = "rerun")]
+mod viewer;
 mod writer;

@@ -54,10 +54,15 @@ fn an_rrd_holds_every_sample() {
     let expected = [
         ("/contact/count", 1000),
         ("/contact/force", 1000),
+        ("/contact/friction_use", 1000),
+        ("/energy/gains", 1),
         ("/energy/kinetic", 1000),
         ("/energy/potential", 1000),
         ("/energy/total", 1000),
         ("/log", 1),
+        ("/log_energy/gains", 1),
+        ("/log_energy/limit", 2),
+        ("/log_energy/total", 1000),
         ("/penetration", 1000),
         ("/world/bodies/cube\\[0\\]", 1000),
         ("/world/contacts", 1000),
@@ -103,18 +108,34 @@ fn streams_that_are_off_leave_no_entity() {
         paths.dedup();
         paths
     };
-    let always = ["/config", "/log", "/world", "/world/container"];
+    let always = ["/", "/config", "/headline", "/log", "/world", "/world/container", "/world/ground"];
     assert_eq!(entities(NONE), always);
-    let with = |more: &[&str]| {
-        let mut paths: Vec<_> = always.iter().chain(more).map(|path| (*path).to_owned()).collect();
+    fn with(always: &[&str], more: &[impl AsRef<str>]) -> Vec<String> {
+        let more = more.iter().map(|path| path.as_ref().to_owned());
+        let mut paths: Vec<_> = always.iter().map(|path| (*path).to_owned()).chain(more).collect();
         paths.sort();
         paths
-    };
-    assert_eq!(entities(Streams { bodies: true, ..NONE }), with(&["/world/bodies/cube\\[0\\]"]));
-    assert_eq!(entities(Streams { contacts: true, ..NONE }), with(&["/contact/count", "/world/contacts"]));
-    assert_eq!(entities(Streams { forces: true, ..NONE }), with(&["/contact/force", "/world/forces"]));
-    let energy = ["/energy/kinetic", "/energy/potential", "/energy/total", "/penetration"];
-    assert_eq!(entities(Streams { energy: true, ..NONE }), with(&energy));
+    }
+    assert_eq!(
+        entities(Streams { bodies: true, ..NONE }),
+        with(&always, &["", "/edges", "/nodes"].map(|part| format!("/world/bodies/cube\\[0\\]{part}")))
+    );
+    assert_eq!(entities(Streams { contacts: true, ..NONE }), with(&always, &["/contact/count", "/world/contacts"]));
+    assert_eq!(
+        entities(Streams { forces: true, ..NONE }),
+        with(&always, &["/contact/force", "/contact/friction_use", "/world/forces"])
+    );
+    let energy = [
+        "/energy/gains",
+        "/energy/kinetic",
+        "/energy/potential",
+        "/energy/total",
+        "/log_energy/gains",
+        "/log_energy/limit",
+        "/log_energy/total",
+        "/penetration",
+    ];
+    assert_eq!(entities(Streams { energy: true, ..NONE }), with(&always, &energy));
 }
 
 #[test]
@@ -146,14 +167,27 @@ fn the_layout_comes_first_and_the_configuration_is_shown() {
     let decoder = Decoder::<LogMsg>::decode_eager(BufReader::new(File::open(&path).unwrap())).unwrap();
     let messages: Vec<_> = decoder.map(Result::unwrap).collect();
     assert_eq!(messages[0].store_id().kind(), StoreKind::Blueprint);
-    let activation = messages.iter().position(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
-    let last_of_layout = messages.iter().rposition(|message| message.store_id().kind() == StoreKind::Blueprint);
-    assert_eq!(activation, last_of_layout);
+    // One for a recording that is cut, and one that knows the story; each ends with what makes it the active one.
+    let layouts: Vec<_> = messages.iter().filter(|message| message.store_id().kind() == StoreKind::Blueprint).collect();
+    let activates = |message: &&&LogMsg| matches!(message, LogMsg::BlueprintActivationCommand(_));
+    assert_eq!(layouts.iter().filter(activates).count(), 2);
+    assert!(layouts.last().is_some_and(|last| activates(&last)));
+    // No other recording has it.
+    let applications: std::collections::BTreeSet<_> =
+        messages.iter().map(|message| message.store_id().application_id().to_string()).collect();
+    assert_eq!(applications, ["gotai 0-5_fine-01234567".to_string()].into());
 
     let store = read(&path);
     let config = store.iter_physical_chunks().find(|chunk| chunk.entity_path().to_string() == "/config").unwrap();
     let text = format!("{:?}", config.components().get_array(::rerun::TextDocument::descriptor_text().component));
     assert!(text.contains("name: bouncing"), "{text}");
+    let pages = store.iter_physical_chunks().filter(|chunk| chunk.entity_path().to_string() == "/headline");
+    let pages: String = pages.map(|page| format!("{:?}", page.components())).collect();
+    for part in ["Diverged at t = 0.25 s", "Does it bounce?", "first contact", "1 → 40000 J", s::WARNING, "residual"]
+    {
+        assert!(pages.contains(part), "{part}: {pages}");
+    }
+    assert!(!pages.contains("Not finished"), "the page of a cut recording is replaced: {pages}");
 }
 
 #[test]

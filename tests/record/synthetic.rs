@@ -3,8 +3,9 @@
 
 use gotai::outcome::Outcome;
 use gotai::record::name::RecordingName;
-use gotai::record::sample::{Batch, BodyHeader, ContactSample, Ending, EnergySample, Header, Streams};
-use gotai::rows::BodyRow;
+use gotai::record::sample::{Batch, BodyHeader, ContactSample, Ending, EnergySample, Header, Streams, contact_mode};
+use gotai::record::story::{Decisive, EnergyGain, Story, TurningPoint};
+use gotai::rows::{BodyRow, Measured, cells};
 
 pub const ALL: Streams = Streams { bodies: true, contacts: true, forces: true, energy: true };
 pub const NONE: Streams = Streams { bodies: false, contacts: false, forces: false, energy: false };
@@ -15,6 +16,7 @@ pub const CONFIG: &str = "name: bouncing\nscene:\n  bodies:\n    - { name: cube,
 const HALF_EDGE_M: f64 = 0.4;
 const MASS_KG: f64 = 1.0;
 const BOUNCE_M: f64 = 2.0;
+const FRICTION: f64 = 0.5;
 
 pub fn header(streams: Streams) -> Header {
     Header {
@@ -22,6 +24,8 @@ pub fn header(streams: Streams) -> Header {
         name: RecordingName::new(&["0.5".to_owned(), "fine".to_owned()], "01234567"),
         axes: vec![("scene.friction".to_owned(), 0.5.into()), ("method".to_owned(), "fine".into())],
         title: "A cube bounces in a box".to_owned(),
+        question: "Does it bounce?".to_owned(),
+        method: "lecture".to_owned(),
         program: "gotai 0.0.0".to_owned(),
         build: "0123abcd".to_owned(),
         config_yaml: CONFIG.to_owned(),
@@ -30,12 +34,19 @@ pub fn header(streams: Streams) -> Header {
         streams,
         bodies: vec![BodyHeader {
             name: "cube[0]".to_owned(),
+            has_no_shape: false,
+            touches_with_nodes: true,
+            pins_m: Vec::new(),
             vertices_m: corners(HALF_EDGE_M).to_vec(),
             triangles: TRIANGLES.to_vec(),
             bounding_radius_m: HALF_EDGE_M * 3.0_f64.sqrt(),
         }],
         container_strips_m: box_strips(),
+        planes: vec![([0.0, 1.0, 0.0], 0.0)],
+        ground: ([0.0; 3], 2.0),
         arrow_m_per_n: 0.02,
+        arrow_weight_n: Some(9.8),
+        energy_factor: Some(1000.0),
     }
 }
 
@@ -50,6 +61,26 @@ pub fn ending() -> Ending {
         steps: 250,
         warnings: Some(WARNING.to_owned()),
         notes: None,
+        row: cells(&Measured { contacts_max: 4, residual_max: Some(0.8), ..Measured::default() }),
+        story: story(),
+    }
+}
+
+/// A first contact, and a gain that ends it.
+pub fn story() -> Story {
+    let turn = |what, step, text: &str| TurningPoint { what, step, time_s: time_s(step), text: text.to_owned() };
+    let gain = EnergyGain { step: 240, time_s: time_s(240), before_j: 1.0, after_j: 40_000.0 };
+    Story {
+        turns: vec![
+            turn(Decisive::FirstContact, 0, "cube[0] and container"),
+            turn(Decisive::Onset, 240, "1 → 40000 J"),
+            turn(Decisive::End, 250, "diverged: energy"),
+        ],
+        gains: vec![gain],
+        gains_count: 1,
+        start_j: energy(0).total_j,
+        stretch_s: [0.2, 0.25],
+        calm_until_s: 0.24,
     }
 }
 
@@ -106,15 +137,12 @@ pub fn contacts(i: u64) -> Vec<ContactSample> {
         [px + cos * x - sin * y, py + sin * x + cos * y, pz + z]
     };
     let near = corners(HALF_EDGE_M).map(corner).into_iter().filter(|point| point[1] < 0.1);
-    near.map(|point| ContactSample {
-        body: 0,
-        other: None,
-        point_m: point,
-        normal: [0.0, 1.0, 0.0],
-        force_n: [3.0 * sin, 300.0 * (0.1 - point[1]), 0.0],
-        gap_m: point[1],
-    })
-    .collect()
+    let contact = |point: [f64; 3]| {
+        let (normal, force_n) = ([0.0, 1.0, 0.0], [3.0 * sin, 300.0 * (0.1 - point[1]), 0.0]);
+        let (mode, friction_use) = contact_mode(force_n, normal, FRICTION);
+        ContactSample { body: 0, other: None, point_m: point, normal, force_n, gap_m: point[1], friction_use, mode }
+    };
+    near.map(contact).collect()
 }
 
 pub fn energy(i: u64) -> EnergySample {

@@ -57,6 +57,9 @@ const ROOMS: &[(&str, &[&str])] = &[
         "record",
         &[
             "shown",
+            "shape",
+            "collide",
+            "work",
             "measure",
             "case",
             "rows",

@@ -1,51 +1,74 @@
 //! Head of an .rrd, once, before the first sample: layout, names, surfaces, colours, configuration.
 
-use super::layout;
+use super::camera::{Camera, camera, scale};
 use super::names::{
-    APPLICATION, CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, WORLD, energy_path,
+    CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, FRICTION_USE, GAINS, GROUND, HEADLINE, LIMIT,
+    LOG_ENERGY_TOTAL, LOG_GAINS, SIM_TIME, STEP, TRAILS, WORLD, application, energy_path,
 };
-use crate::record::name::RecordingName;
-use crate::record::sample::{BodyHeader, Ending, Header};
+use super::seen::{Seen, log_part};
+use super::{headline, layout};
+use crate::record::sample::{BodyHeader, Ending, Header, cross, dot, norm};
 use crate::record::schema::{self, Rgb};
+use crate::record::story::EnergyGain;
 use ::rerun::components::{Radius, Scalar, Text};
 use ::rerun::log::LogMsg;
 use ::rerun::sink::MemorySinkStorage;
 use ::rerun::{
     AnyValues, Arrows3D, Color, ComponentIdentifier, EntityPath, LineStrips3D, Mesh3D, Points3D, RecordingStream,
-    RecordingStreamBuilder, RecordingStreamResult, SeriesLines, StoreId, TextDocument, ViewCoordinates,
+    RecordingStreamBuilder, RecordingStreamResult, Scalars, SeriesLines, SeriesPoints, StoreId, TextDocument,
+    Transform3D, ViewCoordinates,
 };
+use std::collections::BTreeMap;
 use std::error::Error;
 
 /// Sizes on the screen, in points, so that they are legible at any zoom.
 const POINT_RADIUS: f32 = 4.0;
+const NODE_RADIUS: f32 = 1.5;
 const ARROW_RADIUS: f32 = 2.0;
 const LINE_RADIUS: f32 = 1.0;
+const EDGE_RADIUS: f32 = 0.6;
 const PLOT_WIDTH: f32 = 1.5;
+const MARK_SIZE: f32 = 4.0;
 
 /// Most triangles of a body that is shaded by facet, 72 bytes each; above, corners are shared, half of that.
 const FACETED_TRIANGLES: usize = 20_000;
+/// Most triangles of a body whose edges are drawn, and most bodies of which they are.
+const EDGED_TRIANGLES: usize = 4_000;
+pub const EDGED_BODIES: usize = 400;
 
-/// Opacity of bodies, of 255: the forces on a body mostly point into it and should be seen.
-const BODY_ALPHA: u8 = 190;
+/// Opacity of the ground, of 255: what is below it, and forces on it, should be seen.
+const GROUND_ALPHA: u8 = 70;
+
+/// Cosine of the angle between two facets below which their edge is one of the body's.
+const SHARP: f64 = 0.94;
+
+/// Colours of what stands beside the bodies.
+const GROUND_COLOUR: Rgb = [110, 120, 140];
+const EDGE_COLOUR: Rgb = [24, 28, 36];
+const LIGHT_EDGE_COLOUR: Rgb = [190, 205, 225];
+const LIMIT_COLOUR: Rgb = [225, 87, 89];
+const AXES_COLOURS: [Rgb; 3] = [[235, 80, 80], [100, 210, 90], [90, 140, 250]];
 
 /// Name and first messages of the recording. `bodies` are the bodies' entities, in the header's order.
 ///
 /// # Errors
 /// Rerun's own.
 pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
-    let (stream, memory) = stream(&recording_id(header))?;
+    let (stream, memory) = stream(header)?;
     let store = memory.store_id().ok_or("Rerun made no recording")?;
 
-    let mut messages = layout::messages(header)?;
+    let mut messages = layout::messages(header, None)?;
     describe(header, &stream)?;
     if header.streams.bodies {
         for ((body, path), colour) in header.bodies.iter().zip(bodies).zip(schema::BODY_COLOURS.iter().cycle()) {
-            stream.log_static(path.clone(), &surface(body, *colour))?;
+            stream.log_static(path.clone(), &surface(body, *colour, u8::MAX))?;
+            if header.bodies.len() <= EDGED_BODIES {
+                details(body, path, &stream)?;
+            }
         }
     }
-    if !header.container_strips_m.is_empty() {
-        stream.log_static(CONTAINER, &container(header))?;
-    }
+    walls(header, &stream)?;
+    ground(header, header.ground.0, header.ground.1, &stream)?;
     styles(header, &stream)?;
     messages.extend(memory.take());
     Ok((store, messages))
@@ -53,30 +76,51 @@ pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<
 
 /// Id of the recording, with the build in it: cases of another build have the same id, and the viewer would merge
 /// recordings that share one.
-pub fn recording_id(header: &Header) -> String {
+fn recording_id(header: &Header) -> String {
     format!("{} {}", header.case, header.build)
 }
 
-/// Messages that the end of a run adds to the recording of this id: its name, and how the run ended.
-pub fn ending(
-    recording_id: &str,
-    name: &RecordingName,
-    ending: &Ending,
-) -> RecordingStreamResult<impl Iterator<Item = LogMsg>> {
-    let (stream, memory) = stream(recording_id)?;
-    stream.send_recording_name(name.ended(ending.outcome))?;
+/// Messages that the end of a run adds to its recording: its name, how the run ended, the page and the layout that it
+/// opens with, and what could not be drawn before.
+///
+/// # Errors
+/// Rerun's own.
+pub fn ending(header: &Header, ending: &Ending, seen: &Seen) -> Result<Vec<LogMsg>, Box<dyn Error>> {
+    let (stream, memory) = stream(header)?;
+    stream.send_recording_name(header.name.ended(ending.outcome))?;
     let run = AnyValues::default()
         .with_component::<Text>("outcome", [ending.outcome.name()])
         .with_component::<Scalar>("end_time_s", [ending.end_time_s])
         .with_component::<Scalar>("steps", [ending.steps as f64]);
     let run = ending.texts().fold(run, |run, (field, text)| run.with_component::<Text>(field, [text]));
+    let row = ending
+        .row
+        .iter()
+        .filter(|(column, _)| !["outcome", "criterion", "end_time_s", "steps"].contains(&column.as_str()));
+    let named = row.filter_map(|(column, cell)| Some((ComponentIdentifier::try_new(column).ok()?, cell)));
+    let run = named.fold(run, |run, (column, cell)| match cell.as_f64() {
+        Some(x) => run.with_component::<Scalar>(column, [x]),
+        None => run.with_component::<Text>(column, [schema::text(cell)]),
+    });
     stream.send_property(schema::METADATA, &run)?;
+    stream.log_static(HEADLINE, &TextDocument::from_markdown(headline::page(header, ending)))?;
+    let camera = camera(header, seen, ending.story.calm_until_s);
+    if let Some(Camera { middle, half_m, .. }) = camera {
+        ground(header, middle, 1.6 * half_m, &stream)?;
+    }
+    trails(header, seen, &stream)?;
+    marks(header, ending, seen, &stream)?;
     // The recording is there already: what opens one is left out.
-    Ok(memory.take().into_iter().filter(|message| matches!(message, LogMsg::ArrowMsg(..))))
+    let mut messages = layout::messages(header, Some((ending, seen, camera)))?;
+    messages.extend(memory.take().into_iter().filter(|message| matches!(message, LogMsg::ArrowMsg(..))));
+    Ok(messages)
 }
 
-fn stream(recording_id: &str) -> RecordingStreamResult<(RecordingStream, MemorySinkStorage)> {
-    RecordingStreamBuilder::new(APPLICATION).recording_id(recording_id).enabled(true).memory()
+fn stream(header: &Header) -> Result<(RecordingStream, MemorySinkStorage), Box<dyn Error>> {
+    Ok(RecordingStreamBuilder::new(application(&header.name.begun())?)
+        .recording_id(recording_id(header))
+        .enabled(true)
+        .memory()?)
 }
 
 fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
@@ -88,6 +132,7 @@ fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<
         None => run.with_component::<Text>(field, [schema::text(value)]),
     });
     let run = axes
+        .with_component::<Text>("schema", [schema::VERSION])
         .with_component::<Text>("case", [header.case.as_str()])
         .with_component::<Text>("title", [header.title.as_str()])
         .with_component::<Text>("program", [header.program.as_str()])
@@ -102,12 +147,26 @@ fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<
         header.config_yaml.trim_end()
     );
     stream.log_static(CONFIG, &TextDocument::from_markdown(page))?;
-    stream.log_static(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())
+    stream.log_static(HEADLINE, &TextDocument::from_markdown(headline::begun(header)))?;
+    stream.log_static("/", &ViewCoordinates::RIGHT_HAND_Y_UP())?;
+    stream.log_static(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())?;
+    let scale = scale(header);
+    if scale != 1.0 {
+        stream.log_static(WORLD, &Transform3D::from_scale(scale as f32))?;
+    }
+    Ok(())
 }
 
-fn surface(body: &BodyHeader, [r, g, b]: Rgb) -> Mesh3D {
-    let mesh = if body.triangles.len() <= FACETED_TRIANGLES { faceted(body) } else { smooth(body) };
-    mesh.with_albedo_factor(*Color::from_unmultiplied_rgba(r, g, b, BODY_ALPHA))
+/// A body's surface in a colour of this opacity.
+pub fn surface(body: &BodyHeader, [r, g, b]: Rgb, alpha: u8) -> Mesh3D {
+    let is_faceted = body.triangles.len() <= FACETED_TRIANGLES && !is_round(body);
+    let mesh = if is_faceted { faceted(body) } else { smooth(body) };
+    mesh.with_albedo_factor(*Color::from_unmultiplied_rgba(r, g, b, alpha))
+}
+
+/// Whether no edge of it is sharp.
+fn is_round(body: &BodyHeader) -> bool {
+    body.triangles.len() <= FACETED_TRIANGLES && !body.touches_with_nodes && sharp_edges(body).is_empty()
 }
 
 /// Triangles with corners and normals of their own: edges show.
@@ -143,12 +202,125 @@ fn corners_and_normal(body: &BodyHeader, triangle: &[u32; 3]) -> Option<([[f64; 
     let corner = |i: usize| body.vertices_m.get(triangle[i] as usize).copied();
     let (a, b, c) = (corner(0)?, corner(1)?, corner(2)?);
     let (u, v) = (minus(b, a), minus(c, a));
-    let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    Some(([a, b, c], normal))
+    Some(([a, b, c], cross(u, v)))
+}
+
+/// What makes a turn visible: edges, nodes that touch, places on pins, and of a body without a shape its axes.
+pub fn details(body: &BodyHeader, path: &EntityPath, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    let below = |name: &str| path.join(&EntityPath::from_single_string(name));
+    let strips = if body.triangles.len() <= EDGED_TRIANGLES { edges(body) } else { Vec::new() };
+    if !strips.is_empty() {
+        // What has no shape is seen by its lines.
+        let edge_colour = if body.has_no_shape { LIGHT_EDGE_COLOUR } else { EDGE_COLOUR };
+        let lines =
+            LineStrips3D::new(strips.iter().map(|strip| strip.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>()));
+        let lines = lines.with_colors([color(edge_colour)]).with_radii([Radius::new_ui_points(EDGE_RADIUS)]);
+        stream.log_static(below("edges"), &lines)?;
+    }
+    if body.touches_with_nodes {
+        let nodes = Points3D::new(body.vertices_m.iter().map(|p| p.map(|x| x as f32)));
+        let nodes = nodes.with_colors([color(EDGE_COLOUR)]).with_radii([Radius::new_ui_points(NODE_RADIUS)]);
+        stream.log_static(below("nodes"), &nodes)?;
+    }
+    if !body.pins_m.is_empty() {
+        let arms = LineStrips3D::new(body.pins_m.iter().map(|p| vec![[0.0f32; 3], p.map(|x| x as f32)]));
+        let arms = arms.with_colors([color(schema::CONTAINER_COLOUR)]).with_radii([Radius::new_ui_points(LINE_RADIUS)]);
+        stream.log_static(below("arms"), &arms)?;
+        let pins = Points3D::new(body.pins_m.iter().map(|p| p.map(|x| x as f32)));
+        let pins =
+            pins.with_colors([color(schema::CONTAINER_COLOUR)]).with_radii([Radius::new_ui_points(POINT_RADIUS)]);
+        stream.log_static(below("pins"), &pins)?;
+    }
+    if body.has_no_shape {
+        let axis = |i: usize| {
+            let reach_m = body.vertices_m.iter().map(|v| v[i]).fold(0.0, f64::max);
+            std::array::from_fn::<f32, 3, _>(|k| if k == i { (1.4 * reach_m) as f32 } else { 0.0 })
+        };
+        let axes = Arrows3D::from_vectors([0, 1, 2].map(axis)).with_colors(AXES_COLOURS.map(color));
+        stream.log_static(below("axes"), &axes.with_radii([Radius::new_ui_points(ARROW_RADIUS)]))?;
+    }
+    Ok(())
+}
+
+/// Edges of a mesh by their ends, with the normals of the facets that meet there.
+type Edges = BTreeMap<[[u64; 3]; 2], ([[f64; 3]; 2], Vec<[f64; 3]>)>;
+
+fn all_edges(body: &BodyHeader) -> Edges {
+    let place = |p: [f64; 3]| p.map(|x| if x == 0.0 { 0 } else { x.to_bits() });
+    // Facets may have corners of their own at the same place.
+    let mut facets = Edges::new();
+    for triangle in &body.triangles {
+        let Some((corners, normal)) = corners_and_normal(body, triangle) else { continue };
+        let length = norm(normal);
+        for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+            let mut ends = [place(corners[a]), place(corners[b])];
+            ends.sort_unstable();
+            let at = facets.entry(ends).or_insert_with(|| ([corners[a], corners[b]], Vec::new()));
+            at.1.push(normal.map(|x| x / length));
+        }
+    }
+    facets
+}
+
+fn sharp_edges(body: &BodyHeader) -> Vec<Vec<[f64; 3]>> {
+    let is_sharp = |normals: &[[f64; 3]]| !matches!(normals, [a, b] if dot(*a, *b) > SHARP);
+    let edges = all_edges(body).into_values();
+    edges.filter(|(_, normals)| is_sharp(normals)).map(|(ends, _)| ends.to_vec()).collect()
+}
+
+/// Lines on a body: of a mesh its squares, of another one the sharp edges, of a round one its three great circles.
+fn edges(body: &BodyHeader) -> Vec<Vec<[f64; 3]>> {
+    if body.touches_with_nodes {
+        // The diagonal of a square of the mesh lies in a face and along no axis.
+        const FLAT: f64 = 0.9999;
+        let is_diagonal = |[a, b]: [[f64; 3]; 2], normals: &[[f64; 3]]| {
+            let along = minus(b, a);
+            let oblique = along.iter().filter(|x| x.abs() > 1e-9 * norm(along)).count() > 1;
+            oblique && matches!(normals, [a, b] if dot(*a, *b) > FLAT)
+        };
+        let edges = all_edges(body).into_values();
+        return edges.filter(|(ends, normals)| !is_diagonal(*ends, normals)).map(|(ends, _)| ends.to_vec()).collect();
+    }
+    let sharp = sharp_edges(body);
+    if sharp.is_empty() { great_circles(body) } else { sharp }
+}
+
+/// Three loops about a round body, a little outside.
+fn great_circles(body: &BodyHeader) -> Vec<Vec<[f64; 3]>> {
+    const POINTS: usize = 48;
+    const OUTSIDE: f64 = 1.003;
+    let end = |i: usize, pick: fn(f64, f64) -> f64, from: f64| body.vertices_m.iter().map(|v| v[i]).fold(from, pick);
+    let low: [f64; 3] = std::array::from_fn(|i| end(i, f64::min, f64::INFINITY));
+    let high: [f64; 3] = std::array::from_fn(|i| end(i, f64::max, f64::NEG_INFINITY));
+    let circle = |(a, b): (usize, usize)| {
+        let point = |k: usize| {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * k as f64 / POINTS as f64);
+            let turned = |i: usize| {
+                if i == a {
+                    cos
+                } else if i == b {
+                    sin
+                } else {
+                    0.0
+                }
+            };
+            std::array::from_fn(|i| 0.5 * (low[i] + high[i]) + 0.5 * OUTSIDE * (high[i] - low[i]) * turned(i))
+        };
+        (0..=POINTS).map(point).collect()
+    };
+    [(0, 1), (1, 2), (2, 0)].map(circle).into()
 }
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| a[i] - b[i])
+}
+
+/// The edges of a container of box form.
+pub fn walls(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    if header.container_strips_m.is_empty() {
+        return Ok(());
+    }
+    stream.log_static(CONTAINER, &container(header))
 }
 
 fn container(header: &Header) -> LineStrips3D {
@@ -159,31 +331,106 @@ fn container(header: &Header) -> LineStrips3D {
         .with_radii([Radius::new_ui_points(LINE_RADIUS)])
 }
 
+/// The ground: a box's floor, squares of planes about the middle of the motion.
+pub fn ground(header: &Header, middle: [f64; 3], half_m: f64, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    let squares: Vec<[[f64; 3]; 4]> = match header.container_box_m() {
+        Some((low, high)) => {
+            let corner = |x: f64, z: f64| [x, low[1], z];
+            vec![[corner(low[0], low[2]), corner(low[0], high[2]), corner(high[0], high[2]), corner(high[0], low[2])]]
+        }
+        None => header.squares(middle, half_m),
+    };
+    if squares.is_empty() || half_m.is_nan() || half_m <= 0.0 {
+        return Ok(());
+    }
+    let corners = squares.iter().flat_map(|square| [0, 1, 2, 0, 2, 3].map(|i: usize| square[i].map(|x| x as f32)));
+    let [r, g, b] = GROUND_COLOUR;
+    let mesh = Mesh3D::new(corners).with_albedo_factor(*Color::from_unmultiplied_rgba(r, g, b, GROUND_ALPHA));
+    stream.log_static(GROUND, &mesh)?;
+    if header.container_strips_m.is_empty() {
+        let border = |square: &[[f64; 3]; 4]| [0, 1, 2, 3, 0].map(|i: usize| square[i].map(|x| x as f32)).to_vec();
+        let lines = LineStrips3D::new(squares.iter().map(border)).with_colors([color(schema::CONTAINER_COLOUR)]);
+        stream.log_static(CONTAINER, &lines.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
+    }
+    Ok(())
+}
+
+/// The ways of the bodies, each in its body's colour.
+fn trails(header: &Header, seen: &Seen, stream: &RecordingStream) -> RecordingStreamResult<()> {
+    for (i, way) in seen.ways().filter(|_| header.streams.bodies) {
+        let [r, g, b] = schema::BODY_COLOURS[i % schema::BODY_COLOURS.len()];
+        let line = LineStrips3D::new([way.to_vec()]).with_colors([Color::from_unmultiplied_rgba(r, g, b, 140)]);
+        let path = EntityPath::from(TRAILS).join(&EntityPath::from_single_string(&*header.bodies[i].name));
+        stream.log_static(path, &line.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
+    }
+    Ok(())
+}
+
+/// Marks on the plots of energy: the limit of divergence, the steps that gained energy.
+fn marks(header: &Header, ending: &Ending, seen: &Seen, stream: &RecordingStream) -> Result<(), Box<dyn Error>> {
+    if !header.streams.energy || seen.energy_j.is_empty() {
+        return Ok(());
+    }
+    let at = |step: u64, time_s: f64| {
+        stream.set_duration_secs(SIM_TIME, time_s);
+        stream.set_time_sequence(STEP, i64::try_from(step).unwrap_or(i64::MAX));
+    };
+    let start_j = ending.story.start_j;
+    if let Some(factor) = header.energy_factor.filter(|_| !seen.log_energy.is_empty()) {
+        stream.log_static(LIMIT, &line(&format!("diverged: × {factor}"), LIMIT_COLOUR))?;
+        for (step, time_s) in [(0, 0.0), (ending.steps, ending.end_time_s)] {
+            at(step, time_s);
+            stream.log(LIMIT, &Scalars::single(libm::log10(factor)))?;
+        }
+    }
+    if ending.story.gains.is_empty() {
+        return Ok(());
+    }
+    let style = || {
+        let points = SeriesPoints::new().with_colors([color(LIMIT_COLOUR)]).with_names(["steps that gain energy"]);
+        points.with_marker_sizes([MARK_SIZE])
+    };
+    stream.log_static(GAINS, &style())?;
+    stream.log_static(LOG_GAINS, &style())?;
+    for EnergyGain { step, time_s, after_j, .. } in &ending.story.gains {
+        at(*step, *time_s);
+        stream.log(GAINS, &Scalars::single(*after_j))?;
+        if let Some(part) = log_part(*after_j, Some(start_j)).filter(|_| start_j > 0.0) {
+            stream.log(LOG_GAINS, &Scalars::single(part))?;
+        }
+    }
+    Ok(())
+}
+
 /// Colours, sizes and names of what follows sample by sample.
 fn styles(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
     let streams = header.streams;
     if streams.contacts {
-        let style = Points3D::update_fields().with_colors([color(schema::CONTACT_COLOUR)]);
-        stream.log_static(CONTACTS, &style.with_radii([Radius::new_ui_points(POINT_RADIUS)]))?;
+        stream.log_static(CONTACTS, &Points3D::update_fields().with_radii([Radius::new_ui_points(POINT_RADIUS)]))?;
         stream.log_static(CONTACT_COUNT, &line("contacts", schema::CONTAINER_COLOUR))?;
     }
     if streams.forces {
         let style = Arrows3D::update_fields().with_colors([color(schema::FORCE_COLOUR)]);
         stream.log_static(FORCES, &style.with_radii([Radius::new_ui_points(ARROW_RADIUS)]))?;
         stream.log_static(CONTACT_FORCE, &line("sum of |force| [N]", schema::FORCE_COLOUR))?;
+        let sliding = schema::mode_colour(crate::record::sample::ContactMode::Sliding);
+        stream.log_static(FRICTION_USE, &line("largest |f_t| / μ f_n", sliding))?;
     }
     if streams.energy {
         for series in &schema::ENERGY_SERIES {
             stream.log_static(energy_path(series), &line(series.label, series.colour))?;
         }
+        stream.log_static(LOG_ENERGY_TOTAL, &line("log₁₀ E / E₀", schema::BODY_COLOURS[1]))?;
     }
     Ok(())
 }
 
-fn line(label: &str, colour: Rgb) -> SeriesLines {
+/// The line of a plot.
+pub fn line(label: &str, colour: Rgb) -> SeriesLines {
     SeriesLines::new().with_names([label]).with_colors([color(colour)]).with_widths([PLOT_WIDTH])
 }
 
-fn color([r, g, b]: Rgb) -> Color {
+/// A colour without opacity of its own.
+pub fn color([r, g, b]: Rgb) -> Color {
     Color::from_rgb(r, g, b)
 }

@@ -1,55 +1,133 @@
-//! The layout that the viewer opens with: the scene beside its plots, events and configuration below.
+//! The layout that the viewer opens with: the scene beside what happened and its plots, the log below.
+//!
+//! It is written twice: at the head for a recording that is cut, and, since a story is known at its end, with the end.
+//! The viewer takes the last.
 
-use super::names::{APPLICATION, CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, LOG, PENETRATION, SIM_TIME, WORLD};
-use crate::record::sample::{Header, Streams};
+use super::camera::{Camera, scale, spacing_m};
+use super::names::{
+    CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION, SIM_TIME,
+    application, body_path,
+};
+use super::seen::{Between, Seen};
+use crate::record::sample::{Ending, Header, norm};
+use crate::record::schema;
 use ::rerun::blueprint::{
     Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, Tabs,
     TextDocumentView, TextLogView, TimePanel, TimeSeriesView, Vertical,
 };
-use ::rerun::external::re_sdk_types::blueprint::archetypes::{EyeControls3D, PlotLegend};
-use ::rerun::external::re_sdk_types::blueprint::components::{Corner2D, PanelState};
+use ::rerun::components::{Color, Plane3D, Range1D};
+use ::rerun::external::re_log_types::TimeInt;
+use ::rerun::external::re_sdk_types::blueprint::archetypes::{
+    Background, EyeControls3D, LineGrid3D, PlotLegend, ScalarAxis, TimeAxis,
+};
+use ::rerun::external::re_sdk_types::blueprint::components::{
+    BackgroundKind, Corner2D, LinkAxis, LoopMode, PanelState, PlayState,
+};
 use ::rerun::log::LogMsg;
-use ::rerun::{AsComponents, RecordingStreamBuilder, StoreId};
+use ::rerun::{ApplicationId, AsComponents, RecordingStreamBuilder, StoreId};
 use std::error::Error;
 
-/// Place of the camera, seen from the container's centre, in diagonals of the container: in front, to the right, above,
-/// far enough for all of it.
-const EYE: [f64; 3] = [0.48, 0.36, 0.90];
+/// What a layout is made for that comes with the end: the end, what was seen, the camera.
+pub type Known<'a> = (&'a Ending, &'a Seen, Option<Camera>);
 
-/// A plot, and whether it has more than one line.
-type Plot = (TimeSeriesView, bool);
+/// Growth of the energy from which its logarithm is plotted.
+const GROWTH: f64 = 10.0;
+/// Least heights of plots, so that rounding is no drama: of an energy at the start, of a body's size.
+const ENERGY_FLOOR: f64 = 1e-3;
+const LENGTH_FLOOR: f64 = 1e-6;
+/// Part of a plot's height that is left for its legend.
+const LEGEND: f64 = 0.42;
+/// Seconds in which the decisive stretch is played.
+const PLAYED_S: f64 = 5.0;
 
-/// The layout as messages of a blueprint store, complete with its activation.
+const BACKGROUND: [u8; 3] = [26, 29, 34];
+const GRID: [u8; 4] = [120, 125, 140, 60];
+
+/// A plot, the range of its values, and the corner of its legend, if it has more than one line.
+pub struct Plot {
+    pub name: &'static str,
+    pub path: &'static str,
+    pub range: Option<[f64; 2]>,
+    pub legend: Option<Corner2D>,
+}
+
+/// What a recording opens with.
+pub struct Opening {
+    pub application: ApplicationId,
+    pub eye: Option<EyeControls3D>,
+    pub grid: LineGrid3D,
+    pub energy: Option<Plot>,
+    pub contacts: Vec<Plot>,
+    /// Whether there is a page with the configuration.
+    pub has_config: bool,
+    /// Part of the run that is played.
+    pub stretch_s: Option<[f64; 2]>,
+}
+
+/// The layout of a recording, before its end or with it, as messages of a blueprint store, complete with its
+/// activation.
 ///
 /// # Errors
 /// Rerun's own.
-pub fn messages(header: &Header) -> Result<Vec<LogMsg>, Box<dyn Error>> {
-    let mut properties = Properties::default();
-    let scene: ContainerLike = Spatial3DView::new("scene").with_origin(WORLD).into();
-    if let Some(eye) = eye(header) {
-        properties.add(&scene, "EyeControls3D", eye);
-    }
-    let mut plots = Vec::new();
-    for (plot, several) in self::plots(header.streams) {
-        let plot: ContainerLike = plot.into();
-        properties.add(&plot, "PlotLegend", PlotLegend::new().with_visible(several).with_corner(Corner2D::RightTop));
-        plots.push(plot);
-    }
+pub fn messages(header: &Header, known: Option<Known<'_>>) -> Result<Vec<LogMsg>, Box<dyn Error>> {
+    let camera = known.and_then(|(.., camera)| camera);
+    let opening = Opening {
+        application: application(&header.name.begun())?,
+        eye: eye(header, camera),
+        grid: grid(header, camera),
+        energy: energy_plot(header, known),
+        contacts: contact_plots(header, known),
+        has_config: true,
+        stretch_s: known.map(|(ending, ..)| ending.story.stretch_s),
+    };
+    opening.messages()
+}
 
-    // The public interface only sends a layout through a recording's stream; the recording is thrown away.
-    let (stream, memory) = RecordingStreamBuilder::new(APPLICATION).enabled(true).memory()?;
-    blueprint(scene, plots).send(&stream, BlueprintActivation::default())?;
-    let mut messages = memory.take();
-    let recording = memory.store_id();
-    messages.retain(|message| Some(message.store_id()) != recording.as_ref());
+impl Opening {
+    /// The layout as messages of a blueprint store, complete with its activation.
+    ///
+    /// # Errors
+    /// Rerun's own.
+    pub fn messages(self) -> Result<Vec<LogMsg>, Box<dyn Error>> {
+        let Opening { application, eye, grid, energy, contacts, has_config, stretch_s } = self;
+        let mut properties = Properties::default();
+        let scene: ContainerLike = Spatial3DView::new("scene").with_origin("/").with_contents(["+ /world/**"]).into();
+        let [r, g, b] = BACKGROUND;
+        let background = Background::new(BackgroundKind::SolidColor).with_color(Color::from_rgb(r, g, b));
+        properties.add(&scene, "Background", background);
+        if let Some(eye) = eye {
+            properties.add(&scene, "EyeControls3D", eye);
+        }
+        properties.add(&scene, "LineGrid3D", grid);
+        let mut view = |plot: Plot| {
+            let view: ContainerLike = TimeSeriesView::new(plot.name).with_origin(plot.path).into();
+            let legend = PlotLegend::new().with_visible(plot.legend.is_some());
+            let legend = plot.legend.into_iter().fold(legend, PlotLegend::with_corner);
+            properties.add(&view, "PlotLegend", legend);
+            properties.add(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
+            if let Some([low, high]) = plot.range {
+                properties.add(&view, "ScalarAxis", ScalarAxis::new().with_range(Range1D::new(low, high)));
+            }
+            view
+        };
+        let energy = energy.map(&mut view);
+        let contacts: Vec<_> = contacts.into_iter().map(&mut view).collect();
 
-    // The activation ends a layout; whatever comes later is not part of it.
-    let last = messages.iter().rposition(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
-    if let Some(last) = last {
-        let store = messages[last].store_id().clone();
-        messages.splice(last..last, properties.messages(&store)?);
+        // The public interface only sends a layout through a recording's stream; the recording is thrown away.
+        let (stream, memory) = RecordingStreamBuilder::new(application).enabled(true).memory()?;
+        blueprint(scene, energy, contacts, has_config, stretch_s).send(&stream, BlueprintActivation::default())?;
+        let mut messages = memory.take();
+        let recording = memory.store_id();
+        messages.retain(|message| Some(message.store_id()) != recording.as_ref());
+
+        // The activation ends a layout; whatever comes later is not part of it.
+        let last = messages.iter().rposition(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
+        if let Some(last) = last {
+            let store = messages[last].store_id().clone();
+            messages.splice(last..last, properties.messages(&store)?);
+        }
+        Ok(messages)
     }
-    Ok(messages)
 }
 
 /// Properties of views that the public interface has no words for: camera, legend.
@@ -77,45 +155,176 @@ impl Properties {
     }
 }
 
-fn blueprint(scene: ContainerLike, plots: Vec<ContainerLike>) -> Blueprint {
-    let notes = Tabs::new([
-        TextLogView::new("events").with_origin(LOG).into(),
-        TextDocumentView::new("configuration").with_origin(CONFIG).into(),
-    ]);
-    let left = Vertical::new([scene, notes.into()]).with_row_shares([3.0, 1.0]);
-    let root: ContainerLike = if plots.is_empty() {
-        left.into()
-    } else {
-        Horizontal::new([left.into(), Vertical::new(plots).into()]).with_column_shares([3.0, 2.0]).into()
-    };
+fn blueprint(
+    scene: ContainerLike,
+    energy: Option<ContainerLike>,
+    contacts: Vec<ContainerLike>,
+    has_config: bool,
+    stretch_s: Option<[f64; 2]>,
+) -> Blueprint {
+    let mut notes: Vec<ContainerLike> = vec![TextLogView::new("events").with_origin(LOG).into()];
+    if has_config {
+        notes.push(TextDocumentView::new("configuration").with_origin(CONFIG).into());
+    }
+    let notes = Tabs::new(notes);
+    let left = Vertical::new([scene, notes.into()]).with_row_shares([3.2, 1.0]);
+    let headline: ContainerLike = TextDocumentView::new("what happened").with_origin(HEADLINE).into();
+    let mut right = vec![headline];
+    let mut shares = vec![2.4];
+    if let Some(energy) = energy {
+        right.push(energy);
+        shares.push(1.8);
+    }
+    if !contacts.is_empty() {
+        right.push(Tabs::new(contacts).into());
+        shares.push(1.2);
+    }
+    let right = Vertical::new(right).with_row_shares(shares);
+    let root = Horizontal::new([left.into(), right.into()]).with_column_shares([1.05, 1.0]);
+    let time = TimePanel::new().with_timeline(SIM_TIME).with_state(PanelState::Collapsed);
     Blueprint::new(root)
         .with_auto_views(false)
         .with_auto_layout(false)
-        .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Collapsed))
-        .with_selection_panel(SelectionPanel::from_state(PanelState::Collapsed))
-        .with_time_panel(TimePanel::new().with_timeline(SIM_TIME).with_state(PanelState::Collapsed))
+        .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
+        .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
+        .with_time_panel(match stretch_s {
+            Some(stretch_s) => played(time, stretch_s),
+            None => time,
+        })
 }
 
-/// Only what is recorded has a plot.
-fn plots(streams: Streams) -> Vec<Plot> {
-    let plot = |name: &str, path: &str| TimeSeriesView::new(name).with_origin(path);
-    [
-        (streams.energy, plot("energy [J]", ENERGY), true),
-        (streams.energy, plot("penetration [m]", PENETRATION), false),
-        (streams.forces, plot("sum of |contact force| [N]", CONTACT_FORCE), false),
-        (streams.contacts, plot("contacts", CONTACT_COUNT), false),
-    ]
-    .into_iter()
-    .filter_map(|(on, plot, several)| on.then_some((plot, several)))
-    .collect()
+/// Plays the decisive stretch again and again, in a few seconds.
+fn played(time: TimePanel, [from_s, to_s]: [f64; 2]) -> TimePanel {
+    let length_s = to_s - from_s;
+    if length_s.is_nan() || length_s <= 0.0 {
+        return time;
+    }
+    let at = |time_s: f64| TimeInt::new_temporal(i64::try_from(schema::time_ns(time_s)).unwrap_or(i64::MAX));
+    let speed = round_speed(length_s / PLAYED_S);
+    time.with_time_selection(at(from_s)..=at(to_s))
+        .with_loop_mode(LoopMode::Selection)
+        .with_playback_speed(speed)
+        .with_play_state(PlayState::Playing)
 }
 
-/// The whole container in view; without one the viewer frames the bodies itself.
-fn eye(header: &Header) -> Option<EyeControls3D> {
+/// A speed that can be read off: 1, 2 or 5 of a power of ten; real time where it is near.
+fn round_speed(exact: f64) -> f64 {
+    if (0.4..2.5).contains(&exact) {
+        return 1.0;
+    }
+    let power = libm::exp10(libm::floor(libm::log10(exact)));
+    let part = exact / power;
+    power
+        * if part < 1.5 {
+            1.0
+        } else if part < 3.5 {
+            2.0
+        } else if part < 7.5 {
+            5.0
+        } else {
+            10.0
+        }
+}
+
+/// Energy on the scale that shows the story; no plot without data.
+fn energy_plot(header: &Header, known: Option<Known<'_>>) -> Option<Plot> {
+    if !header.streams.energy {
+        return None;
+    }
+    // Where the plot is low: energies mostly fall, and what explodes does so at the end.
+    let falls = known.is_none_or(|(_, seen, _)| seen.falls());
+    let corner = if falls { Corner2D::RightTop } else { Corner2D::LeftTop };
+    let linear = Plot { name: "energy [J]", path: ENERGY, range: None, legend: Some(corner) };
+    let Some((ending, seen, _)) = known else { return Some(linear) };
+    if seen.energy_j.is_empty() {
+        return None;
+    }
+    if let Some(range) = log_range(seen.log_energy, header.energy_factor) {
+        return Some(Plot { range: Some(range), ..log_energy_plot() });
+    }
+    let floor_j = ENERGY_FLOOR * ending.story.start_j.abs();
+    let range = with_legend(widened(seen.energy_j, floor_j));
+    Some(Plot { range: Some(range), ..linear })
+}
+
+/// The plot of energies' logarithms.
+pub fn log_energy_plot() -> Plot {
+    Plot { name: "energy: log₁₀ E / E₀", path: LOG_ENERGY, range: None, legend: Some(Corner2D::LeftTop) }
+}
+
+/// Range of the logarithms, with the limit of divergence in it; None where they say less than the energies themselves.
+pub fn log_range(log: Between, factor: Option<f64>) -> Option<[f64; 2]> {
+    let limit = factor.map_or(log.most, |factor| libm::log10(factor).max(log.most));
+    (log.most > libm::log10(GROWTH)).then(|| with_legend([log.least.min(0.0) - 0.15, limit + 0.15]))
+}
+
+fn contact_plots(header: &Header, known: Option<Known<'_>>) -> Vec<Plot> {
+    let streams = header.streams;
+    let size_m = header.bodies.iter().map(|body| body.bounding_radius_m).fold(0.0, f64::max);
+    let of = |pick: fn(&Seen) -> Between| known.map(|(_, seen, _)| pick(seen));
+    let plots = [
+        (streams.contacts, "contacts at once", CONTACT_COUNT, of(|seen| seen.contacts), 1.0),
+        (streams.forces, "friction used, of μ fₙ", FRICTION_USE, of(|seen| seen.friction_use), 1.1),
+        (streams.forces, "sum of |contact force| [N]", CONTACT_FORCE, of(|seen| seen.force_n), 0.0),
+        (streams.energy, "penetration [m]", PENETRATION, of(|seen| seen.penetration_m), LENGTH_FLOOR * size_m),
+    ];
+    let is_there = |seen: &Option<Between>| seen.is_none_or(|seen| seen.most > 0.0);
+    plots
+        .into_iter()
+        .filter(|(on, _, _, seen, _)| *on && is_there(seen))
+        .map(|(_, name, path, seen, floor)| {
+            // From nothing up; the friction that one wrong contact uses has no end.
+            let most = |seen: Between| if path == FRICTION_USE { seen.most.min(2.0) } else { seen.most };
+            let range = seen.map(|seen| [0.0, 1.08 * most(seen).max(floor)]);
+            Plot { name, path, range, legend: None }
+        })
+        .collect()
+}
+
+/// A range of at least this height.
+pub fn widened(seen: Between, floor: f64) -> [f64; 2] {
+    let height = seen.most - seen.least;
+    let more = if height < floor { 0.5 * (floor - height) } else { 0.05 * height };
+    [seen.least - more, seen.most + more]
+}
+
+/// A range with room for a legend above what is plotted.
+pub fn with_legend([low, high]: [f64; 2]) -> [f64; 2] {
+    [low, high + LEGEND * (high - low)]
+}
+
+/// What the bodies sweep in view; before that is known, the container.
+pub fn eye(header: &Header, camera: Option<Camera>) -> Option<EyeControls3D> {
+    let scale = scale(header);
+    let drawn = |p: [f64; 3]| p.map(|x| x * scale);
+    if let Some(camera) = camera {
+        let eye = EyeControls3D::new().with_position(drawn(camera.position)).with_look_target(drawn(camera.target));
+        let eye = eye.with_eye_up([0.0, 1.0, 0.0]);
+        return Some(match header.bodies.first().filter(|_| camera.follows) {
+            Some(body) => eye.with_tracking_entity(body_path(&body.name).to_string()),
+            None => eye,
+        });
+    }
+    /// Place of the camera, seen from the container's centre, in diagonals of the container.
+    const EYE: [f64; 3] = [0.48, 0.36, 0.90];
     let (low, high) = header.container_box_m()?;
-    let size_m = header.scene_size_m();
+    let size_m = norm(std::array::from_fn(|i| high[i] - low[i]));
     let centre: [f64; 3] = std::array::from_fn(|i| 0.5 * (low[i] + high[i]));
     let position: [f64; 3] = std::array::from_fn(|i| centre[i] + size_m * EYE[i]);
-    let eye = EyeControls3D::new().with_position(position).with_look_target(centre);
+    let eye = EyeControls3D::new().with_position(drawn(position)).with_look_target(drawn(centre));
     Some(eye.with_eye_up([0.0, 1.0, 0.0]))
+}
+
+/// A grid on the ground, to the scale of the motion; without ground there is none.
+pub fn grid(header: &Header, camera: Option<Camera>) -> LineGrid3D {
+    let scale = scale(header);
+    let Some((normal, offset_m)) = header.planes.first() else { return LineGrid3D::new().with_visible(false) };
+    let [r, g, b, a] = GRID;
+    let size_m = camera.map_or(header.scene_size_m(), |camera| camera.size_m);
+    let normal = normal.map(|x| x as f32);
+    LineGrid3D::new()
+        .with_visible(true)
+        .with_plane(Plane3D::new(normal, (*offset_m * scale) as f32))
+        .with_spacing((spacing_m(size_m) * scale) as f32)
+        .with_color(Color::from_unmultiplied_rgba(r, g, b, a))
 }

@@ -1,10 +1,22 @@
 //! Names in an .rrd: application, timelines, entities.
 
 use crate::record::schema::Series;
-use ::rerun::EntityPath;
+use ::rerun::{ApplicationId, EntityPath};
+use std::error::Error;
 
-/// Id of the application: recordings of one application share a layout and are listed together.
-pub const APPLICATION: &str = "gotai";
+/// Beginning of an application's name. Recordings of one application share a layout, and every recording opens with its
+/// own.
+const APPLICATION: &str = "gotai";
+
+/// Name of a recording's application: one of its own for every recording. What no name may hold becomes a hyphen.
+///
+/// # Errors
+/// Rerun's own.
+pub fn application(named: &str) -> Result<ApplicationId, Box<dyn Error>> {
+    let is_safe = |c: char| c.is_alphanumeric() || c == '_' || c == '-' || c == ' ';
+    let safe: String = named.chars().map(|c| if is_safe(c) { c } else { '-' }).collect();
+    Ok(ApplicationId::try_new(format!("{APPLICATION} {safe}"))?)
+}
 
 /// Timelines: simulated time, and the number of the step.
 pub const SIM_TIME: &str = "sim_time";
@@ -13,14 +25,24 @@ pub const STEP: &str = "step";
 /// Entities. A body is `/world/bodies/<name>`, a plotted energy `/energy/<name>`.
 pub const WORLD: &str = "/world";
 pub const CONTAINER: &str = "/world/container";
+pub const GROUND: &str = "/world/ground";
 pub const BODIES: &str = "/world/bodies";
+pub const TRAILS: &str = "/world/trails";
 pub const CONTACTS: &str = "/world/contacts";
 pub const FORCES: &str = "/world/forces";
 pub const ENERGY: &str = "/energy";
+pub const LOG_ENERGY: &str = "/log_energy";
+pub const LOG_ENERGY_TOTAL: &str = "/log_energy/total";
+/// Marks of the two plots of energy: the limit of divergence, and steps that gained energy.
+pub const LIMIT: &str = "/log_energy/limit";
+pub const LOG_GAINS: &str = "/log_energy/gains";
+pub const GAINS: &str = "/energy/gains";
 pub const PENETRATION: &str = "/penetration";
 pub const CONTACT_COUNT: &str = "/contact/count";
 pub const CONTACT_FORCE: &str = "/contact/force";
+pub const FRICTION_USE: &str = "/contact/friction_use";
 pub const LOG: &str = "/log";
+pub const HEADLINE: &str = "/headline";
 pub const CONFIG: &str = "/config";
 
 /// Entity of a plotted energy. Penetration has a plot of its own: it is a length.
@@ -29,4 +51,9 @@ pub fn energy_path(series: &Series) -> EntityPath {
         "penetration" => PENETRATION.into(),
         name => format!("{ENERGY}/{name}").into(),
     }
+}
+
+/// A body's name is one part of the path, whatever characters it has.
+pub fn body_path(name: &str) -> EntityPath {
+    EntityPath::from(BODIES).join(&EntityPath::from_single_string(name))
 }

@@ -1,0 +1,59 @@
+//! `gotai repair`: a recording that was cut, with all that is whole of it, as a file that every reader takes.
+
+use super::error::CliError;
+use super::output::print;
+use crate::record::mend::mend_mcap;
+use crate::record::writer::Target;
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+#[derive(Args)]
+pub struct Command {
+    /// A recording that was cut (.mcap or .rrd)
+    file: PathBuf,
+    /// The mended file [default: <name>.repaired.<ending> beside it]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The file is no recording, or the machine failed.
+    pub fn run(self) -> Result<ExitCode, CliError> {
+        let file = &self.file;
+        if !file.is_file() {
+            return Err(CliError::Input(format!("{}: expected a recording, found no such file", file.display())));
+        }
+        let ending = file.extension().map(|ending| ending.to_string_lossy().into_owned()).unwrap_or_default();
+        let out = self.out.clone().unwrap_or_else(|| file.with_extension(format!("repaired.{ending}")));
+        if out == *file {
+            return Err(CliError::Input(format!("--out {}: expected another file than the torn one", out.display())));
+        }
+        let mended = match Target::ALL.into_iter().find(|target| target.extension() == ending) {
+            Some(Target::Mcap) => mend_mcap(file, &out)?,
+            Some(Target::Rerun) => mend_rrd(file, &out)?,
+            None => None,
+        };
+        let Some(messages) = mended else {
+            return Err(CliError::Input(format!(
+                "{}: expected a recording (.mcap or .rrd), found another file",
+                file.display()
+            )));
+        };
+        print(format!("{}: {messages} messages", out.display()));
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+#[cfg(feature = "rerun")]
+fn mend_rrd(torn: &Path, mended: &Path) -> Result<Option<u64>, CliError> {
+    Ok(crate::record::rerun::mend::mend_rrd(torn, mended)?)
+}
+
+#[cfg(not(feature = "rerun"))]
+fn mend_rrd(_: &Path, _: &Path) -> Result<Option<u64>, CliError> {
+    Err(CliError::Input("this gotai was built without Rerun (cargo feature `rerun`)".into()))
+}

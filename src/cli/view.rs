@@ -1,0 +1,130 @@
+//! `gotai view`: opens recordings in the Rerun Viewer; several cases as ghosts, on one timeline.
+
+use super::error::CliError;
+use super::ghosts::{self, Ghosts};
+use super::rows::{filter, takes};
+use super::viewer::Viewer;
+use crate::record::name::RecordingName;
+use crate::record::read::recording_of;
+use crate::record::writer::Target;
+use crate::rows::Row;
+use crate::rows::table::Table;
+use crate::sweep::folder::Folder;
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+#[derive(Args)]
+pub struct Command {
+    /// Recordings (.rrd, .mcap), or a folder of results (it has plan.json)
+    #[arg(required = true, value_name = "FILE|DIR")]
+    paths: Vec<PathBuf>,
+    /// Only rows of a folder of which this holds: COLUMN=VALUE, or another sign: != < <= > >=
+    #[arg(long = "where", value_name = "COLUMN=VALUE")]
+    filters: Vec<String>,
+    /// Return when the viewer is closed, not when it runs
+    #[arg(long)]
+    wait: bool,
+    /// Nothing on stderr but warnings and errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// The input is wrong, there is no viewer, or the machine failed.
+    pub fn run(self) -> Result<ExitCode, CliError> {
+        let files = self.files()?;
+        let viewer = Viewer::find(self.quiet)?;
+        if !self.quiet {
+            for file in &files {
+                eprintln!("opening {}", file.display());
+            }
+        }
+        viewer.open(&files, self.wait)?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The files that are opened: what is given, or one that is made of several cases.
+    fn files(&self) -> Result<Vec<PathBuf>, CliError> {
+        match self.paths.as_slice() {
+            [dir] if dir.is_dir() => Ok(vec![self.of_folder(dir)?]),
+            paths => {
+                if !self.filters.is_empty() {
+                    return Err(CliError::Input("--where: expected a folder of results with it, found files".into()));
+                }
+                of_files(paths)
+            }
+        }
+    }
+
+    fn of_folder(&self, dir: &Path) -> Result<PathBuf, CliError> {
+        let folder = Folder::read(dir)?;
+        let rows = folder.rows();
+        let table = Table::new(&folder.plan.axes, &rows);
+        let known: Vec<&str> = table.names().collect();
+        let filter = filter(&self.filters, &known, &folder.plan)?;
+        let chosen: Vec<&Row> =
+            rows.iter().zip(table.rows()).filter(|(_, cells)| takes(&filter, cells)).map(|(row, _)| row).collect();
+        match chosen.as_slice() {
+            [] => Err(CliError::Input(format!(
+                "{}: expected a row to show, found none of {} that --where takes",
+                dir.display(),
+                rows.len()
+            ))),
+            [row] => ghosts::recording_of_row(&folder, row, &Target::ALL),
+            several if several.len() > Ghosts::MOST => Err(CliError::Input(format!(
+                "{}: expected at most {} rows to show together, found {}; choose with --where, or give a file",
+                dir.display(),
+                Ghosts::MOST,
+                several.len()
+            ))),
+            several => Ghosts::of_rows(&folder, several)?.write(&dir.join(ghosts::REPLAYS)),
+        }
+    }
+}
+
+/// One file as it is; several .mcap as ghosts; an .rrd stands for the .mcap beside it.
+fn of_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
+    for path in paths {
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        if !Target::ALL.iter().any(|target| target.extension() == ending) {
+            return Err(CliError::Input(format!(
+                "{}: expected a recording (.rrd or .mcap) or a folder of results",
+                path.display()
+            )));
+        }
+        if !path.is_file() {
+            return Err(CliError::Input(format!("{}: expected a recording, found no such file", path.display())));
+        }
+        if ending == Target::Mcap.extension() && recording_of(path)?.is_none() {
+            return Err(CliError::Input(format!(
+                "{}: expected a recording of gotai, found another file",
+                path.display()
+            )));
+        }
+    }
+    let beside = |path: &PathBuf, target: Target| {
+        let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned())?;
+        let file = target.path(path.parent()?, &name);
+        // What is being written has no name of its own yet.
+        (RecordingName::values_of(&name).is_some() || &file == path).then_some(file).filter(|file| file.is_file())
+    };
+    if let [path] = paths {
+        return Ok(vec![beside(path, Target::Rerun).unwrap_or_else(|| path.clone())]);
+    }
+    if paths.len() > Ghosts::MOST {
+        return Err(CliError::Input(format!("expected at most {} files, found {}", Ghosts::MOST, paths.len())));
+    }
+    let sources: Option<Vec<PathBuf>> = paths.iter().map(|path| beside(path, Target::Mcap)).collect();
+    match sources {
+        Some(sources) => {
+            let dir = paths[0].parent().unwrap_or(Path::new(".")).to_path_buf();
+            Ok(vec![Ghosts::of_files(&sources)?.write(&dir)?])
+        }
+        // The viewer shows them one after the other.
+        None => Ok(paths.to_vec()),
+    }
+}

@@ -1,0 +1,85 @@
+//! The last steps of a run, kept until it is known whether they decide: what happens between two samples is not lost.
+
+use super::sample::ContactSample;
+use crate::state::State;
+use std::collections::VecDeque;
+
+/// Most steps that are kept.
+const STEPS: usize = 200;
+/// Most memory of them, in bytes, whatever the number of bodies and contacts.
+const BYTES: usize = 4 << 20;
+
+/// A step that has not been recorded.
+pub struct KeptStep {
+    pub state: State,
+    pub contacts: Vec<ContactSample>,
+}
+
+impl KeptStep {
+    fn bytes(&self) -> usize {
+        size_of_val(self.state.bodies.as_slice()) + size_of_val(self.contacts.as_slice())
+    }
+}
+
+/// The last steps that were not recorded, the oldest first.
+#[derive(Default)]
+pub struct Ring {
+    kept: VecDeque<KeptStep>,
+    /// Memory to be filled again.
+    spare: Vec<KeptStep>,
+    bytes: usize,
+}
+
+impl Ring {
+    /// Keeps a step, and lets the oldest go where there is no room.
+    pub fn keep(&mut self, state: &State, contacts: impl Iterator<Item = ContactSample>) {
+        let mut kept = match self.spare.pop() {
+            Some(mut kept) => {
+                kept.state.copy_from(state);
+                kept.contacts.clear();
+                kept
+            }
+            None => KeptStep { state: state.clone(), contacts: Vec::new() },
+        };
+        kept.contacts.extend(contacts);
+        self.bytes += kept.bytes();
+        self.kept.push_back(kept);
+        while self.kept.len() > STEPS || (self.bytes > BYTES && self.kept.len() > 1) {
+            self.let_go();
+        }
+    }
+
+    /// Keeps this step alone.
+    pub fn keep_one(&mut self, state: &State, contacts: impl Iterator<Item = ContactSample>) {
+        self.clear();
+        self.keep(state, contacts);
+    }
+
+    pub fn clear(&mut self) {
+        while !self.kept.is_empty() {
+            self.let_go();
+        }
+    }
+
+    /// Whether a step is among those that are kept.
+    pub fn holds(&self, step: u64) -> bool {
+        self.kept.iter().any(|kept| kept.state.step == step)
+    }
+
+    /// Hands over every step since `step`, the oldest first, and keeps the earlier ones.
+    pub fn take_since(&mut self, step: u64, mut to: impl FnMut(&State, &[ContactSample])) {
+        let from = self.kept.iter().position(|kept| kept.state.step >= step).unwrap_or(self.kept.len());
+        for kept in self.kept.drain(from..) {
+            self.bytes -= kept.bytes();
+            to(&kept.state, &kept.contacts);
+            self.spare.push(kept);
+        }
+    }
+
+    fn let_go(&mut self) {
+        if let Some(kept) = self.kept.pop_front() {
+            self.bytes -= kept.bytes();
+            self.spare.push(kept);
+        }
+    }
+}

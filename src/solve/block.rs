@@ -6,6 +6,7 @@ use super::twist::Twist;
 use super::{Impulse, corrected};
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
+use crate::collide::lasting::Hold;
 use crate::experiment::types::Cone;
 use crate::model::Model;
 use crate::state::BodyState;
@@ -30,6 +31,8 @@ pub struct Block {
     pub before: Vector3<f64>,
     /// ε_t of an impact, which b's tangents' rows are relative to; else 0.
     pub tangential_restitution: f64,
+    /// The contact lasts: b is relative to the velocity before sent back, in all rows.
+    pub hold: Option<Hold>,
     /// Normal and two tangents, world axes.
     pub frame: [Vector3<f64>; 3],
     /// A⁻¹ of a pin, which takes any impulse; none: a contact.
@@ -81,6 +84,7 @@ impl Block {
         free: &[Twist],
         inertias: &[Inertia],
         (approach, step_s): (Approach, f64),
+        hold: Option<Hold>,
     ) -> Option<Self> {
         let frame = contact.frame();
         let own = End::new(contact.body, 1.0, &contact.r_BC_W, &frame, &inertias[contact.body]);
@@ -93,13 +97,11 @@ impl Block {
             end.motion(&Twist::of(at))
         });
         let motion = [before.x, b.x - before.x];
-        let least = approach.least(model, contact, motion, step_s)?;
-        let strikes = contact.tangential_restitution > 0.0 && approach.strikes(model, contact, motion, step_s);
+        let least = approach.least_of(model, contact, motion, step_s, hold)?;
+        let strikes = hold.is_none() && contact.tangential_restitution > 0.0 && approach.strikes(model, contact, motion, step_s);
         let tangential_restitution = if strikes { contact.tangential_restitution } else { 0.0 };
         b.x -= least;
-        if strikes {
-            b += Vector3::new(0.0, before.y, before.z) * tangential_restitution;
-        }
+        b += Vector3::new(0.0, before.y, before.z) * if hold.is_some() { 1.0 } else { tangential_restitution };
         let A = ends().filter_map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
         Some(Block {
             end: own,
@@ -112,9 +114,17 @@ impl Block {
             least,
             before,
             tangential_restitution,
+            hold,
             frame,
             pin: None,
         })
+    }
+
+    /// Friction is from now on against the velocity after the step, not against the mean.
+    pub fn stop(&mut self) {
+        if self.hold.take().is_some() {
+            self.b -= Vector3::new(0.0, self.before.y, self.before.z);
+        }
     }
 
     pub(super) fn law(&self) -> Law {

@@ -13,6 +13,7 @@ use super::pins::Pin;
 use super::twist::Twist;
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
+use crate::collide::lasting::Hold;
 use crate::model::Model;
 use crate::state::State;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -48,7 +49,20 @@ impl ContactProblem {
         state: &State,
         free: &[Twist],
         contacts: &mut Vec<Contact>,
-        (approach, step_s): (Approach, f64),
+        through: (Approach, f64),
+    ) {
+        self.gather_held(model, state, free, contacts, through, |_| None);
+    }
+
+    /// The same, of which some contacts last.
+    pub fn gather_held(
+        &mut self,
+        model: &Model,
+        state: &State,
+        free: &[Twist],
+        contacts: &mut Vec<Contact>,
+        through: (Approach, f64),
+        hold: impl Fn(&Contact) -> Option<Hold>,
     ) {
         self.blocks.clear();
         self.bodies = model.bodies.len();
@@ -57,7 +71,7 @@ impl ContactProblem {
             self.inertias.extend(model.bodies.iter().zip(&state.bodies).map(|(body, at)| Inertia::of(body, at)));
         }
         contacts.retain(|contact| {
-            let block = Block::new(contact, model, &state.bodies, free, &self.inertias, (approach, step_s));
+            let block = Block::new(contact, model, &state.bodies, free, &self.inertias, through, hold(contact));
             self.blocks.extend(block);
             block.is_some()
         });

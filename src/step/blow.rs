@@ -23,6 +23,10 @@ pub struct Blow {
     places: Vec<usize>,
     restitution: Vec<f64>,
     own: Vec<Impulse>,
+    /// Of every body: another one of its island, or itself; and whether something strikes in the island of this first
+    /// body.
+    island: Vec<usize>,
+    struck: Vec<bool>,
     /// Of all contacts; and what they do to the bodies.
     pub impulses: Vec<Impulse>,
     pub response: Vec<Twist>,
@@ -46,6 +50,8 @@ impl Blow {
             places: Vec::new(),
             restitution: Vec::new(),
             own: Vec::new(),
+            island: Vec::new(),
+            struck: Vec::new(),
             impulses: Vec::new(),
             response: Vec::new(),
             after: start.clone(),
@@ -83,23 +89,64 @@ impl Blow {
         Some(ended)
     }
 
-    /// Whether anything strikes.
+    /// Whether anything strikes. What strikes takes its island along: all that bodies hand on among each other.
     fn take_part(&mut self, model: &Model, state: &State, free: &[Twist], found: &[Contact], step_s: f64) -> bool {
-        let mut any = false;
+        self.find_islands(model, found);
+        self.struck.clear();
+        self.struck.resize(model.bodies.len(), false);
+        let strikes: Vec<bool> = found
+            .iter()
+            .map(|contact| {
+                let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
+                let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
+                self.approach.strikes(model, contact, [before, gained], step_s)
+            })
+            .collect();
+        for (contact, _) in found.iter().zip(&strikes).filter(|(_, strikes)| **strikes) {
+            let first = self.first(model, contact);
+            self.struck[first] = true;
+        }
         self.contacts.clear();
         self.places.clear();
         self.restitution.clear();
-        for (place, contact) in found.iter().enumerate() {
-            let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
-            let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
-            let strikes = self.approach.strikes(model, contact, [before, gained], step_s);
-            any |= strikes;
-            if strikes || is_closed_to_rounding(model, contact) {
+        for (place, (contact, strikes)) in found.iter().zip(strikes).enumerate() {
+            if strikes || (self.is_struck(model, contact) && is_closed_to_rounding(model, contact)) {
                 self.contacts.push(*contact);
                 self.places.push(place);
                 self.restitution.push(contact.restitution);
             }
         }
-        any
+        !self.contacts.is_empty()
+    }
+
+    /// Whether something strikes in the contact's island.
+    pub fn is_struck(&self, model: &Model, contact: &Contact) -> bool {
+        self.struck[self.first(model, contact)]
+    }
+
+    /// The first body of the contact's island.
+    fn first(&self, model: &Model, contact: &Contact) -> usize {
+        let moves = contact.ends().map(|(i, ..)| i).find(|i| !model.bodies[*i].driven);
+        self.root(moves.unwrap_or(contact.body))
+    }
+
+    fn root(&self, mut body: usize) -> usize {
+        while self.island[body] != body {
+            body = self.island[body];
+        }
+        body
+    }
+
+    fn find_islands(&mut self, model: &Model, found: &[Contact]) {
+        self.island.clear();
+        self.island.extend(0..model.bodies.len());
+        for contact in found {
+            let Some(other) = contact.other else { continue };
+            if model.bodies[contact.body].driven || model.bodies[other].driven {
+                continue;
+            }
+            let (a, b) = (self.root(contact.body), self.root(other));
+            self.island[a.max(b)] = a.min(b);
+        }
     }
 }

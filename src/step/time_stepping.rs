@@ -15,6 +15,7 @@ use super::foreseen::Foreseen;
 use super::scratch::Scratch;
 use crate::clock::Clock;
 use crate::collide::approach::Approach;
+use crate::collide::lasting::{Hold, Lasting};
 use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, SolvedContact};
 use crate::deadline::Deadline;
@@ -33,8 +34,8 @@ use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
-/// Of the greatest friction: what is below it sticks.
-const STUCK: f64 = 1.0 - 1e-9;
+/// Most solves of a step of which all but the first find that a contact has stopped.
+const MOST_STOPS: u32 = 4;
 
 /// A way in a step, of the least width of all bodies, or a turn in radians, from which bodies are looked at before a
 /// step whose kick is half-way.
@@ -54,6 +55,8 @@ pub struct TimeStepping {
     last: Vec<(Key, Impulse)>,
     /// The same of this step, as far as it is solved.
     solved: Vec<(Key, Impulse)>,
+    /// Contacts that last into this step, of a scheme whose kick is half-way.
+    lasting: Lasting,
     foreseen: Foreseen,
     /// What is left of a step of the clock of which a part is made, and how often it was cut.
     left_s: Option<f64>,
@@ -96,6 +99,7 @@ impl TimeStepping {
             position_correction: settings.position_correction,
             last: Vec::with_capacity(scratch.contacts()),
             solved: Vec::with_capacity(scratch.contacts()),
+            lasting: Lasting::default(),
             foreseen: Foreseen::with_capacity(scratch.contacts(), scratch.free.capacity()),
             left_s: None,
             parts: 0,
@@ -123,6 +127,9 @@ impl TimeStepping {
         if state.step == 0 {
             let widths_m = model.bodies.iter().filter_map(|body| Some(body.solid()?.0.least_width_m()));
             self.width_m = widths_m.fold(f64::INFINITY, f64::min);
+            if self.scheme == Approach::Middle {
+                self.lasting = Lasting::at_start(model, state);
+            }
         }
         let left_s = self.left_s.unwrap_or(clock.step_s);
         let mut before_s = 0.0;
@@ -159,6 +166,7 @@ impl TimeStepping {
             self.made_s = before_s + hit_s;
         }
         let after_s = self.made_s - before_s;
+        self.note_lasting(model, state);
         self.take_solution();
         let pushed = self.push_out(model, state, self.made_s);
         // 3. Velocities. 4. Position and attitude.
@@ -219,6 +227,22 @@ impl TimeStepping {
         }
     }
 
+    /// Keeps what lasts into the next step.
+    fn note_lasting(&mut self, model: &Model, state: &State) {
+        let TimeStepping { scratch: s, approach, made_s, blow, lasting, .. } = self;
+        let known = &*lasting;
+        let lasts = |(contact, p): (&Contact, &Impulse)| {
+            let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
+            let gained = contact.normal.dot(&contact.velocity(|i| [s.free[i].v, s.free[i].w])) - before;
+            let is_struck = blow.as_ref().is_some_and(|blow| blow.is_struck(model, contact));
+            let lasts = approach.lasts(model, contact, [before, gained], *made_s, known.of(contact)) && !is_struck;
+            let hold = Hold::of(p.x, p.yz().norm(), contact.friction).filter(|_| lasts)?;
+            Some((contact.key(), hold))
+        };
+        let list: Vec<_> = s.found.iter().zip(&s.impulses).filter_map(lasts).collect();
+        lasting.renew(list.into_iter());
+    }
+
     fn take_solution(&mut self) {
         std::mem::swap(&mut self.last, &mut self.solved);
         self.last_pins.clear();
@@ -235,7 +259,9 @@ impl TimeStepping {
         if let Some(reduction) = &mut self.reduction {
             reduction.apply(&mut s.found);
         }
-        s.problem.gather(model, state, &s.free, &mut s.found, (self.approach, step_s));
+        let is_half_way = self.approach == Approach::Middle;
+        let hold = |contact: &Contact| self.lasting.of(contact).filter(|_| is_half_way);
+        s.problem.gather_held(model, state, &s.free, &mut s.found, (self.approach, step_s), hold);
         if !model.pins.is_empty() {
             // The velocity that closes what gap there is until the next step.
             let closing = |pin: &Joint, _: &_, _: Option<&_>| -pin.apart_W(&state.bodies) / step_s;
@@ -249,13 +275,10 @@ impl TimeStepping {
             let ended = blow.strike(model, state, &s.free, &s.found, (step_s, self.sweeps.deadline), &mut plastic)?;
             s.work.unsolved += u64::from(!ended);
             self.is_cut |= !ended && self.sweeps.deadline.is_over();
-            go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s));
+            go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s), hold);
             Some(blow)
         });
         warm_start(&s.found, &self.last, &mut s.impulses);
-        if self.approach == Approach::Middle && struck.is_none() {
-            hold_half_way(&mut s.problem, &s.impulses);
-        }
         if !self.solved.is_empty() {
             warm_start(&s.found, &self.solved, &mut s.impulses);
         }
@@ -266,7 +289,15 @@ impl TimeStepping {
         if s.problem.energy(&s.impulses, &s.response) > 0.0 {
             s.impulses.fill(Impulse::zeros());
         }
-        if !s.problem.blocks.is_empty() && !self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work) {
+        let mut settled = s.problem.blocks.is_empty();
+        for _ in 0..MOST_STOPS {
+            settled = settled || self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work);
+            if !(settled && is_half_way && stop(&mut s.problem, &s.impulses)) {
+                break;
+            }
+            settled = false;
+        }
+        if !settled {
             self.is_cut |= self.sweeps.deadline.is_over();
             s.work.unsolved += 1;
             s.problem.response(&s.impulses, &mut s.response);
@@ -296,23 +327,26 @@ fn go_on_after(
     problem: &mut ContactProblem,
     free: &[Twist],
     found: &[Contact],
-    (approach, step_s): (Approach, f64),
+    through: (Approach, f64),
+    hold: impl Fn(&Contact) -> Option<Hold>,
 ) {
     let free: Vec<Twist> = free.iter().zip(&blow.response).map(|(a, b)| Twist { v: a.v + b.v, w: a.w + b.w }).collect();
     let mut plastic: Vec<Contact> = found.iter().map(|contact| Contact { restitution: 0.0, ..*contact }).collect();
-    problem.gather(model, &blow.after, &free, &mut plastic, (approach, step_s));
+    let hold = |contact: &Contact| hold(contact).filter(|_| !blow.is_struck(model, contact));
+    problem.gather_held(model, &blow.after, &free, &mut plastic, through, hold);
 }
 
-/// What has stuck before sticks on in the mean of the velocities before and after the kick, c⁺ = −c⁻, where c⁻ is what
-/// the way since the last kick has turned: friction then does no work, and rolling along a curve is of order 2 (R.
-/// McLachlan, M. Perlmutter, J. Nonlinear Sci. 16 (2006) 283). `last`: the impulses of the step before.
-fn hold_half_way(problem: &mut ContactProblem, last: &[Impulse]) {
-    for (block, p) in problem.blocks.iter_mut().zip(last) {
-        if p.yz().norm() < STUCK * block.friction * p.x && block.tangential_restitution == 0.0 {
-            block.b.y += block.before.y;
-            block.b.z += block.before.z;
+/// Contacts that slid and now would stick in the mean come to rest instead: their slip after the step is to be none,
+/// else it would turn its sign for ever. Whether there is any.
+fn stop(problem: &mut ContactProblem, impulses: &[Impulse]) -> bool {
+    let mut any = false;
+    for (block, p) in problem.blocks.iter_mut().zip(impulses) {
+        if block.hold == Some(Hold::Slid) && Hold::of(p.x, p.yz().norm(), block.friction) == Some(Hold::Stuck) {
+            block.stop();
+            any = true;
         }
     }
+    any
 }
 
 /// Contacts that were left out are there, without an impulse.

@@ -62,7 +62,9 @@ impl Approach {
         match self {
             Approach::Inside | Approach::Touching => before < 0.0,
             Approach::Start => rebounds && before + gained < -gap_m / step_s,
-            Approach::Middle => rebounds && gap_m == 0.0,
+            Approach::Middle => {
+                rebounds && (gap_m == 0.0 || strikes_early(contact.restitution, gap_m, before + gained, step_s))
+            }
         }
     }
 
@@ -84,12 +86,23 @@ impl Approach {
             Approach::Middle if gap_m == 0.0 && before < 0.0 => {
                 Some(if contact.restitution < 1.0 && rebound <= -falling { 0.0 } else { rebound })
             }
-            // A contact that bounces waits until it is inside, one that loses nothing always; any other is caught when
-            // its gap closes. What still opens is let back no faster than it came: no contact adds energy.
+            // What comes to rest is caught when its gap closes; what bounces, when it is inside, or before (see
+            // `strikes_early`). What still opens is let back no faster than it came: no contact adds energy.
             Approach::Middle => {
                 let rests = contact.restitution < 1.0 && rebound <= -falling;
-                (gap_m == 0.0 || rests).then_some(closing.min(-before.max(0.0)))
+                let is_early = strikes_early(contact.restitution, gap_m, before + gained, step_s);
+                match gap_m == 0.0 || rests {
+                    true => Some(closing.min(-before.max(0.0))),
+                    false => is_early.then_some(rebound),
+                }
             }
         }
     }
+}
+
+/// Whether a contact bounces before its gap has closed: inside it would be so deep by the next kick that its rebound
+/// does not lead it out by the one after. What loses nothing never does.
+fn strikes_early(restitution: f64, gap_m: f64, next: f64, step_s: f64) -> bool {
+    let inside_m = -(gap_m + step_s * next);
+    inside_m > 0.0 && step_s * restitution * -next < inside_m
 }

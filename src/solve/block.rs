@@ -98,10 +98,12 @@ impl Block {
         });
         let motion = [before.x, b.x - before.x];
         let least = approach.least_of(model, contact, motion, step_s, hold)?;
-        let strikes = hold.is_none() && contact.tangential_restitution > 0.0 && approach.strikes(model, contact, motion, step_s);
+        let strikes =
+            hold.is_none() && contact.tangential_restitution > 0.0 && approach.strikes(model, contact, motion, step_s);
         let tangential_restitution = if strikes { contact.tangential_restitution } else { 0.0 };
         b.x -= least;
-        b += Vector3::new(0.0, before.y, before.z) * if hold.is_some() { 1.0 } else { tangential_restitution };
+        let sent_back = if hold.is_some() { 1.0 } else { tangential_restitution };
+        b += Vector3::new(0.0, before.y, before.z) * sent_back;
         let A = ends().filter_map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
         Some(Block {
             end: own,
@@ -122,9 +124,17 @@ impl Block {
 
     /// Friction is from now on against the velocity after the step, not against the mean.
     pub fn stop(&mut self) {
-        if self.hold.take().is_some() {
+        if self.hold == Some(Hold::Slid) {
             self.b -= Vector3::new(0.0, self.before.y, self.before.z);
+            self.hold = Some(Hold::Stuck);
         }
+    }
+
+    /// How far the gap of a contact that lasts swings in a step, at most.
+    pub(super) fn swing(&self, step_s: f64) -> f64 {
+        let gained = self.b.x + self.least - self.before.x;
+        let swings = step_s * (self.before.x.abs() + gained.abs());
+        if self.hold.is_some() { swings } else { 0.0 }
     }
 
     pub(super) fn law(&self) -> Law {

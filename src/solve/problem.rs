@@ -62,7 +62,7 @@ impl ContactProblem {
         free: &[Twist],
         contacts: &mut Vec<Contact>,
         through: (Approach, f64),
-        hold: impl Fn(&Contact) -> Option<Hold>,
+        mut hold: impl FnMut(&Contact) -> Option<Hold>,
     ) {
         self.blocks.clear();
         self.bodies = model.bodies.len();
@@ -126,14 +126,29 @@ impl ContactProblem {
         self.blocks.iter().zip(impulses).map(|(block, p)| half(block, p)).sum()
     }
 
-    /// Energy that the impulses take from bodies that were at `before`: −Σ p·½(c⁻ + c⁺).
-    pub fn dissipated_j(&self, before: &State, free: &[Twist], impulses: &[Impulse], u: &[Twist]) -> f64 {
+    /// Contacts that last, slid, and would now turn their slip over come to rest instead: their slip after the step is
+    /// to be none, else it would change its sign for ever. Whether there is any.
+    pub fn stop(&mut self, impulses: &[Impulse], u: &[Twist]) -> bool {
+        let mut any = false;
+        for (block, p) in self.blocks.iter_mut().zip(impulses) {
+            let after = block.velocity(u) - block.before;
+            let turns = after.y * block.before.y + after.z * block.before.z < 0.0;
+            if block.hold == Some(Hold::Slid) && p.x > 0.0 && turns {
+                block.stop();
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// Energy that every contact's impulse takes from bodies that were at `before`: −p·½(c⁻ + c⁺).
+    pub fn taken_j(&self, before: &State, free: &[Twist], impulses: &[Impulse], u: &[Twist]) -> Vec<f64> {
         let mean = |end: &End| {
             let (at, free, u) = (&before.bodies[end.body], &free[end.body], &u[end.body]);
             end.motion(&Twist { v: (at.v_WB + free.v + u.v) / 2.0, w: (at.w_WB + free.w + u.w) / 2.0 })
         };
         let taken = |(block, p): (&Block, &Impulse)| -p.dot(&block.ends().map(mean).sum::<Vector3<f64>>());
-        self.blocks.iter().zip(impulses).map(taken).sum()
+        self.blocks.iter().zip(impulses).map(taken).collect()
     }
 
     /// Impulses of an iteration that has not settled may add energy (a bar at μ = 1: up to 1.004 of it): only that part

@@ -5,6 +5,8 @@
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
 use crate::collide::closed::is_closed_to_rounding;
+use crate::collide::islands::Islands;
+use crate::collide::lasting::Hold;
 use crate::deadline::Deadline;
 use crate::experiment::types::Impact;
 use crate::model::Model;
@@ -23,10 +25,11 @@ pub struct Blow {
     places: Vec<usize>,
     restitution: Vec<f64>,
     own: Vec<Impulse>,
-    /// Of every body: another one of its island, or itself; and whether something strikes in the island of this first
-    /// body.
-    island: Vec<usize>,
+    islands: Islands,
+    /// Of every island by its first body: something strikes.
     struck: Vec<bool>,
+    /// Of every contact: its island is struck.
+    pub is_struck: Vec<bool>,
     /// Of all contacts; and what they do to the bodies.
     pub impulses: Vec<Impulse>,
     pub response: Vec<Twist>,
@@ -50,8 +53,9 @@ impl Blow {
             places: Vec::new(),
             restitution: Vec::new(),
             own: Vec::new(),
-            island: Vec::new(),
+            islands: Islands::default(),
             struck: Vec::new(),
+            is_struck: Vec::new(),
             impulses: Vec::new(),
             response: Vec::new(),
             after: start.clone(),
@@ -64,11 +68,11 @@ impl Blow {
         model: &Model,
         state: &State,
         free: &[Twist],
-        found: &[Contact],
+        (found, hold): (&[Contact], &dyn Fn(&Contact) -> Option<Hold>),
         (step_s, deadline): (f64, Deadline),
         solver: &mut Plastic,
     ) -> Option<bool> {
-        if !self.take_part(model, state, free, found, step_s) {
+        if !self.take_part(model, state, free, (found, hold), step_s) {
             return None;
         }
         // Half-way through the kick of `moreau` half of the forces have acted: with e = 1 no energy is lost.
@@ -90,8 +94,15 @@ impl Blow {
     }
 
     /// Whether anything strikes. What strikes takes its island along: all that bodies hand on among each other.
-    fn take_part(&mut self, model: &Model, state: &State, free: &[Twist], found: &[Contact], step_s: f64) -> bool {
-        self.find_islands(model, found);
+    fn take_part(
+        &mut self,
+        model: &Model,
+        state: &State,
+        free: &[Twist],
+        (found, hold): (&[Contact], &dyn Fn(&Contact) -> Option<Hold>),
+        step_s: f64,
+    ) -> bool {
+        self.islands.find(model, found.iter().copied());
         self.struck.clear();
         self.struck.resize(model.bodies.len(), false);
         let strikes: Vec<bool> = found
@@ -99,54 +110,26 @@ impl Blow {
             .map(|contact| {
                 let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
                 let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
-                self.approach.strikes(model, contact, [before, gained], step_s)
+                hold(contact).is_none() && self.approach.strikes(model, contact, [before, gained], step_s)
             })
             .collect();
         for (contact, _) in found.iter().zip(&strikes).filter(|(_, strikes)| **strikes) {
-            let first = self.first(model, contact);
+            let first = self.islands.of(model, contact);
             self.struck[first] = true;
         }
+        self.is_struck.clear();
         self.contacts.clear();
         self.places.clear();
         self.restitution.clear();
         for (place, (contact, strikes)) in found.iter().zip(strikes).enumerate() {
-            if strikes || (self.is_struck(model, contact) && is_closed_to_rounding(model, contact)) {
+            let is_struck = self.struck[self.islands.of(model, contact)];
+            self.is_struck.push(is_struck);
+            if strikes || (is_struck && is_closed_to_rounding(model, contact)) {
                 self.contacts.push(*contact);
                 self.places.push(place);
                 self.restitution.push(contact.restitution);
             }
         }
         !self.contacts.is_empty()
-    }
-
-    /// Whether something strikes in the contact's island.
-    pub fn is_struck(&self, model: &Model, contact: &Contact) -> bool {
-        self.struck[self.first(model, contact)]
-    }
-
-    /// The first body of the contact's island.
-    fn first(&self, model: &Model, contact: &Contact) -> usize {
-        let moves = contact.ends().map(|(i, ..)| i).find(|i| !model.bodies[*i].driven);
-        self.root(moves.unwrap_or(contact.body))
-    }
-
-    fn root(&self, mut body: usize) -> usize {
-        while self.island[body] != body {
-            body = self.island[body];
-        }
-        body
-    }
-
-    fn find_islands(&mut self, model: &Model, found: &[Contact]) {
-        self.island.clear();
-        self.island.extend(0..model.bodies.len());
-        for contact in found {
-            let Some(other) = contact.other else { continue };
-            if model.bodies[contact.body].driven || model.bodies[other].driven {
-                continue;
-            }
-            let (a, b) = (self.root(contact.body), self.root(other));
-            self.island[a.max(b)] = a.min(b);
-        }
     }
 }

@@ -12,6 +12,7 @@
 use super::blow::Blow;
 use super::drift::drift;
 use super::foreseen::Foreseen;
+use super::push_out::push_out;
 use super::scratch::Scratch;
 use crate::clock::Clock;
 use crate::collide::approach::Approach;
@@ -20,7 +21,6 @@ use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, SolvedContact};
 use crate::deadline::Deadline;
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
-use crate::integrate::rotation::{exponential, w_from_momentum};
 use crate::model::pins::Pin as Joint;
 use crate::model::{Body, Model};
 use crate::plan::Plan;
@@ -168,7 +168,7 @@ impl TimeStepping {
         let after_s = self.made_s - before_s;
         self.note_lasting(model, state);
         self.take_solution();
-        let pushed = self.push_out(model, state, self.made_s);
+        let pushed = self.find_push(model, state, self.made_s);
         // 3. Velocities. 4. Position and attitude.
         let s = &mut self.scratch;
         for (i, at) in state.bodies.iter_mut().enumerate() {
@@ -177,14 +177,7 @@ impl TimeStepping {
         }
         drift(model, state, after_s, &mut s.work);
         if pushed {
-            for ((body, at), moved) in model.bodies.iter().zip(&mut state.bodies).zip(&self.push.moved) {
-                let L_W = body.I_W(at) * at.w_WB;
-                at.p_WB += moved.v;
-                at.q_WB = exponential(&moved.w) * at.q_WB;
-                if !body.isotropic && !body.driven {
-                    at.w_WB = w_from_momentum(body, at, &L_W);
-                }
-            }
+            push_out(model, state, &mut self.push);
         }
         // 5. Time.
         self.left_s = (self.made_s < left_s).then_some(left_s - self.made_s);
@@ -231,15 +224,15 @@ impl TimeStepping {
     fn note_lasting(&mut self, model: &Model, state: &State) {
         let TimeStepping { scratch: s, approach, made_s, blow, lasting, .. } = self;
         let known = &*lasting;
-        let lasts = |(contact, p): (&Contact, &Impulse)| {
+        let is_struck = |i: usize| blow.as_ref().is_some_and(|blow| blow.is_struck[i]);
+        let lasts = |(i, (contact, p)): (usize, (&Contact, &Impulse))| {
             let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
             let gained = contact.normal.dot(&contact.velocity(|i| [s.free[i].v, s.free[i].w])) - before;
-            let is_struck = blow.as_ref().is_some_and(|blow| blow.is_struck(model, contact));
-            let lasts = approach.lasts(model, contact, [before, gained], *made_s, known.of(contact)) && !is_struck;
+            let lasts = approach.lasts(model, contact, [before, gained], *made_s, known.of(contact)) && !is_struck(i);
             let hold = Hold::of(p.x, p.yz().norm(), contact.friction).filter(|_| lasts)?;
             Some((contact.key(), hold))
         };
-        let list: Vec<_> = s.found.iter().zip(&s.impulses).filter_map(lasts).collect();
+        let list: Vec<_> = s.found.iter().zip(&s.impulses).enumerate().filter_map(lasts).collect();
         lasting.renew(list.into_iter());
     }
 
@@ -272,7 +265,8 @@ impl TimeStepping {
             let (solver, work) = (&mut self.solver, &mut s.work);
             let mut plastic =
                 |problem: &ContactProblem, p: &mut [Impulse]| solver.solve(problem, &self.sweeps, p, work);
-            let ended = blow.strike(model, state, &s.free, &s.found, (step_s, self.sweeps.deadline), &mut plastic)?;
+            let ended =
+                blow.strike(model, state, &s.free, (&s.found, &hold), (step_s, self.sweeps.deadline), &mut plastic)?;
             s.work.unsolved += u64::from(!ended);
             self.is_cut |= !ended && self.sweeps.deadline.is_over();
             go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s), hold);
@@ -292,7 +286,8 @@ impl TimeStepping {
         let mut settled = s.problem.blocks.is_empty();
         for _ in 0..MOST_STOPS {
             settled = settled || self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work);
-            if !(settled && is_half_way && stop(&mut s.problem, &s.impulses)) {
+            s.problem.response(&s.impulses, &mut s.response);
+            if !(settled && is_half_way && s.problem.stop(&s.impulses, &s.response)) {
                 break;
             }
             settled = false;
@@ -312,11 +307,11 @@ impl TimeStepping {
         s.problem.response(&s.impulses, &mut s.response);
     }
 
-    fn push_out(&mut self, model: &Model, state: &State, step_s: f64) -> bool {
+    fn find_push(&mut self, model: &Model, state: &State, step_s: f64) -> bool {
         let s = &mut self.scratch;
-        let lost_j = || s.problem.dissipated_j(state, &s.free, &s.impulses, &s.response);
+        let lost_j = || s.problem.taken_j(state, &s.free, &s.impulses, &s.response);
         self.position_correction == PositionCorrection::Projection
-            && self.push.find(&s.problem, &s.found, model, (&s.response, step_s), lost_j, &mut s.work)
+            && self.push.find(&s.problem, &s.found, model, (&s.impulses, &s.response, step_s), lost_j, &mut s.work)
     }
 }
 
@@ -332,21 +327,12 @@ fn go_on_after(
 ) {
     let free: Vec<Twist> = free.iter().zip(&blow.response).map(|(a, b)| Twist { v: a.v + b.v, w: a.w + b.w }).collect();
     let mut plastic: Vec<Contact> = found.iter().map(|contact| Contact { restitution: 0.0, ..*contact }).collect();
-    let hold = |contact: &Contact| hold(contact).filter(|_| !blow.is_struck(model, contact));
+    let mut is_struck = blow.is_struck.iter();
+    let hold = |contact: &Contact| {
+        let is_struck = is_struck.next();
+        hold(contact).filter(|_| is_struck == Some(&false))
+    };
     problem.gather_held(model, &blow.after, &free, &mut plastic, through, hold);
-}
-
-/// Contacts that slid and now would stick in the mean come to rest instead: their slip after the step is to be none,
-/// else it would turn its sign for ever. Whether there is any.
-fn stop(problem: &mut ContactProblem, impulses: &[Impulse]) -> bool {
-    let mut any = false;
-    for (block, p) in problem.blocks.iter_mut().zip(impulses) {
-        if block.hold == Some(Hold::Slid) && Hold::of(p.x, p.yz().norm(), block.friction) == Some(Hold::Stuck) {
-            block.stop();
-            any = true;
-        }
-    }
-    any
 }
 
 /// Contacts that were left out are there, without an impulse.

@@ -6,8 +6,8 @@
 //! residual of a contact (V. Acary, B. Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, Springer 2008).
 //!
 //! A contact that lasts through steps whose kick is half-way (`collide::lasting`: by what the steps before it showed)
-//! obeys the law in the mean of the velocities before and after: u is u⁻ + u⁺. One that slid and comes to rest may have
-//! u_t⁺ = 0 instead, which the mean would turn over for ever.
+//! obeys the law in the mean of the velocities before and after: u is u⁻ + u⁺. Friction of one that slid may be against
+//! u⁺ instead, as of one that is new: it comes to rest then, where the mean would turn its slip over for ever.
 //!
 //! In an impact with tangential restitution u_t stands for u_t⁺ + ε_t u_t⁻, from the velocities before and after.
 //!
@@ -113,9 +113,12 @@ impl<'a> Seen<'a> {
         }
         let missed = |u: &Vector3<f64>| self.missed_at(u, least, impulse_W);
         match self.hold {
-            None => missed(after),
             Some(Hold::Stuck) => missed(&(after + tangent)),
             Some(Hold::Slid) => missed(&(after + tangent)).min(missed(after)),
+            None if self.through.0 == Approach::Middle && !self.strikes() => {
+                missed(&(after + tangent)).min(missed(after))
+            }
+            None => missed(after),
         }
     }
 

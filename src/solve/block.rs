@@ -31,8 +31,10 @@ pub struct Block {
     pub before: Vector3<f64>,
     /// ε_t of an impact, which b's tangents' rows are relative to; else 0.
     pub tangential_restitution: f64,
-    /// The contact lasts: b is relative to the velocity before sent back, in all rows.
+    /// The contact lasts: b's normal row is relative to the velocity before sent back.
     pub hold: Option<Hold>,
+    /// The same of the tangents' rows alone: friction is against the mean of the velocities before and after.
+    pub meant: bool,
     /// Normal and two tangents, world axes.
     pub frame: [Vector3<f64>; 3],
     /// A⁻¹ of a pin, which takes any impulse; none: a contact.
@@ -117,17 +119,25 @@ impl Block {
             before,
             tangential_restitution,
             hold,
+            meant: hold.is_some(),
             frame,
             pin: None,
         })
     }
 
-    /// Friction is from now on against the velocity after the step, not against the mean.
-    pub fn stop(&mut self) {
-        if self.hold == Some(Hold::Slid) {
-            self.b -= Vector3::new(0.0, self.before.y, self.before.z);
-            self.hold = Some(Hold::Stuck);
+    /// Puts friction against the velocity after the step, or against the mean of those before and after.
+    pub(super) fn mean(&mut self, meant: bool) {
+        if meant != self.meant {
+            self.b += Vector3::new(0.0, self.before.y, self.before.z) * if meant { 1.0 } else { -1.0 };
+            self.meant = meant;
         }
+    }
+
+    /// Normal velocity after the step and what of it is along the surface.
+    pub(super) fn after(&self, u: &[Twist]) -> Vector3<f64> {
+        let sent_back = if self.meant { 1.0 } else { self.tangential_restitution };
+        let since = Vector3::new(-self.least, self.before.y * sent_back, self.before.z * sent_back);
+        self.velocity(u) - since
     }
 
     /// How far the gap of a contact that lasts swings in a step, at most.

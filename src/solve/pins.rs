@@ -71,6 +71,7 @@ impl Block {
             before: Vector3::zeros(),
             tangential_restitution: 0.0,
             hold: None,
+            meant: false,
         }
     }
 }

@@ -13,6 +13,7 @@ use super::pins::Pin;
 use super::twist::Twist;
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
+use crate::collide::islands::Islands;
 use crate::collide::lasting::Hold;
 use crate::model::Model;
 use crate::state::State;
@@ -30,6 +31,9 @@ pub struct ContactProblem {
 
 /// Contacts up to which A is worked out. A sweep costs 9 L² products with A and 36 L (in long chains) without it.
 const DENSE: usize = 32;
+
+/// Energy that contacts give, of the sizes of impulses and velocities: rounding.
+const GIVES_NOTHING: f64 = 1e-13;
 
 impl ContactProblem {
     pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
@@ -131,10 +135,38 @@ impl ContactProblem {
     pub fn stop(&mut self, impulses: &[Impulse], u: &[Twist]) -> bool {
         let mut any = false;
         for (block, p) in self.blocks.iter_mut().zip(impulses) {
-            let after = block.velocity(u) - block.before;
+            let after = block.after(u);
             let turns = after.y * block.before.y + after.z * block.before.z < 0.0;
             if block.hold == Some(Hold::Slid) && p.x > 0.0 && turns {
-                block.stop();
+                block.hold = Some(Hold::Stuck);
+                block.mean(false);
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// Islands whose contacts would give energy to the bodies: friction against the velocity after the step may give
+    /// back what the step's forces have done against it. There it is put against the mean, but where contacts rebound.
+    /// Whether there is any.
+    pub fn take_mean(&mut self, contacts: &[Contact], model: &Model, impulses: &[Impulse], u: &[Twist]) -> bool {
+        if self.blocks.iter().all(|block| block.meant || block.friction == 0.0) {
+            return false;
+        }
+        let mut islands = Islands::with_capacity(self.bodies);
+        islands.find(model, contacts.iter().copied());
+        // What an island gets, and of that what is rounding.
+        let mut given = vec![(0.0, 0.0); self.bodies];
+        for ((block, contact), p) in self.blocks.iter().zip(contacts).zip(impulses) {
+            let (of, both) = (&mut given[islands.of(model, contact)], block.before + block.after(u));
+            *of = (of.0 + p.dot(&both), of.1 + p.norm() * block.before.norm());
+        }
+        let mut any = false;
+        for (block, contact) in self.blocks.iter_mut().zip(contacts) {
+            let (given, size) = given[islands.of(model, contact)];
+            let is_free = !block.meant && block.friction > 0.0 && (block.hold.is_some() || block.least <= 0.0);
+            if given > GIVES_NOTHING * size && is_free {
+                block.mean(true);
                 any = true;
             }
         }
@@ -174,6 +206,14 @@ impl ContactProblem {
         let mut after = self.clone();
         after.blocks.iter_mut().for_each(|block| block.b = block.velocity(u));
         after
+    }
+
+    /// Some of the contacts alone, once their bodies' velocities have changed by `u`.
+    pub fn part(&self, places: &[usize], u: &[Twist]) -> ContactProblem {
+        let mut part = ContactProblem { bodies: self.bodies, inertias: self.inertias.clone(), ..Default::default() };
+        part.blocks.extend(places.iter().map(|i| Block { b: self.blocks[*i].velocity(u), ..self.blocks[*i] }));
+        part.couple();
+        part
     }
 
     /// The 3×3 block of A between two contacts.

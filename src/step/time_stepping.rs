@@ -34,8 +34,8 @@ use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
-/// Most solves of a step of which all but the first find that a contact has stopped.
-const MOST_STOPS: u32 = 4;
+/// Most solves of a step whose kick is half-way: after each, friction may be put against another velocity.
+const MOST_STOPS: u32 = 6;
 
 /// A way in a step, of the least width of all bodies, or a turn in radians, from which bodies are looked at before a
 /// step whose kick is half-way.
@@ -287,7 +287,10 @@ impl TimeStepping {
         for _ in 0..MOST_STOPS {
             settled = settled || self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work);
             s.problem.response(&s.impulses, &mut s.response);
-            if !(settled && is_half_way && s.problem.stop(&s.impulses, &s.response)) {
+            let changes = |problem: &mut ContactProblem| {
+                problem.stop(&s.impulses, &s.response) || problem.take_mean(&s.found, model, &s.impulses, &s.response)
+            };
+            if !(settled && is_half_way && changes(&mut s.problem)) {
                 break;
             }
             settled = false;

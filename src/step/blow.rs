@@ -15,6 +15,10 @@ use crate::solve::impact::{self, Law, Plastic};
 use crate::solve::problem::ContactProblem;
 use crate::solve::twist::Twist;
 use crate::state::State;
+use nalgebra::Vector3;
+
+/// An approach, of the speed of the bodies with the step's forces, that strikes nothing.
+const ROUNDING: f64 = 1e-9;
 
 pub struct Blow {
     law: Law,
@@ -110,7 +114,12 @@ impl Blow {
             .map(|contact| {
                 let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
                 let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
-                hold(contact).is_none() && self.approach.strikes(model, contact, [before, gained], step_s)
+                // Bodies that rest on each other fall alike: what they approach each other by is rounding.
+                let speed = |(i, r_W, _): (usize, Vector3<f64>, f64)| free[i].v.norm() + free[i].w.norm() * r_W.norm();
+                let rounding = ROUNDING * contact.ends().map(speed).fold(0.0, f64::max);
+                hold(contact).is_none()
+                    && -before > rounding
+                    && self.approach.strikes(model, contact, [before, gained], step_s)
             })
             .collect();
         for (contact, _) in found.iter().zip(&strikes).filter(|(_, strikes)| **strikes) {

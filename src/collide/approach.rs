@@ -81,8 +81,8 @@ impl Approach {
             Approach::Touching => Some(0.0),
             // Forces act during the impact's step as in any other, else it would add m g Δt v of energy.
             Approach::Start if rebound > 0.0 && before + gained < closing => Some(closing.max(rebound + falling)),
-            // What opens may come back with its part e of that speed: so Moreau's form u⁺ + e u⁻ ≥ 0 has it of all contacts
-            // that are closed, and one e for all of them gains no energy without friction.
+            // What opens may come back with its part e of that speed: so Moreau's form u⁺ + e u⁻ ≥ 0 has it of all
+            // contacts that are closed, and one e for all of them gains no energy without friction.
             Approach::Start => Some(closing.min(-contact.restitution * (before + gained).max(0.0))),
             // What forces take back within the step comes to rest.
             Approach::Middle if gap_m == 0.0 && before < 0.0 => {

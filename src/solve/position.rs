@@ -7,10 +7,9 @@
 //! itself, and one that lasts through steps whose kick is half-way may be as deep as the step's own accelerations lead
 //! it: its gap swings by so much.
 //!
-//! Lifting costs energy. An island is lifted by what its contacts have taken from it in the same step and no more: so a
-//! solver that lets bodies sink pays for their way back, and one that does not has nothing to lift. Only bodies that are
-//! deeply inside each other, as a scene may begin, are moved out whatever it costs. What no contact holds from outside
-//! keeps its linear momentum, as Σ m d = 0; its angular momentum and energy are kept by whoever moves the bodies
+//! Lifting costs energy. An island gets what its contacts have taken from it in the same step and no more: so a solver
+//! that lets bodies sink pays for their way back, and one that does not has nothing to lift. Only bodies that are deeply
+//! inside each other, as a scene may begin, are moved out whatever it costs. Whoever moves the bodies keeps the account
 //! (`step::push_out`).
 
 use super::Impulse;
@@ -39,13 +38,13 @@ const DEEP: f64 = 1e-2;
 
 /// What the bodies of an island have in common, by its first body.
 #[derive(Clone, Copy, Debug, Default)]
-struct Share {
-    cost_j: f64,
-    taken_j: f64,
-    /// Something is deeply inside.
-    is_deep: bool,
+pub struct Share {
+    /// Energy that the step has taken from it.
+    pub taken_j: f64,
+    /// Something is deeply inside: so much of the way out is gone whatever it costs.
+    pub least: f64,
     /// The container, a body that nothing moves, or a pin holds it.
-    is_held: bool,
+    pub is_held: bool,
     is_pushed: bool,
 }
 
@@ -79,14 +78,14 @@ impl Push {
 
     /// Finds every body's displacement; false if no contact will be inside (then `moved` means nothing). `response`:
     /// what the impulses did to the velocities, which last until the next step's contacts are seen. `taken_j`: what
-    /// every contact of this step took.
+    /// every contact of this step took; `lost_j_kg`: what every body has lost beside that.
     pub fn find(
         &mut self,
         problem: &ContactProblem,
         contacts: &[Contact],
         model: &Model,
         (impulses, response, step_s): (&[Impulse], &[Twist], f64),
-        taken_j: impl FnOnce() -> Vec<f64>,
+        (taken_j, lost_j_kg): (impl FnOnce() -> Vec<f64>, f64),
         work: &mut Work,
     ) -> bool {
         let wanted_m = |block: &Block, contact: &Contact| {
@@ -111,14 +110,19 @@ impl Push {
                 break;
             }
         }
-        self.share(contacts, impulses, model, &taken_j());
-        self.shorten(model);
+        self.share(contacts, impulses, model, (&taken_j(), lost_j_kg));
         true
     }
 
     /// What islands have in common.
-    fn share(&mut self, contacts: &[Contact], impulses: &[Impulse], model: &Model, taken_j: &[f64]) {
-        let Push { multipliers, moved, first, islands, shares, .. } = self;
+    fn share(
+        &mut self,
+        contacts: &[Contact],
+        impulses: &[Impulse],
+        model: &Model,
+        (taken_j, lost_j_kg): (&[f64], f64),
+    ) {
+        let Push { wanted_m, multipliers, first, islands, shares, .. } = self;
         let joins = |(contact, (p, multiplier)): &(&Contact, (&Impulse, &f64))| {
             p.x > 0.0 || **multiplier > 0.0 || contact.gap_m <= rounding_m(model, contact)
         };
@@ -139,32 +143,23 @@ impl Push {
                 shares[first[other]].is_held = true;
             }
         }
-        for ((contact, multiplier), taken_j) in contacts.iter().zip(&*multipliers).zip(taken_j) {
+        let pushes = wanted_m.iter().zip(&*multipliers);
+        for ((contact, (wanted_m, multiplier)), taken_j) in contacts.iter().zip(pushes).zip(taken_j) {
             let share = &mut shares[islands.of(model, contact)];
             share.taken_j += taken_j;
-            share.is_deep |= -contact.gap_m > DEEP * size_m(model, contact);
+            if *wanted_m > PART * DEEP * size_m(model, contact) {
+                share.least = PART;
+            }
             share.is_pushed |= *multiplier > 0.0;
         }
-        for (i, (body, moved)) in model.bodies.iter().zip(&*moved).enumerate().filter(|(_, (body, _))| !body.driven) {
-            shares[first[i]].cost_j -= body.mass_kg * model.gravity_m_s2.dot(&moved.v);
+        for (i, body) in model.bodies.iter().enumerate().filter(|(_, body)| !body.driven) {
+            shares[first[i]].taken_j += body.mass_kg * lost_j_kg;
         }
     }
 
-    /// Lifting bodies costs energy: so much of it as the contacts of the same island have taken in the same step.
-    fn shorten(&mut self, model: &Model) {
-        for (i, moved) in self.moved.iter_mut().enumerate() {
-            let share = &self.shares[self.first[i]];
-            if share.cost_j > 0.0 && share.is_held && !model.bodies[i].driven {
-                let least = if share.is_deep { PART } else { 0.0 };
-                *moved = moved.times((share.taken_j / share.cost_j).clamp(least, 1.0));
-            }
-        }
-    }
-
-    /// Whether the island of this first body is moved, and nothing but its own bodies holds it.
-    pub fn is_alone(&self, first: usize) -> bool {
-        let share = &self.shares[first];
-        share.is_pushed && !share.is_held
+    /// The island of this first body, if it is moved.
+    pub fn island(&self, first: usize) -> Option<&Share> {
+        Some(&self.shares[first]).filter(|share| share.is_pushed)
     }
 
     /// The largest change of a multiplier, as a part of the largest.

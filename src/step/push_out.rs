@@ -1,14 +1,18 @@
-//! Bodies moved out of each other, at no cost of energy and momentum.
+//! Bodies moved out of each other, at no one's cost of energy and momentum.
 //!
-//! A displacement moves bodies and turns them, velocities with them: kinetic energy stays what it is. Of an island that
-//! nothing holds from outside linear momentum and height stay too, but not the angular momentum: it has changed by
-//! Σ m d × v and by what has turned. The change is taken back by turning the whole island as one rigid body, of all
+//! Of an island that nothing holds from outside linear momentum and height stay, as Σ m d = 0, but not the angular
+//! momentum: it changes by Σ m d × v. The change is taken back by turning the whole island as one rigid body, of all
 //! changes of its velocities the one of least kinetic energy, and none that any of its contacts would feel. What energy
 //! that gives or takes comes from the motion of the bodies against each other, or goes to it.
+//!
+//! Bodies of any other island keep their velocities and their own angular momenta. What that costs, in height and in
+//! what their inertia turns against the angular momentum, is no more than what the step has taken: else they go only
+//! a part of the way. What is deeply inside goes on all the same, and its island's motion pays as long as there is any:
+//! bodies that begin inside each other at rest are lifted at no one's cost.
 
-use crate::integrate::rotation::exponential;
+use crate::integrate::rotation::{exponential, w_from_momentum};
 use crate::model::{Body, Model};
-use crate::solve::position::Push;
+use crate::solve::position::{Push, Share};
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use nalgebra::{Matrix3, Vector3};
@@ -44,38 +48,97 @@ impl Whole {
     }
 }
 
+/// Of what can be paid: a way that is nearly straight is found at once.
+const ALMOST: f64 = 1.0 - 1e-3;
+/// Shorter and shorter parts of a way that costs too much are tried so often.
+const TRIES: u32 = 4;
+
 /// Moves the bodies by what `push` has found.
 pub(super) fn push_out(model: &Model, state: &mut State, push: &Push) {
-    let alone: Vec<usize> = (0..model.bodies.len()).filter(|i| push.first[*i] == *i && push.is_alone(*i)).collect();
-    let of = |first: usize, state: &State| -> Whole {
-        let own = (0..model.bodies.len()).filter(|i| push.first[*i] == first);
-        Whole::new(own.map(|i| (&model.bodies[i], &state.bodies[i])))
-    };
-    let before: Vec<Whole> = alone.iter().map(|first| of(*first, state)).collect();
-    for ((body, at), moved) in model.bodies.iter().zip(&mut state.bodies).zip(&push.moved) {
-        let turn = exponential(&moved.w);
-        at.p_WB += moved.v;
-        at.q_WB = turn * at.q_WB;
-        if !body.isotropic && !body.driven {
-            at.w_WB = turn * at.w_WB;
+    for first in 0..model.bodies.len() {
+        let Some(share) = push.island(first).filter(|_| push.first[first] == first) else { continue };
+        let own: Vec<usize> =
+            (first..model.bodies.len()).filter(|i| push.first[*i] == first && !model.bodies[*i].driven).collect();
+        let whole = |state: &State| Whole::new(own.iter().map(|i| (&model.bodies[*i], &state.bodies[*i])));
+        if share.is_held {
+            let cost_j = |part: f64| -> f64 {
+                own.iter().map(|i| cost_j(model, *i, &state.bodies[*i], &push.moved[*i].times(part))).sum()
+            };
+            let part = payable(share, cost_j);
+            let owed_j = cost_j(part) - share.taken_j.max(0.0);
+            for i in &own {
+                state.bodies[*i] = moved(&model.bodies[*i], &state.bodies[*i], &push.moved[*i].times(part));
+            }
+            if owed_j > 0.0 {
+                pay(owed_j, model, &own, state);
+            }
+        } else {
+            let before = whole(state);
+            for i in &own {
+                state.bodies[*i] = moved(&model.bodies[*i], &state.bodies[*i], &push.moved[*i]);
+            }
+            let now = whole(state);
+            keep(&before, &now, own.iter().copied(), state);
         }
-    }
-    for (first, before) in alone.into_iter().zip(before) {
-        let now = of(first, state);
-        let own = state.bodies.iter_mut().zip(&push.first).filter(|(_, of)| **of == first).map(|(at, _)| at);
-        keep(&before, &now, own);
     }
 }
 
+/// The body at another place, with its velocity and its own angular momentum.
+fn moved(body: &Body, at: &BodyState, by: &Twist) -> BodyState {
+    let mut moved = BodyState { p_WB: at.p_WB + by.v, q_WB: exponential(&by.w) * at.q_WB, ..*at };
+    if !body.isotropic {
+        moved.w_WB = w_from_momentum(body, &moved, &(body.I_W(at) * at.w_WB));
+    }
+    moved
+}
+
+/// What it costs to move a body.
+fn cost_j(model: &Model, index: usize, at: &BodyState, by: &Twist) -> f64 {
+    let body = &model.bodies[index];
+    let lifted_j = -body.mass_kg * model.gravity_m_s2.dot(&by.v);
+    let turned = moved(body, at, by).w_WB - at.w_WB;
+    lifted_j + turned.dot(&(body.I_W(at) * at.w_WB)) / 2.0
+}
+
+/// Takes energy from the motion of an island, as much as there is.
+fn pay(owed_j: f64, model: &Model, own: &[usize], state: &mut State) {
+    let kinetic_j = |(body, at): (&Body, &BodyState)| {
+        (at.v_WB.norm_squared() * body.mass_kg + at.w_WB.dot(&(body.I_W(at) * at.w_WB))) / 2.0
+    };
+    let kinetic_j: f64 = own.iter().map(|i| kinetic_j((&model.bodies[*i], &state.bodies[*i]))).sum();
+    let left = if kinetic_j > owed_j { (1.0 - owed_j / kinetic_j).sqrt() } else { 0.0 };
+    for i in own {
+        state.bodies[*i].v_WB *= left;
+        state.bodies[*i].w_WB *= left;
+    }
+}
+
+/// The part of a way that an island can pay for.
+fn payable(share: &Share, cost_j: impl Fn(f64) -> f64) -> f64 {
+    let mut part = 1.0;
+    for _ in 0..TRIES {
+        let cost_j = cost_j(part);
+        if cost_j <= share.taken_j.max(0.0) {
+            return part;
+        }
+        part *= (share.taken_j / cost_j).clamp(0.0, 1.0) * ALMOST;
+        if part <= share.least {
+            return share.least;
+        }
+    }
+    share.least
+}
+
 /// Gives an island the angular momentum and the energy back that it had.
-fn keep<'a>(before: &Whole, now: &Whole, bodies: impl Iterator<Item = &'a mut BodyState>) {
+fn keep(before: &Whole, now: &Whole, own: impl Iterator<Item = usize>, state: &mut State) {
     let Some(inverse) = now.I_W.try_inverse() else { return };
     let (turns, turned) = (inverse * now.L_W, inverse * before.L_W);
     let rigid_j = [turns.dot(&now.L_W) / 2.0, turned.dot(&before.L_W) / 2.0];
     let [loose_j, wanted_j] = [now.kinetic_j - rigid_j[0], before.kinetic_j - rigid_j[1]];
     let square = if loose_j > 0.0 { wanted_j / loose_j } else { 1.0 };
     let factor = if square > LARGEST { 1.0 } else { square.max(0.0).sqrt() };
-    for at in bodies {
+    for i in own {
+        let at = &mut state.bodies[i];
         let r = at.p_WB - now.p_m;
         let loose = Twist { v: at.v_WB - now.v_m_s - turns.cross(&r), w: at.w_WB - turns }.times(factor);
         at.v_WB = now.v_m_s + loose.v + turned.cross(&r);

@@ -177,7 +177,7 @@ impl TimeStepping {
         }
         drift(model, state, after_s, &mut s.work);
         if pushed {
-            push_out(model, state, &mut self.push);
+            push_out(model, state, &self.push);
         }
         // 5. Time.
         self.left_s = (self.made_s < left_s).then_some(left_s - self.made_s);
@@ -223,6 +223,9 @@ impl TimeStepping {
     /// Keeps what lasts into the next step.
     fn note_lasting(&mut self, model: &Model, state: &State) {
         let TimeStepping { scratch: s, approach, made_s, blow, lasting, .. } = self;
+        if *approach != Approach::Middle {
+            return lasting.renew(std::iter::empty());
+        }
         let known = &*lasting;
         let is_struck = |i: usize| blow.as_ref().is_some_and(|blow| blow.is_struck[i]);
         let lasts = |(i, (contact, p)): (usize, (&Contact, &Impulse))| {
@@ -312,9 +315,17 @@ impl TimeStepping {
 
     fn find_push(&mut self, model: &Model, state: &State, step_s: f64) -> bool {
         let s = &mut self.scratch;
-        let lost_j = || s.problem.taken_j(state, &s.free, &s.impulses, &s.response);
+        let is_half_way = self.approach == Approach::Middle;
+        // Whatever kicks at the start of a step loses what its forces do in it to bodies at rest: ½ m (g Δt)².
+        let lost_j_kg = if is_half_way { 0.0 } else { (model.gravity_m_s2 * step_s).norm_squared() / 2.0 };
+        let taken_j = || {
+            let at_start = || state.bodies.iter().map(Twist::of).collect();
+            let free = if is_half_way { s.free.clone() } else { at_start() };
+            s.problem.taken_j(state, &free, &s.impulses, &s.response)
+        };
+        let through = (&s.impulses[..], &s.response[..], step_s);
         self.position_correction == PositionCorrection::Projection
-            && self.push.find(&s.problem, &s.found, model, (&s.impulses, &s.response, step_s), lost_j, &mut s.work)
+            && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg), &mut s.work)
     }
 }
 

@@ -10,6 +10,7 @@ mod free;
 mod impact;
 mod impact_energy;
 mod known_problems;
+mod laws;
 mod lecture;
 mod loads;
 mod newton;

@@ -60,6 +60,8 @@ pub struct Push {
     pub first: Vec<usize>,
     islands: Islands,
     shares: Vec<Share>,
+    /// Of every contact.
+    taken_j: Vec<f64>,
 }
 
 impl Push {
@@ -73,6 +75,7 @@ impl Push {
             first: Vec::with_capacity(bodies),
             islands: Islands::with_capacity(bodies),
             shares: Vec::with_capacity(bodies),
+            taken_j: Vec::with_capacity(contacts),
         }
     }
 
@@ -85,7 +88,7 @@ impl Push {
         contacts: &[Contact],
         model: &Model,
         (impulses, response, step_s): (&[Impulse], &[Twist], f64),
-        (taken_j, lost_j_kg): (impl FnOnce() -> Vec<f64>, f64),
+        (taken_j, lost_j_kg): (impl FnOnce(&mut Vec<f64>), f64),
         work: &mut Work,
     ) -> bool {
         let wanted_m = |block: &Block, contact: &Contact| {
@@ -110,19 +113,14 @@ impl Push {
                 break;
             }
         }
-        self.share(contacts, impulses, model, (&taken_j(), lost_j_kg));
+        taken_j(&mut self.taken_j);
+        self.share(contacts, impulses, model, lost_j_kg);
         true
     }
 
     /// What islands have in common.
-    fn share(
-        &mut self,
-        contacts: &[Contact],
-        impulses: &[Impulse],
-        model: &Model,
-        (taken_j, lost_j_kg): (&[f64], f64),
-    ) {
-        let Push { wanted_m, multipliers, first, islands, shares, .. } = self;
+    fn share(&mut self, contacts: &[Contact], impulses: &[Impulse], model: &Model, lost_j_kg: f64) {
+        let Push { wanted_m, multipliers, first, islands, shares, taken_j, .. } = self;
         let joins = |(contact, (p, multiplier)): &(&Contact, (&Impulse, &f64))| {
             p.x > 0.0 || **multiplier > 0.0 || contact.gap_m <= rounding_m(model, contact)
         };
@@ -144,7 +142,7 @@ impl Push {
             }
         }
         let pushes = wanted_m.iter().zip(&*multipliers);
-        for ((contact, (wanted_m, multiplier)), taken_j) in contacts.iter().zip(pushes).zip(taken_j) {
+        for ((contact, (wanted_m, multiplier)), taken_j) in contacts.iter().zip(pushes).zip(&*taken_j) {
             let share = &mut shares[islands.of(model, contact)];
             share.taken_j += taken_j;
             if *wanted_m > PART * DEEP * size_m(model, contact) {

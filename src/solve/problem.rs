@@ -173,14 +173,23 @@ impl ContactProblem {
         any
     }
 
-    /// Energy that every contact's impulse takes from bodies that were at `before`: −p·½(c⁻ + c⁺).
-    pub fn taken_j(&self, before: &State, free: &[Twist], impulses: &[Impulse], u: &[Twist]) -> Vec<f64> {
+    /// Energy that every contact's impulse takes from bodies that were at `before`, −p·½(c⁻ + c⁺), the forces of the
+    /// step acting with the impulses (`free`: velocities with them) or after them.
+    pub fn taken_j(
+        &self,
+        before: &State,
+        free: Option<&[Twist]>,
+        (impulses, u): (&[Impulse], &[Twist]),
+        taken: &mut Vec<f64>,
+    ) {
         let mean = |end: &End| {
-            let (at, free, u) = (&before.bodies[end.body], &free[end.body], &u[end.body]);
-            end.motion(&Twist { v: (at.v_WB + free.v + u.v) / 2.0, w: (at.w_WB + free.w + u.w) / 2.0 })
+            let (at, u) = (Twist::of(&before.bodies[end.body]), &u[end.body]);
+            let free = free.map_or(at, |free| free[end.body]);
+            end.motion(&Twist { v: (at.v + free.v + u.v) / 2.0, w: (at.w + free.w + u.w) / 2.0 })
         };
-        let taken = |(block, p): (&Block, &Impulse)| -p.dot(&block.ends().map(mean).sum::<Vector3<f64>>());
-        self.blocks.iter().zip(impulses).map(taken).collect()
+        let of = |(block, p): (&Block, &Impulse)| -p.dot(&block.ends().map(mean).sum::<Vector3<f64>>());
+        taken.clear();
+        taken.extend(self.blocks.iter().zip(impulses).map(of));
     }
 
     /// Impulses of an iteration that has not settled may add energy (a bar at μ = 1: up to 1.004 of it): only that part

@@ -57,28 +57,28 @@ const TRIES: u32 = 4;
 pub(super) fn push_out(model: &Model, state: &mut State, push: &Push) {
     for first in 0..model.bodies.len() {
         let Some(share) = push.island(first).filter(|_| push.first[first] == first) else { continue };
-        let own: Vec<usize> =
-            (first..model.bodies.len()).filter(|i| push.first[*i] == first && !model.bodies[*i].driven).collect();
-        let whole = |state: &State| Whole::new(own.iter().map(|i| (&model.bodies[*i], &state.bodies[*i])));
+        let is_own = |i: &usize| push.first[*i] == first && !model.bodies[*i].driven;
+        let own = (first..model.bodies.len()).filter(is_own);
+        let whole = |state: &State| Whole::new(own.clone().map(|i| (&model.bodies[i], &state.bodies[i])));
         if share.is_held {
             let cost_j = |part: f64| -> f64 {
-                own.iter().map(|i| cost_j(model, *i, &state.bodies[*i], &push.moved[*i].times(part))).sum()
+                own.clone().map(|i| cost_j(model, i, &state.bodies[i], &push.moved[i].times(part))).sum()
             };
             let part = payable(share, cost_j);
             let owed_j = cost_j(part) - share.taken_j.max(0.0);
-            for i in &own {
-                state.bodies[*i] = moved(&model.bodies[*i], &state.bodies[*i], &push.moved[*i].times(part));
+            for i in own.clone() {
+                state.bodies[i] = moved(&model.bodies[i], &state.bodies[i], &push.moved[i].times(part));
             }
             if owed_j > 0.0 {
-                pay(owed_j, model, &own, state);
+                pay(owed_j, model, own, state);
             }
         } else {
             let before = whole(state);
-            for i in &own {
-                state.bodies[*i] = moved(&model.bodies[*i], &state.bodies[*i], &push.moved[*i]);
+            for i in own.clone() {
+                state.bodies[i] = moved(&model.bodies[i], &state.bodies[i], &push.moved[i]);
             }
             let now = whole(state);
-            keep(&before, &now, own.iter().copied(), state);
+            keep(&before, &now, own.clone(), state);
         }
     }
 }
@@ -101,15 +101,15 @@ fn cost_j(model: &Model, index: usize, at: &BodyState, by: &Twist) -> f64 {
 }
 
 /// Takes energy from the motion of an island, as much as there is.
-fn pay(owed_j: f64, model: &Model, own: &[usize], state: &mut State) {
+fn pay(owed_j: f64, model: &Model, own: impl Iterator<Item = usize> + Clone, state: &mut State) {
     let kinetic_j = |(body, at): (&Body, &BodyState)| {
         (at.v_WB.norm_squared() * body.mass_kg + at.w_WB.dot(&(body.I_W(at) * at.w_WB))) / 2.0
     };
-    let kinetic_j: f64 = own.iter().map(|i| kinetic_j((&model.bodies[*i], &state.bodies[*i]))).sum();
+    let kinetic_j: f64 = own.clone().map(|i| kinetic_j((&model.bodies[i], &state.bodies[i]))).sum();
     let left = if kinetic_j > owed_j { (1.0 - owed_j / kinetic_j).sqrt() } else { 0.0 };
     for i in own {
-        state.bodies[*i].v_WB *= left;
-        state.bodies[*i].w_WB *= left;
+        state.bodies[i].v_WB *= left;
+        state.bodies[i].w_WB *= left;
     }
 }
 

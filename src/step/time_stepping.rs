@@ -57,6 +57,8 @@ pub struct TimeStepping {
     solved: Vec<(Key, Impulse)>,
     /// Contacts that last into this step, of a scheme whose kick is half-way.
     lasting: Lasting,
+    /// The same of the next step.
+    last_on: Vec<(Key, Hold)>,
     foreseen: Foreseen,
     /// What is left of a step of the clock of which a part is made, and how often it was cut.
     left_s: Option<f64>,
@@ -100,6 +102,7 @@ impl TimeStepping {
             last: Vec::with_capacity(scratch.contacts()),
             solved: Vec::with_capacity(scratch.contacts()),
             lasting: Lasting::default(),
+            last_on: Vec::with_capacity(scratch.contacts()),
             foreseen: Foreseen::with_capacity(scratch.contacts(), scratch.free.capacity()),
             left_s: None,
             parts: 0,
@@ -222,7 +225,7 @@ impl TimeStepping {
 
     /// Keeps what lasts into the next step.
     fn note_lasting(&mut self, model: &Model, state: &State) {
-        let TimeStepping { scratch: s, approach, made_s, blow, lasting, .. } = self;
+        let TimeStepping { scratch: s, approach, made_s, blow, lasting, last_on, .. } = self;
         if *approach != Approach::Middle {
             return lasting.renew(std::iter::empty());
         }
@@ -235,8 +238,9 @@ impl TimeStepping {
             let hold = Hold::of(p.x, p.yz().norm(), contact.friction).filter(|_| lasts)?;
             Some((contact.key(), hold))
         };
-        let list: Vec<_> = s.found.iter().zip(&s.impulses).enumerate().filter_map(lasts).collect();
-        lasting.renew(list.into_iter());
+        last_on.clear();
+        last_on.extend(s.found.iter().zip(&s.impulses).enumerate().filter_map(lasts));
+        lasting.renew(last_on.drain(..));
     }
 
     fn take_solution(&mut self) {
@@ -318,11 +322,8 @@ impl TimeStepping {
         let is_half_way = self.approach == Approach::Middle;
         // Whatever kicks at the start of a step loses what its forces do in it to bodies at rest: ½ m (g Δt)².
         let lost_j_kg = if is_half_way { 0.0 } else { (model.gravity_m_s2 * step_s).norm_squared() / 2.0 };
-        let taken_j = || {
-            let at_start = || state.bodies.iter().map(Twist::of).collect();
-            let free = if is_half_way { s.free.clone() } else { at_start() };
-            s.problem.taken_j(state, &free, &s.impulses, &s.response)
-        };
+        let free = is_half_way.then_some(&s.free[..]);
+        let taken_j = |taken: &mut Vec<f64>| s.problem.taken_j(state, free, (&s.impulses, &s.response), taken);
         let through = (&s.impulses[..], &s.response[..], step_s);
         self.position_correction == PositionCorrection::Projection
             && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg), &mut s.work)

@@ -71,7 +71,7 @@ fn moreau_has_order_2_wherever_a_normal_or_an_arm_turns() {
             assert_eq!((m.outcome, m.work.unsolved), (Outcome::Finished, 0), "{name}");
             // measured: 4.5e-14 and less, 0
             assert!(m.residual_max.unwrap() < 1e-11, "{name}: {:?}", m.residual_max);
-            assert!(m.energy_rise_max_rel < 1e-12, "{name}: {:?}", m.energy_rise_max_rel);
+            assert!(m.energy_rise_max_rel.unwrap() < 1e-12, "{name}: {:?}", m.energy_rise_max_rel);
             *ended.state.bodies.last().unwrap()
         };
         let exact = end(0.01 / 64.0);
@@ -108,7 +108,7 @@ time: { step_s: 0.003396, end_s: 1.16466 }
             // measured: 0, 0 and 0; the first was 3.4e-6
             assert!(m.angular_momentum_drift_rel.unwrap() < 1e-12, "{step_s}: {:?}", m.angular_momentum_drift_rel);
             assert!(m.linear_momentum_drift_rel.unwrap() < 1e-12, "{step_s}: {:?}", m.linear_momentum_drift_rel);
-            assert!(m.energy_rise_max_rel < 1e-12, "{step_s}: {:?}", m.energy_rise_max_rel);
+            assert!(m.energy_rise_max_rel.unwrap() < 1e-12, "{step_s}: {:?}", m.energy_rise_max_rel);
         }
     }
 }
@@ -127,7 +127,7 @@ time: { step_s: 0.00389279, end_s: 1 }
             let sets = [format!("method.time-stepping.impact={impact}"), format!("scene.restitution={restitution}")];
             let m = run(&experiment(text, &[&sets[0], &sets[1]])).measured;
             // measured: 0; a rise of 2.4e-3 and a depth of 2.3e-3 at the second
-            assert!(m.energy_rise_max_rel < 1e-12, "{sets:?}: {:?}", m.energy_rise_max_rel);
+            assert!(m.energy_rise_max_rel.unwrap() < 1e-12, "{sets:?}: {:?}", m.energy_rise_max_rel);
             // measured: 0, 0, 1.0e-4 and 2.7e-3: no deeper than a step at e v leads out again
             let (e, v) = (restitution.parse::<f64>().unwrap(), 2.0);
             assert!(m.penetration_max_m.unwrap() <= e * v * 0.00389279, "{sets:?}: {:?}", m.penetration_max_m);

@@ -105,7 +105,9 @@ impl Block {
         let tangential_restitution = if strikes { contact.tangential_restitution } else { 0.0 };
         b.x -= least;
         let sent_back = if hold.is_some() { 1.0 } else { tangential_restitution };
-        b += Vector3::new(0.0, before.y, before.z) * sent_back;
+        if sent_back > 0.0 {
+            b += Vector3::new(0.0, before.y, before.z) * sent_back;
+        }
         let A = ends().filter_map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
         Some(Block {
             end: own,

@@ -38,7 +38,7 @@ const DEEP: f64 = 1e-2;
 
 /// What the bodies of an island have in common, by its first body.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Share {
+pub struct Account {
     /// Energy that the step has taken from it.
     pub taken_j: f64,
     /// Something is deeply inside: so much of the way out is gone whatever it costs.
@@ -59,7 +59,7 @@ pub struct Push {
     /// Of every body: the first body of its island.
     pub first: Vec<usize>,
     islands: Islands,
-    shares: Vec<Share>,
+    accounts: Vec<Account>,
     /// Of every contact.
     taken_j: Vec<f64>,
 }
@@ -74,7 +74,7 @@ impl Push {
             moved: Vec::with_capacity(bodies),
             first: Vec::with_capacity(bodies),
             islands: Islands::with_capacity(bodies),
-            shares: Vec::with_capacity(bodies),
+            accounts: Vec::with_capacity(bodies),
             taken_j: Vec::with_capacity(contacts),
         }
     }
@@ -114,13 +114,13 @@ impl Push {
             }
         }
         taken_j(&mut self.taken_j);
-        self.share(contacts, impulses, model, lost_j_kg);
+        self.settle(contacts, impulses, model, lost_j_kg);
         true
     }
 
     /// What islands have in common.
-    fn share(&mut self, contacts: &[Contact], impulses: &[Impulse], model: &Model, lost_j_kg: f64) {
-        let Push { wanted_m, multipliers, first, islands, shares, taken_j, .. } = self;
+    fn settle(&mut self, contacts: &[Contact], impulses: &[Impulse], model: &Model, lost_j_kg: f64) {
+        let Push { wanted_m, multipliers, first, islands, accounts, taken_j, .. } = self;
         let joins = |(contact, (p, multiplier)): &(&Contact, (&Impulse, &f64))| {
             p.x > 0.0 || **multiplier > 0.0 || contact.gap_m <= rounding_m(model, contact)
         };
@@ -129,35 +129,35 @@ impl Push {
         islands.find(model, joining());
         first.clear();
         first.extend((0..model.bodies.len()).map(|body| islands.first(body)));
-        shares.clear();
-        shares.resize(model.bodies.len(), Share::default());
+        accounts.clear();
+        accounts.resize(model.bodies.len(), Account::default());
         for contact in joining() {
             let is_held = contact.other.is_none() || contact.ends().any(|(i, ..)| model.bodies[i].driven);
-            shares[islands.of(model, &contact)].is_held |= is_held;
+            accounts[islands.of(model, &contact)].is_held |= is_held;
         }
         for pin in &model.pins {
-            shares[first[pin.body]].is_held = true;
+            accounts[first[pin.body]].is_held = true;
             if let Anchor::Body(other, _) = pin.anchor {
-                shares[first[other]].is_held = true;
+                accounts[first[other]].is_held = true;
             }
         }
         let pushes = wanted_m.iter().zip(&*multipliers);
         for ((contact, (wanted_m, multiplier)), taken_j) in contacts.iter().zip(pushes).zip(&*taken_j) {
-            let share = &mut shares[islands.of(model, contact)];
-            share.taken_j += taken_j;
+            let account = &mut accounts[islands.of(model, contact)];
+            account.taken_j += taken_j;
             if *wanted_m > PART * DEEP * size_m(model, contact) {
-                share.least = PART;
+                account.least = PART;
             }
-            share.is_pushed |= *multiplier > 0.0;
+            account.is_pushed |= *multiplier > 0.0;
         }
         for (i, body) in model.bodies.iter().enumerate().filter(|(_, body)| !body.driven) {
-            shares[first[i]].taken_j += body.mass_kg * lost_j_kg;
+            accounts[first[i]].taken_j += body.mass_kg * lost_j_kg;
         }
     }
 
     /// The island of this first body, if it is moved.
-    pub fn island(&self, first: usize) -> Option<&Share> {
-        Some(&self.shares[first]).filter(|share| share.is_pushed)
+    pub fn island(&self, first: usize) -> Option<&Account> {
+        Some(&self.accounts[first]).filter(|account| account.is_pushed)
     }
 
     /// The largest change of a multiplier, as a part of the largest.

@@ -12,7 +12,7 @@
 
 use crate::integrate::rotation::{exponential, w_from_momentum};
 use crate::model::{Body, Model};
-use crate::solve::position::{Push, Share};
+use crate::solve::position::{Account, Push};
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use nalgebra::{Matrix3, Vector3};
@@ -56,16 +56,16 @@ const TRIES: u32 = 4;
 /// Moves the bodies by what `push` has found.
 pub(super) fn push_out(model: &Model, state: &mut State, push: &Push) {
     for first in 0..model.bodies.len() {
-        let Some(share) = push.island(first).filter(|_| push.first[first] == first) else { continue };
+        let Some(account) = push.island(first).filter(|_| push.first[first] == first) else { continue };
         let is_own = |i: &usize| push.first[*i] == first && !model.bodies[*i].driven;
         let own = (first..model.bodies.len()).filter(is_own);
         let whole = |state: &State| Whole::new(own.clone().map(|i| (&model.bodies[i], &state.bodies[i])));
-        if share.is_held {
+        if account.is_held {
             let cost_j = |part: f64| -> f64 {
                 own.clone().map(|i| cost_j(model, i, &state.bodies[i], &push.moved[i].times(part))).sum()
             };
-            let part = payable(share, cost_j);
-            let owed_j = cost_j(part) - share.taken_j.max(0.0);
+            let part = payable(account, cost_j);
+            let owed_j = cost_j(part) - account.taken_j.max(0.0);
             for i in own.clone() {
                 state.bodies[i] = moved(&model.bodies[i], &state.bodies[i], &push.moved[i].times(part));
             }
@@ -114,19 +114,19 @@ fn pay(owed_j: f64, model: &Model, own: impl Iterator<Item = usize> + Clone, sta
 }
 
 /// The part of a way that an island can pay for.
-fn payable(share: &Share, cost_j: impl Fn(f64) -> f64) -> f64 {
+fn payable(account: &Account, cost_j: impl Fn(f64) -> f64) -> f64 {
     let mut part = 1.0;
     for _ in 0..TRIES {
         let cost_j = cost_j(part);
-        if cost_j <= share.taken_j.max(0.0) {
+        if cost_j <= account.taken_j.max(0.0) {
             return part;
         }
-        part *= (share.taken_j / cost_j).clamp(0.0, 1.0) * ALMOST;
-        if part <= share.least {
-            return share.least;
+        part *= (account.taken_j / cost_j).clamp(0.0, 1.0) * ALMOST;
+        if part <= account.least {
+            return account.least;
         }
     }
-    share.least
+    account.least
 }
 
 /// Gives an island the angular momentum and the energy back that it had.

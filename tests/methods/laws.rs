@@ -26,11 +26,11 @@ const SLIDING_EGG: &str = "
 /// A disc that rolls on its rim, 20° from upright.
 const RIM: &str = "
     - { name: b, shape: { cylinder: { radius_m: 0.3, height_m: 0.1 } }, mass_kg: 1,
-        position_m: [0, 0.29900879338, 0], orientation: { axis: [1, 0, 0], angle_deg: 70 },
-        angular_velocity_rad_s: [0, 2.73616114661, 7.51754096629], velocity_m_s: [2.4, 0, 0] }";
+        position_m: [0, 0.29900879340205594, 0], orientation: { axis: [1, 0, 0], angle_deg: 70 },
+        angular_velocity_rad_s: [0, 2.7361611466053506, 7.5175409662872665], velocity_m_s: [-2.4, 0, 0] }";
 const BALL_ON_BALL: &str = "
     - { name: a, fixed: true, mass_kg: 1, shape: { sphere: { radius_m: 1 } }, position_m: [0, 0, 0] }
-    - { name: b, shape: { sphere: { radius_m: 0.5 } }, mass_kg: 1, position_m: [0.45, 1.4309088021, 0] }";
+    - { name: b, shape: { sphere: { radius_m: 0.5 } }, mass_kg: 1, position_m: [0.45, 1.4309088021254184, 0] }";
 const CRATE_ON_TURNTABLE: &str = "
     - { name: table, mass_kg: 1, shape: { cylinder: { radius_m: 2, height_m: 0.2 } }, position_m: [0, -0.1, 0],
         kinematic: { angular_velocity_rad_s: [0, 2, 0] } }

@@ -20,6 +20,9 @@ use nalgebra::Vector3;
 /// An approach, of the speed of the bodies with the step's forces, that strikes nothing.
 const ROUNDING: f64 = 1e-9;
 
+/// What friction did where a contact lasts.
+type Holds<'a> = dyn Fn(&Contact) -> Option<Hold> + 'a;
+
 pub struct Blow {
     law: Law,
     pub approach: Approach,
@@ -72,7 +75,7 @@ impl Blow {
         model: &Model,
         state: &State,
         free: &[Twist],
-        (found, hold): (&[Contact], &dyn Fn(&Contact) -> Option<Hold>),
+        (found, hold): (&[Contact], &Holds),
         (step_s, deadline): (f64, Deadline),
         solver: &mut Plastic,
     ) -> Option<bool> {
@@ -103,7 +106,7 @@ impl Blow {
         model: &Model,
         state: &State,
         free: &[Twist],
-        (found, hold): (&[Contact], &dyn Fn(&Contact) -> Option<Hold>),
+        (found, hold): (&[Contact], &Holds),
         step_s: f64,
     ) -> bool {
         self.islands.find(model, found.iter().copied());

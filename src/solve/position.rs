@@ -8,9 +8,9 @@
 //! it: its gap swings by so much.
 //!
 //! Lifting costs energy. An island gets what its contacts have taken from it in the same step and no more: so a solver
-//! that lets bodies sink pays for their way back, and one that does not has nothing to lift. Only bodies that are deeply
-//! inside each other, as a scene may begin, are moved out whatever it costs. Whoever moves the bodies keeps the account
-//! (`step::push_out`).
+//! that lets bodies sink pays for their way back, and one that does not has nothing to lift. Only bodies that are
+//! deeply inside each other, as a scene may begin, are moved out whatever it costs. Whoever moves the bodies keeps the
+//! account (`step::push_out`).
 
 use super::Impulse;
 use super::block::Block;

@@ -1,9 +1,9 @@
 //! A step along a slip that turns, by Taylor series (as A. Jorba, M. Zou, Exp. Math. 14 (2005) 99).
 //!
 //! With dp_n = |u_t| dτ/σ, σ = |A_tn| + μ |A_tt|, the slip is u_t′ = (|u_t| A_tn − μ A_tt u_t)/σ: no direction to
-//! divide by, so that everything is analytic down to slip 0, which is τ = ∞ (the slip falls exponentially), and τ has no
-//! unit: a mass of any size gives the same series. A series is its own dense output: where the
-//! normal velocity turns and the impact ends is a root of a polynomial.
+//! divide by, so that everything is analytic down to slip 0, which is τ = ∞ (the slip falls exponentially), and τ has
+//! no unit: a mass of any size gives the same series. A series is its own dense output: where the normal velocity turns
+//! and the impact ends is a root of a polynomial.
 
 use super::path::{Path, Phase};
 use nalgebra::Vector2;

@@ -14,10 +14,10 @@
 //! the bound is hardly ever met: p = e p_C would gain nothing, as p_C · u_C ≤ 0, and friction chooses what leaves the
 //! least energy. It is met where compression has not settled.
 //!
-//! Friction of the expansion is a convex problem. It is solved by projected Jacobi: all contacts at once, each as if its
-//! bodies' masses were shared among their contacts (R. Tonge, F. Benevolenti, A. Voroshilov, ACM Trans. Graph. 31 (2012)
-//! 105), which keeps symmetric scenes symmetric, as one contact after the other does not; with Nesterov's lead, taken
-//! back where it leads uphill (B. O'Donoghue, E. Candès, Found. Comput. Math. 15 (2015) 715).
+//! Friction of the expansion is a convex problem. It is solved by projected Jacobi: all contacts at once, each as if
+//! its bodies' masses were shared among their contacts (R. Tonge, F. Benevolenti, A. Voroshilov, ACM Trans. Graph. 31
+//! (2012) 105), which keeps symmetric scenes symmetric, as one contact after the other does not; with Nesterov's lead,
+//! taken back where it leads uphill (B. O'Donoghue, E. Candès, Found. Comput. Math. 15 (2015) 715).
 
 use super::super::Impulse;
 use super::super::block::Block;

@@ -3,8 +3,8 @@
 //!
 //! One contact has it by Darboux–Keller. Contacts of one pair with one normal, the corners of a face or the ends of a
 //! line, belong together: those of them that approach are struck as one, by Poisson's law, which does not ask which of
-//! them comes first, so that what falls flat comes straight back. Of two bodies on a third, or of two faces of one body,
-//! one comes after the other.
+//! them comes first, so that what falls flat comes straight back. Of two bodies on a third, or of two faces of one
+//! body, one comes after the other.
 //!
 //! Order: the fastest approach; of contacts that are as fast to rounding, the first in the order of contacts. What
 //! several bodies of a symmetric scene get then depends on that order, and need not be symmetric. End: no approach

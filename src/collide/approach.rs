@@ -4,6 +4,7 @@
 
 use super::Contact;
 use super::closed::{is_closed_to_rounding, rounding_m};
+use super::lasting::Hold;
 pub use crate::experiment::types::Approach;
 use crate::model::Model;
 use nalgebra::Vector3;
@@ -33,6 +34,27 @@ pub fn foresee(
 }
 
 impl Approach {
+    /// The least normal velocity after the step of a contact that may last: as it came, it is sent back.
+    pub fn least_of(
+        &self,
+        model: &Model,
+        contact: &Contact,
+        motion: [f64; 2],
+        step_s: f64,
+        hold: Option<Hold>,
+    ) -> Option<f64> {
+        hold.map_or_else(|| self.least(model, contact, motion, step_s), |_| Some(-motion[0]))
+    }
+
+    /// Whether a contact that pressed in this step lasts: it was held, or came to rest.
+    pub fn lasts(&self, model: &Model, contact: &Contact, motion: [f64; 2], step_s: f64, hold: Option<Hold>) -> bool {
+        let comes_to_rest = || {
+            let rests = motion[0] >= 0.0 || contact.restitution < 1.0;
+            is_closed_to_rounding(model, contact) && rests && !self.strikes(model, contact, motion, step_s)
+        };
+        *self == Approach::Middle && (hold.is_some() || comes_to_rest())
+    }
+
     /// Whether this is an impact with a rebound, by whatever law, and not a contact that comes to rest.
     pub fn strikes(&self, model: &Model, contact: &Contact, [before, gained]: [f64; 2], step_s: f64) -> bool {
         let gap_m = if is_closed_to_rounding(model, contact) { 0.0 } else { contact.gap_m };
@@ -40,7 +62,9 @@ impl Approach {
         match self {
             Approach::Inside | Approach::Touching => before < 0.0,
             Approach::Start => rebounds && before + gained < -gap_m / step_s,
-            Approach::Middle => rebounds && gap_m == 0.0,
+            Approach::Middle => {
+                rebounds && (gap_m == 0.0 || strikes_early(contact.restitution, gap_m, before + gained, step_s))
+            }
         }
     }
 
@@ -57,14 +81,30 @@ impl Approach {
             Approach::Touching => Some(0.0),
             // Forces act during the impact's step as in any other, else it would add m g Δt v of energy.
             Approach::Start if rebound > 0.0 && before + gained < closing => Some(closing.max(rebound + falling)),
-            Approach::Start => Some(closing),
-            Approach::Middle if gap_m == 0.0 && before < 0.0 => Some(rebound),
-            // A contact that bounces waits until it is inside, one that loses nothing always; any other is caught when
-            // its gap closes. What still opens is let back no faster than it came: no contact adds energy.
+            // What opens may come back with its part e of that speed: so Moreau's form u⁺ + e u⁻ ≥ 0 has it of all
+            // contacts that are closed, and one e for all of them gains no energy without friction.
+            Approach::Start => Some(closing.min(-contact.restitution * (before + gained).max(0.0))),
+            // What forces take back within the step comes to rest.
+            Approach::Middle if gap_m == 0.0 && before < 0.0 => {
+                Some(if contact.restitution < 1.0 && rebound <= -falling { 0.0 } else { rebound })
+            }
+            // What comes to rest is caught when its gap closes; what bounces, when it is inside, or before (see
+            // `strikes_early`). What still opens is let back no faster than it came: no contact adds energy.
             Approach::Middle => {
                 let rests = contact.restitution < 1.0 && rebound <= -falling;
-                (gap_m == 0.0 || rests).then_some(closing.min(-before.max(0.0)))
+                let is_early = strikes_early(contact.restitution, gap_m, before + gained, step_s);
+                match gap_m == 0.0 || rests {
+                    true => Some(closing.min(-before.max(0.0))),
+                    false => is_early.then_some(rebound),
+                }
             }
         }
     }
+}
+
+/// Whether a contact bounces before its gap has closed: inside it would be so deep by the next kick that its rebound
+/// does not lead it out by the one after. What loses nothing never does.
+fn strikes_early(restitution: f64, gap_m: f64, next: f64, step_s: f64) -> bool {
+    let inside_m = -(gap_m + step_s * next);
+    inside_m > 0.0 && step_s * restitution * -next < inside_m
 }

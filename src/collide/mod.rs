@@ -13,6 +13,8 @@ mod contact;
 pub mod detector;
 pub mod doubt;
 pub mod faces;
+pub mod islands;
+pub mod lasting;
 mod limits;
 pub mod reduce;
 mod two;

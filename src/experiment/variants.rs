@@ -71,7 +71,8 @@ pub enum Scheme {
     /// Contacts and forces at the old position, position with the new velocity. Order 1.
     SemiImplicit,
     /// Half of the motion, contacts and forces there, the other half with the new velocity (J. J. Moreau 1999; θ = ½).
-    /// Order 2 between impacts; without friction and with e = 1 the energy is kept.
+    /// Order 2 between impacts, whatever the shapes: a contact that lasts is held in the mean of the velocities before
+    /// and after, along its normal and along the surface. Without friction and with e = 1 the energy is kept.
     Moreau,
 }
 
@@ -80,12 +81,17 @@ pub enum Scheme {
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Impact {
-    /// Newton's law: the velocity is multiplied by −e, all contacts at once (Moreau). With friction it may gain energy.
+    /// Newton's law: the velocity of every contact is multiplied by −e, all contacts at once (Moreau); corners of a
+    /// face and ends of a line count each for itself, and several bodies solve one law together. Without friction one
+    /// e gains no energy in the impact; with friction it may.
     Newton,
-    /// Poisson's law: compression and expansion, all contacts at once (Glocker & Pfeiffer). It never gains energy.
+    /// Poisson's law: compression and expansion, all contacts at once (Glocker & Pfeiffer). A face or a line gives back
+    /// e times what it took in all, and of several bodies each at once: of a row of balls more than the last one
+    /// leaves. It never gains energy.
     Poisson,
-    /// One contact after the other, the fastest approach first, by the energy of its own compression (Stronge). It
-    /// never gains energy.
+    /// One pair after the other, the fastest approach first: one contact by the energy of its own compression
+    /// (Stronge), those of one face or line as one by Poisson's law. Several bodies are struck in that order: of a row
+    /// of balls the last one leaves. It never gains energy, and needs no end (then: `work_unsolved`).
     Sequential,
 }
 

@@ -1,8 +1,8 @@
 //! What bodies exchange at the contacts of one step, one impact or one moment: impulses, and the velocities before and
 //! after them. All judges of contact look at this one value.
 
-use super::islands::Islands;
 use super::push::Push;
+use crate::collide::islands::Islands;
 use crate::collide::{Contact, SolvedContact};
 use crate::model::{Body, Model};
 use crate::state::{BodyState, State};
@@ -171,7 +171,7 @@ impl Exchange {
         }
         self.moved.clear();
         self.moved.extend(self.pushes.iter().enumerate().map(|(i, push)| Moved::new(model, i, states, push, over)));
-        self.islands.find(model, contacts);
+        self.islands.find(model, contacts.iter().map(|solved| solved.contact));
         self.met.clear();
         for SolvedContact { contact, .. } in contacts {
             self.met.push(Met::new(contact, &self.moved, self.islands.of(model, contact)));

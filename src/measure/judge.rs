@@ -13,6 +13,7 @@ use super::springs::Springs;
 use super::work::{self, Done};
 use crate::collide::SolvedContact;
 use crate::collide::approach::Approach;
+use crate::collide::lasting::Lasting;
 use crate::experiment::types::Diverge;
 use crate::model::Model;
 use crate::outcome::Criterion;
@@ -77,11 +78,13 @@ impl Judge {
     pub fn new(model: &Model, start: &State, rules: &Diverge, plan: &Plan) -> Self {
         let mut springs = plan.stiffness_n_m.map(|stiffness_n_m| Springs::new(stiffness_n_m, plan.contacts));
         let bodies = model.bodies.len();
+        let is_half_way = plan.approach == Approach::Middle;
+        let lasting = if is_half_way { Lasting::at_start(model, start) } else { Lasting::default() };
         let stored_j = springs.as_mut().map_or(0.0, |springs| springs.stored_j(model, start));
         Judge {
             energy: EnergyLedger::new(model, start, stored_j),
             momentum: MomentumLedger::new(model, start),
-            residual: ResidualLedger::new(plan.constraint, plan.newton, bodies),
+            residual: ResidualLedger::new(plan.constraint, plan.newton, bodies, lasting),
             geometry: GeometryLedger::new(model, start, plan.contact),
             contacts_max: 0,
             pin_gap_max_m: model.pin_gap_m(&start.bodies),
@@ -140,9 +143,9 @@ impl Judge {
         if !contacts.is_empty() {
             self.take(contacts, step_s);
             self.momentum.observe_pushes(model, kicked, &self.exchange.pushes, 1.0);
-            self.residual.observe(model, contacts, &self.exchange, (approach, step_s));
             self.watched.observe(kicked, contacts);
         }
+        self.residual.observe(model, contacts, &self.exchange, (approach, step_s));
         if step_s > 0.0 {
             self.watched.observe_step(before, after, step_s);
         }

@@ -12,7 +12,6 @@ pub mod energy;
 pub mod error;
 mod exchange;
 pub mod geometry;
-mod islands;
 mod judge;
 mod kept;
 pub mod momentum;

@@ -5,6 +5,10 @@
 //! Comput. Modelling 28 (1998) 225). That is p = P_K(p − ρ ũ) for every ρ > 0, and what the two sides differ by is the
 //! residual of a contact (V. Acary, B. Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, Springer 2008).
 //!
+//! A contact that lasts through steps whose kick is half-way (`collide::lasting`: by what the steps before it showed)
+//! obeys the law in the mean of the velocities before and after: u is u⁻ + u⁺. Friction of one that slid may be against
+//! u⁺ instead, as of one that is new: it comes to rest then, where the mean would turn its slip over for ever.
+//!
 //! In an impact with tangential restitution u_t stands for u_t⁺ + ε_t u_t⁻, from the velocities before and after.
 //!
 //! With 1/ρ = the trace of the contact's own block of A all terms are impulses. They are compared with the least of
@@ -15,7 +19,8 @@
 use super::exchange::{Exchange, Met, Motion, Moved};
 use super::push::relative;
 use crate::collide::approach::Approach;
-use crate::collide::{Contact, SolvedContact};
+use crate::collide::lasting::{Hold, Lasting};
+use crate::collide::{Contact, Key, SolvedContact};
 use crate::model::Model;
 use nalgebra::Vector3;
 
@@ -29,6 +34,8 @@ struct Seen<'a> {
     contact: &'a Contact,
     met: &'a Met,
     through: (Approach, f64),
+    /// What friction did before, where the contact lasts.
+    hold: Option<Hold>,
     /// Normal velocity before, and what the step's forces add to it.
     motion: [f64; 2],
     /// ρ: one over the trace of its own block of A.
@@ -44,6 +51,7 @@ impl<'a> Seen<'a> {
         (contact, met): (&'a Contact, &'a Met),
         moved: &[Moved],
         through: (Approach, f64),
+        hold: Option<Hold>,
     ) -> Self {
         let (mut trace, mut scale) = (0.0, f64::INFINITY);
         for (i, r, _) in contact.ends() {
@@ -59,19 +67,28 @@ impl<'a> Seen<'a> {
         }
         let before = contact.normal.dot(&met.before);
         let motion = [before, contact.normal.dot(&met.free) - before];
-        Seen { model, contact, met, through, motion, step_length: 1.0 / trace, scale }
+        Seen { model, contact, met, through, hold, motion, step_length: 1.0 / trace, scale }
     }
 
     /// The normal velocity that the law asks for at least, u_n ≥ least. None: the contact is not there in this step.
     fn least(&self, contact: &Contact) -> Option<f64> {
         let (approach, step_s) = self.through;
-        approach.least(self.model, contact, self.motion, step_s)
+        approach.least_of(self.model, contact, self.motion, step_s, self.hold)
     }
 
     /// Whether restitution matters.
     fn strikes(&self) -> bool {
         let (approach, step_s) = self.through;
-        approach.strikes(self.model, self.contact, self.motion, step_s)
+        self.hold.is_none() && approach.strikes(self.model, self.contact, self.motion, step_s)
+    }
+
+    /// What friction does where the contact lasts on.
+    fn holds_on(&self, impulse_W: &Vector3<f64>) -> Option<Hold> {
+        let (approach, step_s) = self.through;
+        let Contact { normal, friction, .. } = self.contact;
+        let pressed = normal.dot(impulse_W);
+        let hold = Hold::of(pressed, (impulse_W - normal * pressed).norm(), *friction)?;
+        approach.lasts(self.model, self.contact, self.motion, step_s, self.hold).then_some(hold)
     }
 
     /// Of an impact by another law than Newton's, in impulses: how far p is outside of the cone, and of what would stop
@@ -85,7 +102,7 @@ impl<'a> Seen<'a> {
         outside.max(self.step_length * (floor - normal.dot(&self.met.after)))
     }
 
-    /// Friction is against the velocity after; a kick half-way through the motion may put it against the mean instead.
+    /// Friction is against the velocity after, where a contact lasts against the mean.
     fn missed(&self, impulse_W: &Vector3<f64>) -> f64 {
         let Contact { normal, tangential_restitution, .. } = self.contact;
         let Met { before, after, .. } = self.met;
@@ -94,11 +111,15 @@ impl<'a> Seen<'a> {
         if *tangential_restitution > 0.0 && self.strikes() {
             return self.missed_at(&(after + tangent * *tangential_restitution), least, impulse_W);
         }
-        let missed = self.missed_at(after, least, impulse_W);
-        if self.through.0 != Approach::Middle {
-            return missed;
+        let missed = |u: &Vector3<f64>| self.missed_at(u, least, impulse_W);
+        match self.hold {
+            Some(Hold::Stuck) => missed(&(after + tangent)),
+            Some(Hold::Slid) => missed(&(after + tangent)).min(missed(after)),
+            None if self.through.0 == Approach::Middle && !self.strikes() => {
+                missed(&(after + tangent)).min(missed(after))
+            }
+            None => missed(after),
         }
-        missed.min(self.missed_at(&(after + tangent), least, impulse_W))
     }
 
     /// |p − P_K(p − ρ ũ)|.
@@ -132,12 +153,17 @@ pub struct ResidualLedger {
     newton: bool,
     /// Of every island by its first body: some contact strikes.
     struck: Vec<bool>,
+    /// What lasts into the next step, and what the step shows of that.
+    lasting: Lasting,
+    last_on: Vec<(Key, Hold)>,
     pub max: Option<f64>,
 }
 
 impl ResidualLedger {
-    pub fn new(judged: bool, newton: bool, bodies: usize) -> Self {
-        ResidualLedger { judged, newton, struck: Vec::with_capacity(bodies), max: None }
+    /// `lasting`: what is closed and at rest at the start, if steps kick half-way.
+    pub fn new(judged: bool, newton: bool, bodies: usize, lasting: Lasting) -> Self {
+        let (struck, last_on) = (Vec::with_capacity(bodies), Vec::new());
+        ResidualLedger { judged, newton, struck, lasting, last_on, max: None }
     }
 
     /// Contacts with their impulses; how the step went through them, and its length.
@@ -148,24 +174,30 @@ impl ResidualLedger {
         exchange: &Exchange,
         through: (Approach, f64),
     ) {
-        if !self.judged || contacts.is_empty() {
+        if !self.judged {
             return;
         }
-        let seen = |solved, met| Seen::new(model, (solved, met), &exchange.moved, through);
-        self.struck.clear();
-        self.struck.resize(exchange.moved.len(), false);
-        if !self.newton {
+        let is_half_way = through.0 == Approach::Middle;
+        let ResidualLedger { newton, struck, lasting, last_on, max, .. } = self;
+        let seen = |contact, met| {
+            let hold = lasting.of(contact).filter(|_| is_half_way);
+            Seen::new(model, (contact, met), &exchange.moved, through, hold)
+        };
+        last_on.clear();
+        struck.clear();
+        struck.resize(exchange.moved.len(), false);
+        if !*newton {
             for (solved, met) in contacts.iter().zip(&exchange.met) {
-                self.struck[met.island] |= seen(&solved.contact, met).strikes();
+                struck[met.island] |= seen(&solved.contact, met).strikes();
             }
         }
-        let mut largest = self.max.unwrap_or(0.0);
         for (SolvedContact { contact, impulse_W }, met) in contacts.iter().zip(&exchange.met) {
-            let seen = seen(contact, met);
-            let missed =
-                if self.struck[met.island] { seen.missed_by_impact(impulse_W) } else { seen.missed(impulse_W) };
-            largest = largest.max(relative(missed, seen.scale));
+            let (seen, is_struck) = (seen(contact, met), struck[met.island]);
+            let missed = if is_struck { seen.missed_by_impact(impulse_W) } else { seen.missed(impulse_W) };
+            *max = Some(max.unwrap_or(0.0).max(relative(missed, seen.scale)));
+            let lasts = seen.holds_on(impulse_W).filter(|_| !is_struck);
+            last_on.extend(lasts.map(|hold| (contact.key(), hold)));
         }
-        self.max = Some(largest);
+        lasting.renew(last_on.drain(..));
     }
 }

@@ -6,6 +6,7 @@ use super::twist::Twist;
 use super::{Impulse, corrected};
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
+use crate::collide::lasting::Hold;
 use crate::experiment::types::Cone;
 use crate::model::Model;
 use crate::state::BodyState;
@@ -30,6 +31,10 @@ pub struct Block {
     pub before: Vector3<f64>,
     /// ε_t of an impact, which b's tangents' rows are relative to; else 0.
     pub tangential_restitution: f64,
+    /// The contact lasts: b's normal row is relative to the velocity before sent back.
+    pub hold: Option<Hold>,
+    /// The same of the tangents' rows alone: friction is against the mean of the velocities before and after.
+    pub meant: bool,
     /// Normal and two tangents, world axes.
     pub frame: [Vector3<f64>; 3],
     /// A⁻¹ of a pin, which takes any impulse; none: a contact.
@@ -81,6 +86,7 @@ impl Block {
         free: &[Twist],
         inertias: &[Inertia],
         (approach, step_s): (Approach, f64),
+        hold: Option<Hold>,
     ) -> Option<Self> {
         let frame = contact.frame();
         let own = End::new(contact.body, 1.0, &contact.r_BC_W, &frame, &inertias[contact.body]);
@@ -93,12 +99,14 @@ impl Block {
             end.motion(&Twist::of(at))
         });
         let motion = [before.x, b.x - before.x];
-        let least = approach.least(model, contact, motion, step_s)?;
-        let strikes = contact.tangential_restitution > 0.0 && approach.strikes(model, contact, motion, step_s);
+        let least = approach.least_of(model, contact, motion, step_s, hold)?;
+        let strikes =
+            hold.is_none() && contact.tangential_restitution > 0.0 && approach.strikes(model, contact, motion, step_s);
         let tangential_restitution = if strikes { contact.tangential_restitution } else { 0.0 };
         b.x -= least;
-        if strikes {
-            b += Vector3::new(0.0, before.y, before.z) * tangential_restitution;
+        let sent_back = if hold.is_some() { 1.0 } else { tangential_restitution };
+        if sent_back > 0.0 {
+            b += Vector3::new(0.0, before.y, before.z) * sent_back;
         }
         let A = ends().filter_map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
         Some(Block {
@@ -112,9 +120,33 @@ impl Block {
             least,
             before,
             tangential_restitution,
+            hold,
+            meant: hold.is_some(),
             frame,
             pin: None,
         })
+    }
+
+    /// Puts friction against the velocity after the step, or against the mean of those before and after.
+    pub(super) fn mean(&mut self, meant: bool) {
+        if meant != self.meant {
+            self.b += Vector3::new(0.0, self.before.y, self.before.z) * if meant { 1.0 } else { -1.0 };
+            self.meant = meant;
+        }
+    }
+
+    /// Normal velocity after the step and what of it is along the surface.
+    pub(super) fn after(&self, u: &[Twist]) -> Vector3<f64> {
+        let sent_back = if self.meant { 1.0 } else { self.tangential_restitution };
+        let since = Vector3::new(-self.least, self.before.y * sent_back, self.before.z * sent_back);
+        self.velocity(u) - since
+    }
+
+    /// How far the gap of a contact that lasts swings in a step, at most.
+    pub(super) fn swing(&self, step_s: f64) -> f64 {
+        let gained = self.b.x + self.least - self.before.x;
+        let swings = step_s * (self.before.x.abs() + gained.abs());
+        if self.hold.is_some() { swings } else { 0.0 }
     }
 
     pub(super) fn law(&self) -> Law {

@@ -70,6 +70,8 @@ impl Block {
             least: 0.0,
             before: Vector3::zeros(),
             tangential_restitution: 0.0,
+            hold: None,
+            meant: false,
         }
     }
 }

@@ -14,6 +14,8 @@ use super::pins::Pin;
 use super::twist::Twist;
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
+use crate::collide::islands::Islands;
+use crate::collide::lasting::Hold;
 use crate::model::Model;
 use crate::state::State;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -39,6 +41,9 @@ const DENSE: usize = 32;
 /// heavy is solved by its own weight (as the judge has it, `measure::exchange`).
 const CANCELLING: f64 = 1e-4;
 
+/// Energy that contacts give, of the sizes of impulses and velocities: rounding.
+const GIVES_NOTHING: f64 = 1e-13;
+
 impl ContactProblem {
     pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
         ContactProblem {
@@ -59,7 +64,20 @@ impl ContactProblem {
         state: &State,
         free: &[Twist],
         contacts: &mut Vec<Contact>,
-        (approach, step_s): (Approach, f64),
+        through: (Approach, f64),
+    ) {
+        self.gather_held(model, state, free, contacts, through, |_| None);
+    }
+
+    /// The same, of which some contacts last.
+    pub fn gather_held(
+        &mut self,
+        model: &Model,
+        state: &State,
+        free: &[Twist],
+        contacts: &mut Vec<Contact>,
+        through: (Approach, f64),
+        mut hold: impl FnMut(&Contact) -> Option<Hold>,
     ) {
         self.blocks.clear();
         self.bodies = model.bodies.len();
@@ -68,12 +86,12 @@ impl ContactProblem {
             self.inertias.extend(model.bodies.iter().zip(&state.bodies).map(|(body, at)| Inertia::of(body, at)));
         }
         // Impacts and forces at an instant go through a body at rest; a step's are judged by its own weight as well.
-        let is_instant = approach == Approach::Touching;
+        let is_instant = through.0 == Approach::Touching;
         self.cancelling = if is_instant { 1.0 } else { CANCELLING };
         self.speeds.clear();
         self.speeds.extend(state.bodies.iter().zip(free).map(|(at, free)| Speeds::of(at, free, is_instant)));
         contacts.retain(|contact| {
-            let block = Block::new(contact, model, &state.bodies, free, &self.inertias, (approach, step_s));
+            let block = Block::new(contact, model, &state.bodies, free, &self.inertias, through, hold(contact));
             self.blocks.extend(block);
             block.is_some()
         });
@@ -128,14 +146,66 @@ impl ContactProblem {
         self.blocks.iter().zip(impulses).map(|(block, p)| half(block, p)).sum()
     }
 
-    /// Energy that the impulses take from bodies that were at `before`: −Σ p·½(c⁻ + c⁺).
-    pub fn dissipated_j(&self, before: &State, free: &[Twist], impulses: &[Impulse], u: &[Twist]) -> f64 {
+    /// Contacts that last, slid, and would now turn their slip over come to rest instead: their slip after the step is
+    /// to be none, else it would change its sign for ever. Whether there is any.
+    pub fn stop(&mut self, impulses: &[Impulse], u: &[Twist]) -> bool {
+        let mut any = false;
+        for (block, p) in self.blocks.iter_mut().zip(impulses) {
+            let after = block.after(u);
+            let turns = after.y * block.before.y + after.z * block.before.z < 0.0;
+            if block.hold == Some(Hold::Slid) && p.x > 0.0 && turns {
+                block.hold = Some(Hold::Stuck);
+                block.mean(false);
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// Islands whose contacts would give energy to the bodies: friction against the velocity after the step may give
+    /// back what the step's forces have done against it. There it is put against the mean, but where contacts rebound.
+    /// Whether there is any.
+    pub fn take_mean(&mut self, contacts: &[Contact], model: &Model, impulses: &[Impulse], u: &[Twist]) -> bool {
+        if self.blocks.iter().all(|block| block.meant || block.friction == 0.0) {
+            return false;
+        }
+        let mut islands = Islands::with_capacity(self.bodies);
+        islands.find(model, contacts.iter().copied());
+        // What an island gets, and of that what is rounding.
+        let mut given = vec![(0.0, 0.0); self.bodies];
+        for ((block, contact), p) in self.blocks.iter().zip(contacts).zip(impulses) {
+            let (of, both) = (&mut given[islands.of(model, contact)], block.before + block.after(u));
+            *of = (of.0 + p.dot(&both), of.1 + p.norm() * block.before.norm());
+        }
+        let mut any = false;
+        for (block, contact) in self.blocks.iter_mut().zip(contacts) {
+            let (given, size) = given[islands.of(model, contact)];
+            let is_free = !block.meant && block.friction > 0.0 && (block.hold.is_some() || block.least <= 0.0);
+            if given > GIVES_NOTHING * size && is_free {
+                block.mean(true);
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// Energy that every contact's impulse takes from bodies that were at `before`, −p·½(c⁻ + c⁺), the forces of the
+    /// step acting with the impulses (`free`: velocities with them) or after them.
+    pub fn taken_j(
+        &self,
+        before: &State,
+        free: Option<&[Twist]>,
+        (impulses, u): (&[Impulse], &[Twist]),
+        taken: &mut Vec<f64>,
+    ) {
         let mean = |end: &End| {
-            let (at, free, u) = (&before.bodies[end.body], &free[end.body], &u[end.body]);
-            end.motion(&Twist { v: (at.v_WB + free.v + u.v) / 2.0, w: (at.w_WB + free.w + u.w) / 2.0 })
+            let (at, u) = (Twist::of(&before.bodies[end.body]), &u[end.body]);
+            let free = free.map_or(at, |free| free[end.body]);
+            end.motion(&Twist { v: (at.v + free.v + u.v) / 2.0, w: (at.w + free.w + u.w) / 2.0 })
         };
-        let taken = |(block, p): (&Block, &Impulse)| -p.dot(&block.ends().map(mean).sum::<Vector3<f64>>());
-        self.blocks.iter().zip(impulses).map(taken).sum()
+        let of = |(block, p): (&Block, &Impulse)| -p.dot(&block.ends().map(mean).sum::<Vector3<f64>>());
+        taken.clear();
+        taken.extend(self.blocks.iter().zip(impulses).map(of));
     }
 
     /// Impulses of an iteration that has not settled may add energy (a bar at μ = 1: up to 1.004 of it): only that part
@@ -169,6 +239,16 @@ impl ContactProblem {
         let mut after = self.clone();
         after.blocks.iter_mut().for_each(|block| block.b = block.velocity(u));
         after
+    }
+
+    /// Some of the contacts alone, once their bodies' velocities have changed by `u`.
+    pub fn part_after(&self, places: &[usize], u: &[Twist]) -> ContactProblem {
+        let mut part = self.part(places.iter().copied());
+        part.inertias.clone_from(&self.inertias);
+        part.speeds.clone_from(&self.speeds);
+        part.cancelling = self.cancelling;
+        part.blocks.iter_mut().for_each(|block| block.b = block.velocity(u));
+        part
     }
 
     /// The 3×3 block of A between two contacts.

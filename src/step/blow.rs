@@ -5,6 +5,8 @@
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
 use crate::collide::closed::is_closed_to_rounding;
+use crate::collide::islands::Islands;
+use crate::collide::lasting::Hold;
 use crate::deadline::Deadline;
 use crate::experiment::types::Impact;
 use crate::model::Model;
@@ -13,6 +15,13 @@ use crate::solve::impact::{self, Law, Plastic};
 use crate::solve::problem::ContactProblem;
 use crate::solve::twist::Twist;
 use crate::state::State;
+use nalgebra::Vector3;
+
+/// An approach, of the speed of the bodies with the step's forces, that strikes nothing.
+const ROUNDING: f64 = 1e-9;
+
+/// What friction did where a contact lasts.
+type Holds<'a> = dyn Fn(&Contact) -> Option<Hold> + 'a;
 
 pub struct Blow {
     law: Law,
@@ -23,6 +32,11 @@ pub struct Blow {
     places: Vec<usize>,
     restitution: Vec<f64>,
     own: Vec<Impulse>,
+    islands: Islands,
+    /// Of every island by its first body: something strikes.
+    struck: Vec<bool>,
+    /// Of every contact: its island is struck.
+    pub is_struck: Vec<bool>,
     /// Of all contacts; and what they do to the bodies.
     pub impulses: Vec<Impulse>,
     pub response: Vec<Twist>,
@@ -46,6 +60,9 @@ impl Blow {
             places: Vec::new(),
             restitution: Vec::new(),
             own: Vec::new(),
+            islands: Islands::default(),
+            struck: Vec::new(),
+            is_struck: Vec::new(),
             impulses: Vec::new(),
             response: Vec::new(),
             after: start.clone(),
@@ -58,11 +75,11 @@ impl Blow {
         model: &Model,
         state: &State,
         free: &[Twist],
-        found: &[Contact],
+        (found, hold): (&[Contact], &Holds),
         (step_s, deadline): (f64, Deadline),
         solver: &mut Plastic,
     ) -> Option<bool> {
-        if !self.take_part(model, state, free, found, step_s) {
+        if !self.take_part(model, state, free, (found, hold), step_s) {
             return None;
         }
         // Half-way through the kick of `moreau` half of the forces have acted: with e = 1 no energy is lost.
@@ -83,23 +100,48 @@ impl Blow {
         Some(ended)
     }
 
-    /// Whether anything strikes.
-    fn take_part(&mut self, model: &Model, state: &State, free: &[Twist], found: &[Contact], step_s: f64) -> bool {
-        let mut any = false;
+    /// Whether anything strikes. What strikes takes its island along: all that bodies hand on among each other.
+    fn take_part(
+        &mut self,
+        model: &Model,
+        state: &State,
+        free: &[Twist],
+        (found, hold): (&[Contact], &Holds),
+        step_s: f64,
+    ) -> bool {
+        self.islands.find(model, found.iter().copied());
+        self.struck.clear();
+        self.struck.resize(model.bodies.len(), false);
+        let strikes: Vec<bool> = found
+            .iter()
+            .map(|contact| {
+                let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
+                let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
+                // Bodies that rest on each other fall alike: what they approach each other by is rounding.
+                let speed = |(i, r_W, _): (usize, Vector3<f64>, f64)| free[i].v.norm() + free[i].w.norm() * r_W.norm();
+                let rounding = ROUNDING * contact.ends().map(speed).fold(0.0, f64::max);
+                hold(contact).is_none()
+                    && -before > rounding
+                    && self.approach.strikes(model, contact, [before, gained], step_s)
+            })
+            .collect();
+        for (contact, _) in found.iter().zip(&strikes).filter(|(_, strikes)| **strikes) {
+            let first = self.islands.of(model, contact);
+            self.struck[first] = true;
+        }
+        self.is_struck.clear();
         self.contacts.clear();
         self.places.clear();
         self.restitution.clear();
-        for (place, contact) in found.iter().enumerate() {
-            let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
-            let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
-            let strikes = self.approach.strikes(model, contact, [before, gained], step_s);
-            any |= strikes;
-            if strikes || is_closed_to_rounding(model, contact) {
+        for (place, (contact, strikes)) in found.iter().zip(strikes).enumerate() {
+            let is_struck = self.struck[self.islands.of(model, contact)];
+            self.is_struck.push(is_struck);
+            if strikes || (is_struck && is_closed_to_rounding(model, contact)) {
                 self.contacts.push(*contact);
                 self.places.push(place);
                 self.restitution.push(contact.restitution);
             }
         }
-        any
+        !self.contacts.is_empty()
     }
 }

@@ -12,6 +12,7 @@ mod free;
 mod lecture;
 mod moments;
 mod penalty;
+mod push_out;
 mod scratch;
 mod stepper;
 mod stretch;

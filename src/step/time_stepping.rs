@@ -12,14 +12,15 @@
 use super::blow::Blow;
 use super::drift::drift;
 use super::foreseen::Foreseen;
+use super::push_out::push_out;
 use super::scratch::Scratch;
 use crate::clock::Clock;
 use crate::collide::approach::Approach;
+use crate::collide::lasting::{Hold, Lasting};
 use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, SolvedContact};
 use crate::deadline::Deadline;
 use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
-use crate::integrate::rotation::{exponential, w_from_momentum};
 use crate::model::pins::Pin as Joint;
 use crate::model::{Body, Model};
 use crate::plan::Plan;
@@ -33,8 +34,8 @@ use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
-/// Of the greatest friction: what is below it sticks.
-const STUCK: f64 = 1.0 - 1e-9;
+/// Most solves of a step whose kick is half-way: after each, friction may be put against another velocity.
+const MOST_STOPS: u32 = 6;
 
 /// A way in a step, of the least width of all bodies, or a turn in radians, from which bodies are looked at before a
 /// step whose kick is half-way.
@@ -54,6 +55,10 @@ pub struct TimeStepping {
     last: Vec<(Key, Vector3<f64>)>,
     /// The same of this step, as far as it is solved.
     solved: Vec<(Key, Vector3<f64>)>,
+    /// Contacts that last into this step, of a scheme whose kick is half-way.
+    lasting: Lasting,
+    /// The same of the next step.
+    last_on: Vec<(Key, Hold)>,
     foreseen: Foreseen,
     /// What is left of a step of the clock of which a part is made, and how often it was cut.
     left_s: Option<f64>,
@@ -96,6 +101,8 @@ impl TimeStepping {
             position_correction: settings.position_correction,
             last: Vec::with_capacity(scratch.contacts()),
             solved: Vec::with_capacity(scratch.contacts()),
+            lasting: Lasting::default(),
+            last_on: Vec::with_capacity(scratch.contacts()),
             foreseen: Foreseen::with_capacity(scratch.contacts(), scratch.free.capacity()),
             left_s: None,
             parts: 0,
@@ -123,6 +130,9 @@ impl TimeStepping {
         if state.step == 0 {
             let widths_m = model.bodies.iter().filter_map(|body| Some(body.solid()?.0.least_width_m()));
             self.width_m = widths_m.fold(f64::INFINITY, f64::min);
+            if self.scheme == Approach::Middle {
+                self.lasting = Lasting::at_start(model, state);
+            }
         }
         let left_s = self.left_s.unwrap_or(clock.step_s);
         let mut before_s = 0.0;
@@ -159,8 +169,9 @@ impl TimeStepping {
             self.made_s = before_s + hit_s;
         }
         let after_s = self.made_s - before_s;
+        self.note_lasting(model, state);
         self.take_solution();
-        let pushed = self.push_out(model, state, self.made_s);
+        let pushed = self.find_push(model, state, self.made_s);
         // 3. Velocities. 4. Position and attitude.
         let s = &mut self.scratch;
         for (i, at) in state.bodies.iter_mut().enumerate() {
@@ -169,14 +180,7 @@ impl TimeStepping {
         }
         drift(model, state, after_s, &mut s.work);
         if pushed {
-            for ((body, at), moved) in model.bodies.iter().zip(&mut state.bodies).zip(&self.push.moved) {
-                let L_W = body.I_W(at) * at.w_WB;
-                at.p_WB += moved.v;
-                at.q_WB = exponential(&moved.w) * at.q_WB;
-                if !body.isotropic && !body.driven {
-                    at.w_WB = w_from_momentum(body, at, &L_W);
-                }
-            }
+            push_out(model, state, &self.push);
         }
         // 5. Time.
         self.left_s = (self.made_s < left_s).then_some(left_s - self.made_s);
@@ -219,6 +223,26 @@ impl TimeStepping {
         }
     }
 
+    /// Keeps what lasts into the next step.
+    fn note_lasting(&mut self, model: &Model, state: &State) {
+        let TimeStepping { scratch: s, approach, made_s, blow, lasting, last_on, .. } = self;
+        if *approach != Approach::Middle {
+            return lasting.renew(std::iter::empty());
+        }
+        let known = &*lasting;
+        let is_struck = |i: usize| blow.as_ref().is_some_and(|blow| blow.is_struck[i]);
+        let lasts = |(i, (contact, p)): (usize, (&Contact, &Impulse))| {
+            let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
+            let gained = contact.normal.dot(&contact.velocity(|i| [s.free[i].v, s.free[i].w])) - before;
+            let lasts = approach.lasts(model, contact, [before, gained], *made_s, known.of(contact)) && !is_struck(i);
+            let hold = Hold::of(p.x, p.yz().norm(), contact.friction).filter(|_| lasts)?;
+            Some((contact.key(), hold))
+        };
+        last_on.clear();
+        last_on.extend(s.found.iter().zip(&s.impulses).enumerate().filter_map(lasts));
+        lasting.renew(last_on.drain(..));
+    }
+
     fn take_solution(&mut self) {
         std::mem::swap(&mut self.last, &mut self.solved);
         self.last_pins.clear();
@@ -235,7 +259,9 @@ impl TimeStepping {
         if let Some(reduction) = &mut self.reduction {
             reduction.apply(&mut s.found);
         }
-        s.problem.gather(model, state, &s.free, &mut s.found, (self.approach, step_s));
+        let is_half_way = self.approach == Approach::Middle;
+        let hold = |contact: &Contact| self.lasting.of(contact).filter(|_| is_half_way);
+        s.problem.gather_held(model, state, &s.free, &mut s.found, (self.approach, step_s), hold);
         if !model.pins.is_empty() {
             // The velocity that closes what gap there is until the next step.
             let closing = |pin: &Joint, _: &_, _: Option<&_>| -pin.apart_W(&state.bodies) / step_s;
@@ -246,22 +272,32 @@ impl TimeStepping {
             let (solver, work) = (&mut self.solver, &mut s.work);
             let mut plastic =
                 |problem: &ContactProblem, p: &mut [Impulse]| solver.solve(problem, &self.sweeps, p, work);
-            let ended = blow.strike(model, state, &s.free, &s.found, (step_s, self.sweeps.deadline), &mut plastic)?;
+            let ended =
+                blow.strike(model, state, &s.free, (&s.found, &hold), (step_s, self.sweeps.deadline), &mut plastic)?;
             s.work.unsolved += u64::from(!ended);
             self.is_cut |= !ended && self.sweeps.deadline.is_over();
-            go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s));
+            go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s), hold);
             Some(blow)
         });
         warm_start(&s.found, &s.problem, &self.last, &mut s.impulses);
-        if self.approach == Approach::Middle && struck.is_none() {
-            hold_half_way(&mut s.problem, &s.impulses);
-        }
         if !self.solved.is_empty() {
             warm_start(&s.found, &s.problem, &self.solved, &mut s.impulses);
         }
         s.impulses.extend(&self.last_pins);
         s.impulses.resize(s.problem.blocks.len(), Impulse::zeros());
-        if !s.problem.blocks.is_empty() && !self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work) {
+        let mut settled = s.problem.blocks.is_empty();
+        for _ in 0..MOST_STOPS {
+            settled = settled || self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work);
+            s.problem.response(&s.impulses, &mut s.response);
+            let changes = |problem: &mut ContactProblem| {
+                problem.stop(&s.impulses, &s.response) || problem.take_mean(&s.found, model, &s.impulses, &s.response)
+            };
+            if !(settled && is_half_way && changes(&mut s.problem)) {
+                break;
+            }
+            settled = false;
+        }
+        if !settled {
             s.problem.response(&s.impulses, &mut s.response);
             let adds_energy = s.problem.energy(&s.impulses, &s.response) > 0.0;
             // Projected Gauss–Seidel only descends: from a start that adds energy it may not come below zero in time.
@@ -287,11 +323,16 @@ impl TimeStepping {
         s.problem.response(&s.impulses, &mut s.response);
     }
 
-    fn push_out(&mut self, model: &Model, state: &State, step_s: f64) -> bool {
+    fn find_push(&mut self, model: &Model, state: &State, step_s: f64) -> bool {
         let s = &mut self.scratch;
-        let lost_j = || s.problem.dissipated_j(state, &s.free, &s.impulses, &s.response);
+        let is_half_way = self.approach == Approach::Middle;
+        // Whatever kicks at the start of a step loses what its forces do in it to bodies at rest: ½ m (g Δt)².
+        let lost_j_kg = if is_half_way { 0.0 } else { (model.gravity_m_s2 * step_s).norm_squared() / 2.0 };
+        let free = is_half_way.then_some(&s.free[..]);
+        let taken_j = |taken: &mut Vec<f64>| s.problem.taken_j(state, free, (&s.impulses, &s.response), taken);
+        let through = (&s.impulses[..], &s.response[..], step_s);
         self.position_correction == PositionCorrection::Projection
-            && self.push.find(&s.problem, &s.found, model, (&s.response, step_s), lost_j, &mut s.work)
+            && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg), &mut s.work)
     }
 }
 
@@ -302,23 +343,17 @@ fn go_on_after(
     problem: &mut ContactProblem,
     free: &[Twist],
     found: &[Contact],
-    (approach, step_s): (Approach, f64),
+    through: (Approach, f64),
+    hold: impl Fn(&Contact) -> Option<Hold>,
 ) {
     let free: Vec<Twist> = free.iter().zip(&blow.response).map(|(a, b)| Twist { v: a.v + b.v, w: a.w + b.w }).collect();
     let mut plastic: Vec<Contact> = found.iter().map(|contact| Contact { restitution: 0.0, ..*contact }).collect();
-    problem.gather(model, &blow.after, &free, &mut plastic, (approach, step_s));
-}
-
-/// What has stuck before sticks on in the mean of the velocities before and after the kick, c⁺ = −c⁻, where c⁻ is what
-/// the way since the last kick has turned: friction then does no work, and rolling along a curve is of order 2 (R.
-/// McLachlan, M. Perlmutter, J. Nonlinear Sci. 16 (2006) 283). `last`: the impulses of the step before.
-fn hold_half_way(problem: &mut ContactProblem, last: &[Impulse]) {
-    for (block, p) in problem.blocks.iter_mut().zip(last) {
-        if p.yz().norm() < STUCK * block.friction * p.x && block.tangential_restitution == 0.0 {
-            block.b.y += block.before.y;
-            block.b.z += block.before.z;
-        }
-    }
+    let mut is_struck = blow.is_struck.iter();
+    let hold = |contact: &Contact| {
+        let is_struck = is_struck.next();
+        hold(contact).filter(|_| is_struck == Some(&false))
+    };
+    problem.gather_held(model, &blow.after, &free, &mut plastic, through, hold);
 }
 
 /// Contacts that were left out are there, without an impulse.

@@ -11,6 +11,7 @@ mod free;
 mod impact;
 mod impact_energy;
 mod known_problems;
+mod laws;
 mod lecture;
 mod loads;
 mod newton;

@@ -1,15 +1,16 @@
 //! A step along a slip that turns, by Taylor series (as A. Jorba, M. Zou, Exp. Math. 14 (2005) 99).
 //!
-//! With dp_n = |u_t| dτ the slip is u_t′ = |u_t| A_tn − μ A_tt u_t: no direction to divide by, so that everything is
-//! analytic down to slip 0, which is τ = ∞ (the slip falls exponentially). A series is its own dense output: where the
-//! normal velocity turns and the impact ends is a root of a polynomial.
+//! With dp_n = |u_t| dτ/σ, σ = |A_tn| + μ |A_tt|, the slip is u_t′ = (|u_t| A_tn − μ A_tt u_t)/σ: no direction to
+//! divide by, so that everything is analytic down to slip 0, which is τ = ∞ (the slip falls exponentially), and τ has
+//! no unit: a mass of any size gives the same series. A series is its own dense output: where the normal velocity turns
+//! and the impact ends is a root of a polynomial.
 
 use super::path::{Path, Phase};
 use nalgebra::Vector2;
 
 const ORDER: usize = 24;
 
-/// A step is at most so long in units of |A_tn| + μ |A_tt|, whatever the series says.
+/// A step is at most so long, whatever the series says.
 const LONGEST: f64 = 4.0;
 
 /// Halvings of an interval until it is rounding.
@@ -25,20 +26,30 @@ pub(super) struct Turn {
     store: Series,
     p_n: Series,
     step: f64,
+    /// σ.
+    rate: f64,
 }
 
 impl Turn {
     pub fn new(path: &Path) -> Self {
         let (a, B) = (path.coupling(), path.tangents() * path.friction);
+        let sigma = a.norm() + B.norm();
         let (A_nn, rate) = (path.A[(0, 0)], path.store_rate());
         let zero = [0.0; ORDER + 1];
-        let mut s =
-            Turn { u_t: [Vector2::zeros(); ORDER + 1], speed: zero, u_n: zero, store: zero, p_n: zero, step: 0.0 };
+        let mut s = Turn {
+            u_t: [Vector2::zeros(); ORDER + 1],
+            speed: zero,
+            u_n: zero,
+            store: zero,
+            p_n: zero,
+            step: 0.0,
+            rate: sigma,
+        };
         s.u_t[0] = path.slip();
         s.speed[0] = s.u_t[0].norm();
         (s.u_n[0], s.store[0], s.p_n[0]) = (path.u.x, path.store, path.p.x);
         for k in 0..ORDER {
-            let next = 1.0 / (k + 1) as f64;
+            let next = 1.0 / ((k + 1) as f64 * sigma);
             let power: f64 = (0..=k).map(|i| s.u_n[i] * s.speed[k - i]).sum();
             s.u_t[k + 1] = (a * s.speed[k] - B * s.u_t[k]) * next;
             s.u_n[k + 1] = (A_nn * s.speed[k] - path.friction * a.dot(&s.u_t[k])) * next;
@@ -49,7 +60,7 @@ impl Turn {
             let known: f64 = (1..=k).map(|i| s.speed[i] * s.speed[k + 1 - i]).sum();
             s.speed[k + 1] = (square - known) / (2.0 * s.speed[0]);
         }
-        s.step = [ORDER - 1, ORDER].map(|k| s.reach(k)).into_iter().fold(LONGEST / (a.norm() + B.norm()), f64::min);
+        s.step = [ORDER - 1, ORDER].map(|k| s.reach(k)).into_iter().fold(LONGEST, f64::min);
         s
     }
 
@@ -75,7 +86,8 @@ impl Turn {
         }
         let slip = self.u_t.iter().rev().fold(Vector2::zeros(), |sum, term| sum * h + term);
         // ∫ u_t dτ.
-        let way = (0..ORDER).rev().fold(Vector2::zeros(), |sum, k| sum * h + self.u_t[k] / (k + 1) as f64) * h;
+        let way =
+            (0..ORDER).rev().fold(Vector2::zeros(), |sum, k| sum * h + self.u_t[k] / (k + 1) as f64) * (h / self.rate);
         (path.u.x, path.u.y, path.u.z) = (at(&self.u_n, h), slip.x, slip.y);
         (path.p.x, path.p.y, path.p.z) =
             (at(&self.p_n, h), path.p.y - path.friction * way.x, path.p.z - path.friction * way.y);

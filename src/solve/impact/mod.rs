@@ -5,7 +5,7 @@
 //! for any J, M, μ and 0 ≤ e ≤ 1:
 //!
 //! - `darboux_keller`: one contact; its sliding is followed along the normal impulse
-//! - `sequential`: that law, one contact at a time
+//! - `sequential`: that law, one contact at a time, and of the contacts of one face or line all at once
 //! - `poisson`: all contacts at once, compression and expansion
 //!
 //! Impulses in N s, velocities in m/s, rows normal, tangent 1, tangent 2. The laws allocate.

@@ -1,34 +1,38 @@
 //! Poisson's law for all contacts at once, in two phases (Ch. Glocker, F. Pfeiffer, Nonlinear Dynamics 7 (1995) 471).
 //!
-//! Compression: the plastic impulses p_C with friction. Expansion: normal impulses e p_C,n, more only where contacts
-//! would penetrate (p_n − e p_C,n ≥ 0 ⟂ u_n ≥ 0), and Coulomb friction within μ p_n of the expansion's own normal
-//! impulse. There is no tangential restitution: a contact that sticks after compression stays stuck where friction
-//! allows.
+//! Compression: the plastic impulses p_C with friction. Expansion: normal impulses e p_C,n, and of the tangent impulses
+//! that Coulomb's discs of radius μ e p_C,n allow those that leave the least energy. What would penetrate after both
+//! phases is held by another plastic solve. There is no tangential restitution: a contact that sticks after compression
+//! stays stuck where friction allows.
+//!
+//! A face or a line is any number of contacts at once: what they give back in all is e times what they took, however it
+//! is shared among them. Of several bodies each gets back through its contacts e times what it gave, at once: along a
+//! chain of balls more than the last one moves.
 //!
 //! Energetic bound: the expansion of an island that would gain energy over both phases is scaled by the largest factor
 //! ≤ 1 that does not; cones, contacts that stick and contacts that separate allow any factor. Where the solver settles
-//! the bound is hardly ever met: p = e p_C would gain nothing, as p_C · u_C ≤ 0, and of the tangent impulses that a
-//! cone allows friction chooses those that leave the least energy. It is met where compression has not settled.
+//! the bound is hardly ever met: p = e p_C would gain nothing, as p_C · u_C ≤ 0, and friction chooses what leaves the
+//! least energy. It is met where compression has not settled.
 //!
-//! The expansion is solved by projected Jacobi: all contacts at once, each as if its bodies' masses were shared among
-//! their contacts (R. Tonge, F. Benevolenti, A. Voroshilov, ACM Trans. Graph. 31 (2012) 105). With normal impulses
-//! given that only descends; it keeps symmetric scenes symmetric, which one contact after the other does not.
-//! Approaches that are left where it has not settled are taken by another plastic solve.
+//! Friction of the expansion is a convex problem. It is solved by projected Jacobi: all contacts at once, each as if
+//! its bodies' masses were shared among their contacts (R. Tonge, F. Benevolenti, A. Voroshilov, ACM Trans. Graph. 31
+//! (2012) 105), which keeps symmetric scenes symmetric, as one contact after the other does not; with Nesterov's lead,
+//! taken back where it leads uphill (B. O'Donoghue, E. Candès, Found. Comput. Math. 15 (2015) 715).
 
+use super::super::Impulse;
 use super::super::block::Block;
 use super::super::island::islands;
 use super::super::problem::ContactProblem;
 use super::super::twist::Twist;
-use super::super::{Impulse, exact_contact};
 use super::disc;
 use super::plastic::{Plastic, plastic, rounding};
 use crate::deadline::Deadline;
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::Vector2;
 
 const MOST: usize = 2000;
 
 /// Settled: no impulse changes by more than this part of the largest.
-const TOLERANCE: f64 = 1e-13;
+const TOLERANCE: f64 = 1e-12;
 
 pub(super) fn resolve(
     problem: &ContactProblem,
@@ -58,24 +62,40 @@ pub(super) fn resolve(
 /// Expansion from the velocities after compression. Whether it has settled.
 fn expand(after: &ContactProblem, floors: &[f64], deadline: Deadline) -> (Vec<Impulse>, bool) {
     let mut p: Vec<Impulse> = floors.iter().map(|floor| Impulse::new(*floor, 0.0, 0.0)).collect();
+    let radii: Vec<f64> = after.blocks.iter().zip(floors).map(|(block, floor)| block.friction * floor).collect();
+    if radii.iter().all(|radius| *radius <= 0.0) {
+        return (p, true);
+    }
     let shares = shares(after);
     let mut u: Vec<Twist> = Vec::new();
+    // Where the next step begins, ahead of `p`, and by which weight.
+    let (mut ahead, mut weight) = (p.clone(), 1.0_f64);
     for _ in 0..MOST {
         if deadline.is_over() {
             break;
         }
-        after.response(&p, &mut u);
-        let (mut largest, mut change) = (0.0_f64, 0.0_f64);
+        after.response(&ahead, &mut u);
+        let (mut largest, mut change, mut turned) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let next_weight = f64::midpoint(1.0, (1.0 + 4.0 * weight * weight).sqrt());
+        let mut last = p.clone();
         for (i, block) in after.blocks.iter().enumerate() {
-            let A = block.A * shares[i];
-            let next = expanded(&A, &(block.velocity(&u) - A * p[i]), block.friction, floors[i]);
-            change = change.max((next - p[i]).amax());
+            let S = block.A.fixed_view::<2, 2>(1, 1) * shares[i];
+            let slip = block.velocity(&u);
+            let d = S * Vector2::new(ahead[i].y, ahead[i].z) - Vector2::new(slip.y, slip.z);
+            let tangent = disc::least(&S, &d, radii[i]);
+            let next = Impulse::new(floors[i], tangent.x, tangent.y);
+            let moved = next - p[i];
+            turned += (ahead[i] - next).dot(&moved) * block.A.trace();
+            change = change.max((next - ahead[i]).amax());
             largest = largest.max(next.amax());
-            p[i] = next;
+            last[i] = std::mem::replace(&mut p[i], next);
         }
         if change <= TOLERANCE * largest {
             return (p, true);
         }
+        let lead = if turned > 0.0 { 0.0 } else { (weight - 1.0) / next_weight };
+        weight = if turned > 0.0 { 1.0 } else { next_weight };
+        ahead.iter_mut().zip(p.iter().zip(&last)).for_each(|(ahead, (p, last))| *ahead = p + (p - last) * lead);
     }
     (p, false)
 }
@@ -87,17 +107,6 @@ fn shares(problem: &ContactProblem) -> Vec<f64> {
     let moves = |body: usize| problem.inertias[body].mass_kg.is_finite();
     let of = |block: &Block| block.ends().filter(|end| moves(end.body)).map(|end| contacts[end.body]).max();
     problem.blocks.iter().map(|block| f64::from(of(block).unwrap_or(1))).collect()
-}
-
-/// The impulse of one contact that would have velocity `q` without it: at least `floor`, more if it would penetrate.
-fn expanded(A: &Matrix3<f64>, q: &Vector3<f64>, friction: f64, floor: f64) -> Impulse {
-    let at_floor = q + A.column(0) * floor;
-    let slip = Vector2::new(at_floor.y, at_floor.z);
-    let tangent = disc::least(&A.fixed_view::<2, 2>(1, 1).into_owned(), &-slip, friction * floor);
-    if at_floor.x + A[(0, 1)] * tangent.x + A[(0, 2)] * tangent.y >= 0.0 {
-        return Impulse::new(floor, tangent.x, tangent.y);
-    }
-    exact_contact::solve(A, q, &Impulse::zeros(), friction)
 }
 
 /// Compression and as much of the expansion as gains no energy, island by island.

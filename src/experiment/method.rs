@@ -456,7 +456,9 @@ impl MethodSettings for TimeStepping {
 
     fn unless_set(&self, setting: &str) -> String {
         match setting {
-            "sweeps" => Solver::default_of(|solver| solver.sweeps.map_or("its own".to_string(), |most| most.to_string())),
+            "sweeps" => {
+                Solver::default_of(|solver| solver.sweeps.map_or("its own".to_string(), |most| most.to_string()))
+            }
             "tolerance" => Solver::default_of(|solver| format!("{:e}", solver.tolerance)),
             _ => "all".to_string(),
         }

@@ -79,7 +79,7 @@ impl Judge {
         let mut springs = plan.stiffness_n_m.map(|stiffness_n_m| Springs::new(stiffness_n_m, plan.contacts));
         let bodies = model.bodies.len();
         let is_half_way = plan.approach == Approach::Middle;
-        let lasting = if is_half_way { Lasting::at_start(model, start) } else { Lasting::default() };
+        let lasting = is_half_way.then(|| Lasting::at_start(model, start));
         let stored_j = springs.as_mut().map_or(0.0, |springs| springs.stored_j(model, start));
         Judge {
             energy: EnergyLedger::new(model, start, stored_j),

@@ -154,14 +154,15 @@ pub struct ResidualLedger {
     /// Of every island by its first body: some contact strikes.
     struck: Vec<bool>,
     /// What lasts into the next step, and what the step shows of that.
-    lasting: Lasting,
+    /// None: no contact does, whatever a step shows.
+    lasting: Option<Lasting>,
     last_on: Vec<(Key, Hold)>,
     pub max: Option<f64>,
 }
 
 impl ResidualLedger {
-    /// `lasting`: what is closed and at rest at the start, if steps kick half-way.
-    pub fn new(judged: bool, newton: bool, bodies: usize, lasting: Lasting) -> Self {
+    /// `lasting`: what is closed and at rest at the start, of a method whose steps kick half-way.
+    pub fn new(judged: bool, newton: bool, bodies: usize, lasting: Option<Lasting>) -> Self {
         let (struck, last_on) = (Vec::with_capacity(bodies), Vec::new());
         ResidualLedger { judged, newton, struck, lasting, last_on, max: None }
     }
@@ -180,7 +181,7 @@ impl ResidualLedger {
         let is_half_way = through.0 == Approach::Middle;
         let ResidualLedger { newton, struck, lasting, last_on, max, .. } = self;
         let seen = |contact, met| {
-            let hold = lasting.of(contact).filter(|_| is_half_way);
+            let hold = lasting.as_ref().and_then(|lasting| lasting.of(contact)).filter(|_| is_half_way);
             Seen::new(model, (contact, met), &exchange.moved, through, hold)
         };
         last_on.clear();
@@ -198,6 +199,8 @@ impl ResidualLedger {
             let lasts = seen.holds_on(impulse_W).filter(|_| !is_struck);
             last_on.extend(lasts.map(|hold| (contact.key(), hold)));
         }
-        lasting.renew(last_on.drain(..));
+        if let Some(lasting) = lasting {
+            lasting.renew(last_on.drain(..));
+        }
     }
 }

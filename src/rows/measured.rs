@@ -25,8 +25,8 @@ columns! {
         pub step_used_s: Option<f64>,
         /// Method that `auto` has chosen; null for other methods.
         pub method_used: Option<String>,
-        /// Contact solver that was used: the one that the method names; of the solver `auto` those that had something to
-        /// solve, `newton`, `nncg` or `newton+nncg`. Null where none had, and for methods that have none to choose.
+        /// Contact solver that was used: the one that the method names; of the solver `auto` those that had something
+        /// to solve, `newton`, `nncg` or `newton+nncg`. Null where none had, and for methods that have none to choose.
         pub solver_used: Option<String>,
         /// Tolerance that `auto` has chosen for it, in metres; null where the chosen method takes a step.
         pub tolerance_used: Option<f64>,

@@ -4,12 +4,13 @@
 //!
 //! Impulses of the last step that meet the tolerance, and more, are taken as they are: bodies at rest cost a look. From
 //! where they are near, Newton's method goes on alone, and what redundant contacts share stays as it was. Few contacts
-//! are mostly near after some sweeps; only what is left then goes the whole way of the exact solver. Islands that are too large are left to conjugate gradients, whose starts survive from step to
-//! step, and say so where they miss the tolerance.
+//! are mostly near after some sweeps; only what is left then goes the whole way of the exact solver, and so does what
+//! slips different ways, as there even shares are a part of the answer. Islands that are too large are left to
+//! conjugate gradients, whose starts survive from step to step, and say so where they miss the tolerance.
 
 use super::gauss_seidel::{self, Sweeps, Variant};
 use super::island::{Island, islands_without_pattern};
-use super::missed::strict_residual;
+use super::missed::{shares_matter, strict_residual};
 use super::problem::ContactProblem;
 use super::twist::Twist;
 use super::{Impulse, active_set, newton, nncg};
@@ -41,7 +42,7 @@ pub fn solve(
 ) -> bool {
     let lasts = |p: &[Impulse], u: &mut Vec<Twist>| {
         problem.response(p, u);
-        strict_residual(problem, p, u) <= KEPT * goal.tolerance
+        strict_residual(problem, p, u) <= KEPT * goal.tolerance && !shares_matter(problem, 0..p.len(), p, u)
     };
     if lasts(p, &mut scratch.u) {
         work.kept_solves += 1;
@@ -61,13 +62,16 @@ pub fn solve(
     let mut solved = true;
     for island in &mut islands {
         let mut own = island.impulses(p);
-        if island.is_enough(island.strict_residual(&own), KEPT * goal.tolerance, &own) {
+        let is_new = own.iter().all(|p| *p == Impulse::zeros());
+        let contacts = island.touches.iter().map(|touch| touch.index);
+        let is_shared = is_new || shares_matter(problem, contacts, p, &scratch.u);
+        if !is_shared && island.is_enough(island.strict_residual(&own), KEPT * goal.tolerance, &own) {
             work.kept_solves += 1;
             continue;
         }
         let part = (!alone).then(|| problem.part(island.touches.iter().map(|touch| touch.index)));
         let problem = part.as_ref().unwrap_or(problem);
-        solved &= Part { problem, goal, scratch: &mut scratch.nncg }.solve(island, &mut own, work);
+        solved &= Part { problem, goal, is_shared, scratch: &mut scratch.nncg }.solve(island, &mut own, work);
         island.put(&own, p);
     }
     solved
@@ -90,6 +94,8 @@ impl Scratch {
 struct Part<'a> {
     problem: &'a ContactProblem,
     goal: Sweeps,
+    /// Even shares are a part of the answer.
+    is_shared: bool,
     scratch: &'a mut nncg::Scratch,
 }
 
@@ -105,27 +111,29 @@ impl Part<'_> {
             if *most > 0 {
                 self.sweep(island, own, *most, work);
             }
-            if self.goes_on(island, own, work) {
-                return true;
+            if island.residual(own) <= newton::NEAR && (self.is_shared || self.goes_on(island, own, work)) {
+                break;
             }
         }
+        if !self.is_shared && self.is_enough(island, own) {
+            return true;
+        }
         let goal = self.goal;
+        let within = if self.is_shared { goal.tolerance } else { LASTING };
         let shuffled = Variant { local: Local::Exact, order: Order::Shuffled, ..Variant::default() };
         let more = |own: &mut Vec<Impulse>, work: &mut Work| {
             let sweeps = Sweeps { most: newton::MORE_SWEEPS, tolerance: 0.0, variant: shuffled, ..goal };
-            let mut p = with_units(island, own);
+            let mut p = island.with_units(own);
             gauss_seidel::iterate(self.problem, &sweeps, &mut p, &mut self.scratch.sweeps, work);
-            *own = without_units(island, &p);
+            *own = island.without_units(&p);
         };
-        newton::solve_island(island, &goal, own, newton::Shares { rounds: newton::ONCE, within: LASTING }, more, work)
+        newton::solve_island(island, &goal, own, newton::Shares { rounds: newton::ONCE, within }, more, work)
     }
 
     /// By Newton's method, from impulses that are near. Whether that was enough.
     fn goes_on(&self, island: &Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
-        island.residual(own) <= newton::NEAR && {
-            active_set::improve_near(island, own, self.goal.tolerance, &mut work.newton_steps);
-            self.is_enough(island, own)
-        }
+        active_set::improve_near(island, own, self.goal.tolerance, &mut work.newton_steps);
+        self.is_enough(island, own)
     }
 
     fn is_enough(&self, island: &Island, own: &[Impulse]) -> bool {
@@ -134,10 +142,10 @@ impl Part<'_> {
 
     /// By conjugate gradients.
     fn sweep(&mut self, island: &Island, own: &mut Vec<Impulse>, most: u32, work: &mut Work) {
-        let mut p = with_units(island, own);
+        let mut p = island.with_units(own);
         let sweeps = Sweeps { most, tolerance: 0.0, ..self.goal };
         nncg::iterate(self.problem, &sweeps, &mut p, self.scratch, work);
-        *own = without_units(island, &p);
+        *own = island.without_units(&p);
     }
 
     /// Looks after every batch of sweeps.
@@ -147,12 +155,4 @@ impl Part<'_> {
             self.is_enough(island, own)
         })
     }
-}
-
-fn with_units(island: &Island, own: &[Impulse]) -> Vec<Impulse> {
-    island.touches.iter().zip(own).map(|(touch, p)| p * touch.scale).collect()
-}
-
-fn without_units(island: &Island, p: &[Impulse]) -> Vec<Impulse> {
-    island.touches.iter().zip(p).map(|(touch, p)| p / touch.scale).collect()
 }

@@ -138,7 +138,9 @@ pub(super) fn sweep(
             in_place(problem, coupling, p, 0..before.len(), |block, _, p| block.corrected(p, cone));
         }
         (Iteration::GaussSeidel, Correction::PerContact) => match sweeps.variant.order {
-            Order::ForthAndBack if number % 2 == 1 => per_contact(problem, coupling, p, (0..before.len()).rev(), sweeps),
+            Order::ForthAndBack if number % 2 == 1 => {
+                per_contact(problem, coupling, p, (0..before.len()).rev(), sweeps)
+            }
             Order::ForthAndBack | Order::Fixed => per_contact(problem, coupling, p, 0..before.len(), sweeps),
             Order::Shuffled => {
                 shuffle(order, number);

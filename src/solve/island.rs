@@ -3,13 +3,14 @@
 //! Bodies that move as they are told, and the container, join nothing. With M = L⁻ᵀL⁻¹ the unknown velocities are y =
 //! L⁻¹ M⁻¹ Jᵀ p, six numbers a body however many contacts it has, and A = G Gᵀ with G = J L. Every contact is scaled by
 //! σ, its own block of A having the trace 1/σ²: velocities are σ u, impulses p/σ, and Coulomb's cone stays what it is.
+//! Masses are in a unit of the island's own, a power of two, so that a scene twice as heavy has the same bits.
 
 use super::Impulse;
 use super::block::Block;
 use super::end::{End, Inertia};
 use super::law::{self, Law};
-use super::missed::{Acted, Speeds, relative};
 use super::problem::ContactProblem;
+use super::speeds::{Acted, Speeds, relative};
 use crate::deadline::Deadline;
 use crate::math::block_lu::{BlockMatrix, Factors, Pattern};
 use nalgebra::{DVector, Matrix3, Matrix3x6, Vector3};
@@ -46,6 +47,8 @@ pub struct Island {
     /// Of y: six a body.
     pub unknowns: usize,
     bodies: Vec<Mover>,
+    /// The power of two that is next below its first body's mass.
+    unit_kg: f64,
     /// As `ContactProblem` has it.
     cancelling: f64,
     pattern: Pattern,
@@ -64,21 +67,22 @@ pub fn islands(problem: &ContactProblem, deadline: Deadline) -> Vec<Island> {
 
 /// The same, none of which can make a linear system yet.
 pub fn islands_without_pattern(problem: &ContactProblem, deadline: Deadline) -> Vec<Island> {
-    let whitened: Vec<Whitened> = problem.inertias.iter().map(Whitened::new).collect();
-    let moves = |end: &&End| whitened[end.body].moves;
-    let mut root_of: Vec<usize> = (0..whitened.len()).collect();
+    let moves: Vec<bool> = problem.inertias.iter().map(|inertia| inertia.mass_kg.is_finite()).collect();
+    let moving = |end: &&End| moves[end.body];
+    let mut root_of: Vec<usize> = (0..moves.len()).collect();
     for block in &problem.blocks {
-        let mut moving = block.ends().filter(moves).map(|end| root(&root_of, end.body));
-        if let (Some(a), Some(b)) = (moving.next(), moving.next()) {
+        let mut first = block.ends().filter(moving).map(|end| root(&root_of, end.body));
+        if let (Some(a), Some(b)) = (first.next(), first.next()) {
             root_of[a.max(b)] = a.min(b);
         }
     }
     // Of every body where its numbers begin, and of every first body its island.
-    let (mut at, mut island_of) = (vec![0; whitened.len()], vec![usize::MAX; whitened.len()]);
+    let (mut at, mut island_of) = (vec![0; moves.len()], vec![usize::MAX; moves.len()]);
+    let mut whitened = vec![Whitened::FIXED; moves.len()];
     let mut islands: Vec<Island> = Vec::new();
-    let mut touched = vec![false; whitened.len()];
+    let mut touched = vec![false; moves.len()];
     problem.blocks.iter().flat_map(Block::ends).for_each(|end| touched[end.body] = true);
-    for body in (0..whitened.len()).filter(|body| whitened[*body].moves && touched[*body]) {
+    for body in (0..moves.len()).filter(|body| moves[*body] && touched[*body]) {
         let first = root(&root_of, body);
         if first == body {
             island_of[body] = islands.len();
@@ -86,6 +90,7 @@ pub fn islands_without_pattern(problem: &ContactProblem, deadline: Deadline) -> 
                 touches: Vec::new(),
                 unknowns: 0,
                 bodies: Vec::new(),
+                unit_kg: unit_kg(problem.inertias[body].mass_kg),
                 cancelling: problem.cancelling,
                 pattern: Pattern::default(),
                 deadline,
@@ -94,11 +99,13 @@ pub fn islands_without_pattern(problem: &ContactProblem, deadline: Deadline) -> 
         let island = &mut islands[island_of[first]];
         at[body] = island.unknowns;
         island.unknowns += 6;
+        whitened[body] = Whitened::new(&problem.inertias[body], island.unit_kg);
         island.bodies.push(Mover { whitened: whitened[body], speeds: problem.speeds[body] });
     }
     for (index, block) in problem.blocks.iter().enumerate() {
-        if let Some(end) = block.ends().find(moves) {
-            islands[island_of[root(&root_of, end.body)]].touches.push(Share::new(index, block, &whitened, &at));
+        if let Some(end) = block.ends().find(moving) {
+            let island = &mut islands[island_of[root(&root_of, end.body)]];
+            island.touches.push(Share::new(index, block, &whitened, &at, island.unit_kg));
         }
     }
     islands
@@ -119,7 +126,14 @@ struct Mover {
     speeds: Speeds,
 }
 
-/// L of one body: M⁻¹ = L Lᵀ.
+/// The power of two next below a mass.
+fn unit_kg(mass_kg: f64) -> f64 {
+    const EXPONENT: u64 = 0x7FF0_0000_0000_0000;
+    let unit_kg = f64::from_bits(mass_kg.to_bits() & EXPONENT);
+    if unit_kg > 0.0 { unit_kg } else { 1.0 }
+}
+
+/// L of one body: M⁻¹ = L Lᵀ, in a unit of mass.
 #[derive(Clone, Copy, Debug)]
 struct Whitened {
     moves: bool,
@@ -128,15 +142,19 @@ struct Whitened {
 }
 
 impl Whitened {
-    fn new(inertia: &Inertia) -> Self {
-        let angular = inertia.inverse_W.cholesky().map_or_else(Matrix3::zeros, |cholesky| cholesky.l());
-        Whitened { moves: inertia.mass_kg.is_finite(), linear: 1.0 / inertia.mass_kg.sqrt(), angular }
+    const FIXED: Whitened =
+        Whitened { moves: false, linear: 0.0, angular: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0) };
+
+    fn new(inertia: &Inertia, unit_kg: f64) -> Self {
+        let inverse_W = inertia.inverse_W * unit_kg;
+        let angular = inverse_W.cholesky().map_or_else(Matrix3::zeros, |cholesky| cholesky.l());
+        Whitened { moves: true, linear: 1.0 / (inertia.mass_kg / unit_kg).sqrt(), angular }
     }
 }
 
 impl Share {
-    fn new(index: usize, block: &Block, whitened: &[Whitened], at: &[usize]) -> Self {
-        let scale = 1.0 / block.A.trace().sqrt();
+    fn new(index: usize, block: &Block, whitened: &[Whitened], at: &[usize], unit_kg: f64) -> Self {
+        let scale = 1.0 / (block.A.trace() * unit_kg).sqrt();
         let side = |end: &End| {
             let Whitened { linear, angular, .. } = &whitened[end.body];
             let mut rows = Matrix3x6::zeros();
@@ -217,14 +235,29 @@ impl Island {
         self.touches.iter().map(|touch| touch.b + touch.motion(y)).collect()
     }
 
-    /// Its contacts' impulses without units.
+    /// Its contacts' impulses without units, of those of all.
     pub fn impulses(&self, all: &[Impulse]) -> Vec<Impulse> {
-        self.touches.iter().map(|touch| all[touch.index] / touch.scale).collect()
+        self.touches.iter().map(|touch| all[touch.index] / self.unit_n_s(touch)).collect()
     }
 
     /// Puts them back among all, with units.
     pub fn put(&self, p: &[Impulse], all: &mut [Impulse]) {
-        self.touches.iter().zip(p).for_each(|(touch, p)| all[touch.index] = p * touch.scale);
+        self.touches.iter().zip(p).for_each(|(touch, p)| all[touch.index] = p * self.unit_n_s(touch));
+    }
+
+    /// Its own impulses with units.
+    pub fn with_units(&self, p: &[Impulse]) -> Vec<Impulse> {
+        self.touches.iter().zip(p).map(|(touch, p)| p * self.unit_n_s(touch)).collect()
+    }
+
+    /// Its own impulses without units.
+    pub fn without_units(&self, p: &[Impulse]) -> Vec<Impulse> {
+        self.touches.iter().zip(p).map(|(touch, p)| p / self.unit_n_s(touch)).collect()
+    }
+
+    /// Impulse of a contact that is 1 without units.
+    fn unit_n_s(&self, touch: &Share) -> f64 {
+        touch.scale * self.unit_kg
     }
 
     /// What the impulse of every contact (without units) is compared with, as the judge has it: the least, over the
@@ -254,10 +287,15 @@ impl Island {
         self.touches.iter().map(least).collect()
     }
 
-    /// A residual that rounding of the velocities leaves: impulses may be next to nothing beside a slip.
+    /// A residual that rounding of the velocities leaves: impulses may be next to nothing beside the speed of a body,
+    /// which slips past or rolls.
     pub fn rounding(&self, p: &[Impulse]) -> f64 {
         let scales = self.scales(p, &self.pushed(p));
-        let of = |(touch, scale): (&Share, &f64)| relative(4.0 * f64::EPSILON * touch.b.norm(), *scale);
+        let of = |(touch, scale): (&Share, &f64)| {
+            let sides = touch.sides.iter().flatten();
+            let speeds = sides.map(|side| touch.scale * self.bodies[side.at / 6].speeds.at(side.arm_m));
+            relative(4.0 * f64::EPSILON * speeds.fold(touch.b.norm(), f64::max), *scale)
+        };
         self.touches.iter().zip(&scales).map(of).fold(0.0, f64::max)
     }
 

@@ -1,62 +1,24 @@
-//! How far impulses are from the law of contact, as the judge measures it (`measure::residual`): against what the step
-//! does to the body that it does least to, so that a light body under a heavy one counts.
+//! How far impulses are from the law of contact, of all contacts of a problem at once.
 
 use super::Impulse;
 use super::block::Block;
+use super::end::End;
 use super::law;
 use super::problem::ContactProblem;
+use super::speeds::{Acted, relative};
 use super::twist::Twist;
-use crate::state::BodyState;
+use nalgebra::Vector3;
 
-/// Least change of a body's velocity, of its speed, as the judge has it.
-const SMALL: f64 = 1e-5;
-
-/// Speeds of a body, |v| and |ω|: with the step's forces, and what these add to them.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Speeds {
-    free: [f64; 2],
-    gained: [f64; 2],
-}
-
-impl Speeds {
-    pub(super) fn of(at: &BodyState, free: &Twist, is_instant: bool) -> Self {
-        let gained = if is_instant { [0.0; 2] } else { [(free.v - at.v_WB).norm(), (free.w - at.w_WB).norm()] };
-        Speeds { free: [free.v.norm(), free.w.norm()], gained }
-    }
-}
-
-/// What a step does to a body: the velocities that its impulses together change, the step's forces if these do more,
-/// and what of Σ|p|/m counts beside them though impulses cancel.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Acted {
-    pub(super) speeds: Speeds,
-    pub(super) changed: [f64; 2],
-    pub(super) pressed: f64,
-}
-
-impl Acted {
-    /// At a point so far from the centre of mass; at least 10⁻⁵ of its speed.
-    pub(super) fn at(&self, arm_m: f64) -> f64 {
-        let speed = |[v, w]: &[f64; 2]| v + w * arm_m;
-        let acted = speed(&self.changed).max(speed(&self.speeds.gained)).max(self.pressed);
-        acted.max(SMALL * speed(&self.speeds.free))
-    }
-}
-
-/// Part of a scale; 0 of a scale that is 0 as well.
-pub(super) fn relative(amount: f64, scale: f64) -> f64 {
-    if amount == 0.0 { 0.0 } else { amount / scale }
-}
+/// Of what a step does to a body: a velocity that is a slip. And sine of an angle between slips that are one.
+const SLIP: f64 = 1e-9;
+const ONE_WAY: f64 = 1e-6;
 
 /// The largest residual of all contacts, by what every body gets alone, however much presses it. `u`: M⁻¹ Jᵀ p.
 pub fn strict_residual(problem: &ContactProblem, p: &[Impulse], u: &[Twist]) -> f64 {
     let scale = |block: &Block| {
-        let of = |body: usize| {
-            let changed = [u[body].v.norm(), u[body].w.norm()];
-            Acted { speeds: problem.speeds[body], changed, pressed: 0.0 }
-        };
         let moved = block.ends().map(|end| (end, end.compliance())).filter(|(_, compliance)| *compliance > 0.0);
-        moved.map(|(end, compliance)| of(end.body).at(end.arm_m()) / compliance).fold(f64::INFINITY, f64::min)
+        let of = |(end, compliance): (&End, f64)| acted(problem, end, u) / compliance;
+        moved.map(of).fold(f64::INFINITY, f64::min)
     };
     let missed = |(block, p): (&Block, &Impulse)| {
         let c = block.velocity(u) / block.A.trace();
@@ -64,4 +26,30 @@ pub fn strict_residual(problem: &ContactProblem, p: &[Impulse], u: &[Twist]) -> 
         if missed.is_nan() { f64::INFINITY } else { missed }
     };
     problem.blocks.iter().zip(p).map(missed).fold(0.0, f64::max)
+}
+
+/// Speed that the step gives the body of a contact there.
+fn acted(problem: &ContactProblem, end: &End, u: &[Twist]) -> f64 {
+    let changed = [u[end.body].v.norm(), u[end.body].w.norm()];
+    Acted { speeds: problem.speeds[end.body], changed, pressed: 0.0 }.at(end.arm_m())
+}
+
+/// Whether some contacts slip different ways, and are so many that the law leaves open how they share what presses
+/// them: then that decides how the slip turns.
+pub fn shares_matter(
+    problem: &ContactProblem,
+    contacts: impl ExactSizeIterator<Item = usize>,
+    p: &[Impulse],
+    u: &[Twist],
+) -> bool {
+    let slip = |i: usize| {
+        let (block, p) = (&problem.blocks[i], &p[i]);
+        let c = block.velocity(u);
+        let slip_W = block.along_W(&c);
+        let least = SLIP * block.ends().map(|end| acted(problem, end, u)).fold(0.0, f64::max);
+        (p.x > 0.0 && block.friction > 0.0 && block.pin.is_none() && slip_W.norm() > least).then(|| slip_W.normalize())
+    };
+    let are_many = contacts.len() > 3;
+    let mut slips = contacts.filter_map(slip);
+    are_many && slips.next().is_some_and(|first| slips.any(|slip_W: Vector3<f64>| (slip_W - first).norm() > ONE_WAY))
 }

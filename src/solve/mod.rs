@@ -21,6 +21,7 @@ pub mod problem;
 mod proximal;
 mod smallest;
 pub mod solver;
+mod speeds;
 pub mod start;
 pub mod twist;
 

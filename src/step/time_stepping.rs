@@ -57,6 +57,8 @@ pub struct TimeStepping {
     solved: Vec<(Key, Vector3<f64>)>,
     /// Contacts that last into this step, of a scheme whose kick is half-way.
     lasting: Lasting,
+    /// Contacts last from step to step; else every step takes them for new ones, and what rocks comes to rest.
+    may_last: bool,
     /// The same of the next step.
     last_on: Vec<(Key, Hold)>,
     foreseen: Foreseen,
@@ -102,6 +104,7 @@ impl TimeStepping {
             last: Vec::with_capacity(scratch.contacts()),
             solved: Vec::with_capacity(scratch.contacts()),
             lasting: Lasting::default(),
+            may_last: true,
             last_on: Vec::with_capacity(scratch.contacts()),
             foreseen: Foreseen::with_capacity(scratch.contacts(), scratch.free.capacity()),
             left_s: None,
@@ -119,6 +122,11 @@ impl TimeStepping {
         }
     }
 
+    /// The same, to whose steps all contacts are new.
+    pub(super) fn without_lasting(self) -> Self {
+        TimeStepping { may_last: false, ..self }
+    }
+
     /// Steps from now on have time until then.
     pub fn hurry(&mut self, deadline: Deadline) {
         self.sweeps.deadline = deadline;
@@ -130,7 +138,7 @@ impl TimeStepping {
         if state.step == 0 {
             let widths_m = model.bodies.iter().filter_map(|body| Some(body.solid()?.0.least_width_m()));
             self.width_m = widths_m.fold(f64::INFINITY, f64::min);
-            if self.scheme == Approach::Middle {
+            if self.scheme == Approach::Middle && self.may_last {
                 self.lasting = Lasting::at_start(model, state);
             }
         }
@@ -225,8 +233,8 @@ impl TimeStepping {
 
     /// Keeps what lasts into the next step.
     fn note_lasting(&mut self, model: &Model, state: &State) {
-        let TimeStepping { scratch: s, approach, made_s, blow, lasting, last_on, .. } = self;
-        if *approach != Approach::Middle {
+        let TimeStepping { scratch: s, approach, made_s, blow, lasting, may_last, last_on, .. } = self;
+        if *approach != Approach::Middle || !*may_last {
             return lasting.renew(std::iter::empty());
         }
         let known = &*lasting;
@@ -364,12 +372,7 @@ fn show(left_out: &[Contact], solved: &mut Vec<SolvedContact>) {
 
 /// Last step's impulse of every contact that is still there, else 0. Both lists are in the order of contacts. `last`:
 /// in world axes, as a contact's frame may turn over with the last bit of its normal.
-fn warm_start(
-    found: &[Contact],
-    problem: &ContactProblem,
-    last: &[(Key, Vector3<f64>)],
-    impulses: &mut Vec<Impulse>,
-) {
+fn warm_start(found: &[Contact], problem: &ContactProblem, last: &[(Key, Vector3<f64>)], impulses: &mut Vec<Impulse>) {
     impulses.clear();
     let mut last = last.iter().peekable();
     for (contact, block) in found.iter().zip(&problem.blocks) {

@@ -77,7 +77,8 @@ struct Searched {
 impl Chosen {
     /// Fills the columns that say what was chosen.
     pub fn describe(&self, measured: &mut Measured) {
-        measured.solver_used = self.experiment.method.facts().solver.and_then(|solver| solver_used(solver, &measured.work));
+        measured.solver_used =
+            self.experiment.method.facts().solver.and_then(|solver| solver_used(solver, &measured.work));
         let Some(Searched { tolerance_m, error_estimate_m, search_s }) = self.searched else { return };
         let is_met = measured.outcome == Outcome::Finished && error_estimate_m.is_some_and(|m| m <= tolerance_m);
         measured.tolerance_met = Some(if is_met { "yes" } else { "no" }.to_string());

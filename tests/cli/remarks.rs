@@ -141,7 +141,8 @@ fn a_method_that_does_not_claim_to_solve_gives_a_note_that_quiet_silences() {
 #[test]
 fn a_sweep_warns_once_for_all_its_cases_and_counts_them() {
     let folder = scratch::folder();
-    let axes = "sweep: { axes: { method: [lecture, { time-stepping: { solver: pgs, sweeps: 1 } }], seed: [0, 1, 2] } }\n";
+    let axes =
+        "sweep: { axes: { method: [lecture, { time-stepping: { solver: pgs, sweeps: 1 } }], seed: [0, 1, 2] } }\n";
     let text = CUBE.replace("method: lecture\n", "") + axes;
     write(folder.path(), "a.yaml", &text);
     write(folder.path(), "b.yaml", &(PILE.to_string() + "sweep: { axes: { seed: [0, 1] } }\n"));

@@ -56,7 +56,8 @@ fn missing_sections_are_created() {
 #[test]
 fn the_last_set_of_a_path_wins() {
     assert_eq!(experiment(BASE, &["seed=1", "seed=2"]).unwrap().seed, 2);
-    let method = experiment(BASE, &["method={time-stepping: {solver: pgs}}", "method.time-stepping.sweeps=3"]).unwrap().method;
+    let method =
+        experiment(BASE, &["method={time-stepping: {solver: pgs}}", "method.time-stepping.sweeps=3"]).unwrap().method;
     let wanted = TimeStepping { solver: Solver::Pgs, sweeps: Some(3), ..TimeStepping::default() };
     assert_eq!(method, Method::TimeStepping(wanted));
 }

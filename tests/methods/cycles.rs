@@ -19,7 +19,7 @@ scene:
       mass_kg: 1
       position_m: [0, 0.5, 0]
   random: { speed_m_s: 4, spin_rad_s: 6, direction: downward }
-method: { time-stepping: { solver: pgs, tolerance: 0, position_correction: none } }
+method: { time-stepping: { solver: pgs, order: fixed, tolerance: 0, position_correction: none } }
 time: { step_s: 0.01, end_s: 0.01 }
 ";
 

@@ -22,8 +22,8 @@ columns! {
         /// Contact solves that missed their tolerance. A method that has no tolerance to miss has none.
         #[serde(rename = "work_unsolved")]
         pub unsolved: u64,
-        /// Solves of the solver `auto`, of a step or of an island of it, for which the last step's impulses were taken as
-        /// they were.
+        /// Solves of the solver `auto`, of a step or of an island of it, for which the last step's impulses were taken
+        /// as they were.
         #[serde(rename = "work_kept_solves")]
         pub kept_solves: u64,
         /// The same that it solved exactly.

@@ -22,13 +22,18 @@ pub enum Solver {
 /// takes seconds a step.
 pub const AFFORDABLE_PRODUCTS: usize = 200_000;
 pub const AFFORDABLE_BODIES: usize = 5_000;
+/// Proximal problems that the exact solver may try, times bodies, and at least: of many bodies that are wedged so that
+/// so many do not solve it, more seldom do, and `newton` takes seconds a step for them.
+pub const AFFORDABLE_PROBLEMS: u32 = 400;
+pub const FEWEST_PROBLEMS: u32 = 20;
 
 /// The rule of `auto`, for people.
 pub fn rule_of_auto() -> String {
     format!(
         "auto: impulses of the last step that meet the tolerance still are taken as they are; else an island whose \
          linear system has at most {AFFORDABLE_BODIES} bodies and takes at most {AFFORDABLE_PRODUCTS} products of \
-         6×6 blocks is solved exactly (newton), any other by nncg"
+         6×6 blocks is solved exactly (newton), any other, and what {AFFORDABLE_PROBLEMS} proximal problems over \
+         its bodies (at least {FEWEST_PROBLEMS}) do not solve, by nncg"
     )
 }
 

@@ -12,7 +12,9 @@ pub use super::limits::{Limits, ReferenceRun};
 pub use super::loads::*;
 pub use super::method::*;
 pub use super::scene::*;
-pub use super::solver::{AFFORDABLE_BODIES, AFFORDABLE_PRODUCTS, Solver, SolverFacts, rule_of_auto};
+pub use super::solver::{
+    AFFORDABLE_BODIES, AFFORDABLE_PROBLEMS, AFFORDABLE_PRODUCTS, FEWEST_PROBLEMS, Solver, SolverFacts, rule_of_auto,
+};
 pub use super::variants::*;
 use crate::clock::Clock;
 use serde::{Deserialize, Serialize};

@@ -5,8 +5,9 @@
 //! Impulses of the last step that meet the tolerance, and more, are taken as they are: bodies at rest cost a look. From
 //! where they are near, Newton's method goes on alone, and what redundant contacts share stays as it was. Few contacts
 //! are mostly near after some sweeps; only what is left then goes the whole way of the exact solver, and so does what
-//! slips different ways, as there even shares are a part of the answer. Islands that are too large are left to
-//! conjugate gradients, whose starts survive from step to step, and say so where they miss the tolerance.
+//! slips different ways, as there even shares are a part of the answer. Islands that are too large, and what the exact
+//! solver is given up at, are left to conjugate gradients, whose starts survive from step to step; where they miss the
+//! tolerance they say so.
 
 use super::gauss_seidel::{self, Sweeps, Variant};
 use super::island::{Island, islands_without_pattern};
@@ -14,7 +15,9 @@ use super::missed::{shares_matter, strict_residual};
 use super::problem::ContactProblem;
 use super::twist::Twist;
 use super::{Impulse, active_set, newton, nncg};
-use crate::experiment::types::{AFFORDABLE_BODIES, AFFORDABLE_PRODUCTS, Local, Order, Solver};
+use crate::experiment::types::{
+    AFFORDABLE_BODIES, AFFORDABLE_PROBLEMS, AFFORDABLE_PRODUCTS, FEWEST_PROBLEMS, Local, Order,
+};
 use crate::work::Work;
 
 /// Sweeps before a look whether impulses are near enough for Newton's method: of few contacts, and of many.
@@ -56,7 +59,6 @@ pub fn solve(
             return true;
         }
     }
-    let goal = Sweeps { most: Solver::Newton.facts().sweeps.unwrap_or(goal.most), ..*goal };
     let mut islands = islands_without_pattern(problem, goal.deadline);
     let alone = islands.len() == 1 && islands[0].touches.len() == problem.blocks.len();
     let mut solved = true;
@@ -71,6 +73,8 @@ pub fn solve(
         }
         let part = (!alone).then(|| problem.part(island.touches.iter().map(|touch| touch.index)));
         let problem = part.as_ref().unwrap_or(problem);
+        let most = (AFFORDABLE_PROBLEMS / island.bodies() as u32).max(FEWEST_PROBLEMS);
+        let goal = Sweeps { most, ..*goal };
         solved &= Part { problem, goal, is_shared, scratch: &mut scratch.nncg }.solve(island, &mut own, work);
         island.put(&own, p);
     }
@@ -115,7 +119,7 @@ impl Part<'_> {
                 break;
             }
         }
-        if !self.is_shared && self.is_enough(island, own) {
+        if !self.is_shared && self.is_lasting(island, own) {
             return true;
         }
         let goal = self.goal;
@@ -127,13 +131,28 @@ impl Part<'_> {
             gauss_seidel::iterate(self.problem, &sweeps, &mut p, &mut self.scratch.sweeps, work);
             *own = island.without_units(&p);
         };
-        newton::solve_island(island, &goal, own, newton::Shares { rounds: newton::ONCE, within }, more, work)
+        let shares = newton::Shares { rounds: newton::ONCE, within };
+        newton::solve_island(island, &goal, own, shares, more, work) || self.sweep_on(island, own, work)
+    }
+
+    /// By conjugate gradients, from what the exact solver was given up at. Whether they got there.
+    fn sweep_on(&mut self, island: &Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
+        let mut swept = own.clone();
+        let solved = self.sweep_until_solved(island, &mut swept, work);
+        if solved || island.residual(&swept) < island.residual(own) {
+            *own = swept;
+        }
+        solved
     }
 
     /// By Newton's method, from impulses that are near. Whether that was enough.
     fn goes_on(&self, island: &Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
         active_set::improve_near(island, own, self.goal.tolerance, &mut work.newton_steps);
-        self.is_enough(island, own)
+        self.is_lasting(island, own)
+    }
+
+    fn is_lasting(&self, island: &Island, own: &[Impulse]) -> bool {
+        island.is_enough(island.strict_residual(own), KEPT * self.goal.tolerance, own)
     }
 
     fn is_enough(&self, island: &Island, own: &[Impulse]) -> bool {

@@ -192,11 +192,16 @@ impl Share {
 impl Island {
     /// Gets the pattern of its linear systems, if it has no more bodies and factors take no more products of blocks.
     pub fn is_affordable(&mut self, most_bodies: usize, most_products: usize) -> bool {
-        let bodies = self.unknowns / 6;
+        let bodies = self.bodies();
         let pairs = || self.touches.iter().filter_map(Share::pair);
         let pattern = (bodies <= most_bodies).then(|| Pattern::within(bodies, pairs(), most_products)).flatten();
         self.pattern = pattern.unwrap_or_default();
         self.pattern.has_bodies(bodies)
+    }
+
+    /// Number of its bodies.
+    pub fn bodies(&self) -> usize {
+        self.bodies.len()
     }
 
     /// Whether a residual is the tolerance, or rounding; a tolerance of 0 asks for more than there is.
@@ -261,8 +266,8 @@ impl Island {
     }
 
     /// What the impulse of every contact (without units) is compared with, as the judge has it: the least, over the
-    /// bodies that it can move, of what would do to the body there what the step does (`Acted`). So a light body under a
-    /// heavy one counts.
+    /// bodies that it can move, of what would do to the body there what the step does (`Acted`). So a light body under
+    /// a heavy one counts.
     pub fn scales(&self, p: &[Impulse], y: &DVector<f64>) -> Vec<f64> {
         self.scales_with(self.cancelling, p, y)
     }

@@ -149,7 +149,10 @@ pub(super) fn solve_island(
     let mut best = island.residual(p);
     let is_enough = |residual: f64, p: &[Impulse]| island.is_enough(residual, goal.tolerance, p);
     let keep = |best: &mut f64, p: &mut Vec<Impulse>, mut tried: Vec<Impulse>, work: &mut Work| {
-        let residual = active_set::improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
+        let mut residual = active_set::improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
+        if residual <= NEARLY && !is_enough(residual, &tried) {
+            residual = active_set::improve_near(island, &mut tried, goal.tolerance, &mut work.newton_steps);
+        }
         if residual < *best {
             (*best, *p) = (residual, tried);
         }

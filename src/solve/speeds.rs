@@ -1,5 +1,5 @@
-//! What a step does to a body, which residuals are compared with: as the judge has it (`measure::residual`), by the body
-//! that it does least to, so that a light body under a heavy one counts.
+//! What a step does to a body, which residuals are compared with: as the judge has it (`measure::residual`), by the
+//! body that it does least to, so that a light body under a heavy one counts.
 
 use super::twist::Twist;
 use crate::state::BodyState;

@@ -48,7 +48,8 @@ pub struct Header {
     pub build: String,
     /// The whole resolved experiment, as YAML.
     pub config_yaml: String,
-    pub step_s: f64,
+    /// Step of the clock; None of a method that makes steps of its own.
+    pub step_s: Option<f64>,
     /// Time between two samples, a whole number of steps.
     pub sample_every_s: f64,
     pub streams: Streams,
@@ -175,6 +176,17 @@ impl Batch {
     /// Whether there is neither a sample nor an event in it.
     pub fn is_empty(&self) -> bool {
         self.step.is_empty() && self.events.is_empty()
+    }
+
+    /// Adds the samples and events of another batch behind its own.
+    pub fn append(&mut self, other: &Batch) {
+        self.step.extend_from_slice(&other.step);
+        self.time_s.extend_from_slice(&other.time_s);
+        self.bodies.extend_from_slice(&other.bodies);
+        self.contacts_len.extend_from_slice(&other.contacts_len);
+        self.contacts.extend_from_slice(&other.contacts);
+        self.energy.extend_from_slice(&other.energy);
+        self.events.extend_from_slice(&other.events);
     }
 
     /// Empties every column and keeps its memory.

@@ -26,6 +26,11 @@ const BATCHES: usize = 4;
 /// Most messages under way; more than `BATCHES` leaves room for events.
 const QUEUE: usize = 16;
 
+/// Whether a batch is to be written as it is.
+pub(super) fn is_full(batch: &Batch) -> bool {
+    batch.len() >= BATCH_SAMPLES || batch.contacts.len() >= BATCH_ENTRIES || batch.bodies.len() >= BATCH_ENTRIES
+}
+
 enum Message {
     Batch(Batch),
     Event(Event),
@@ -66,10 +71,16 @@ impl Writer {
     /// Ends a sample; sends the batch when it is full.
     pub fn sample_done(&mut self) {
         let batch = &self.filling;
-        if batch.len() >= BATCH_SAMPLES || batch.contacts.len() >= BATCH_ENTRIES || batch.bodies.len() >= BATCH_ENTRIES
-        {
+        if is_full(batch) {
             self.send_batch();
         }
+    }
+
+    /// Sends what there is, full or not, so that a kill does not lose it; says whether there was something.
+    pub fn flush(&mut self) -> bool {
+        let is_something = !self.filling.is_empty();
+        self.send_batch();
+        is_something
     }
 
     /// Adds something that happened, after the samples so far.
@@ -226,7 +237,10 @@ fn create(target: Target, path: &Path, header: &Header) -> Result<Box<dyn Record
     match target {
         Target::Mcap => Ok(Box::new(super::mcap::McapRecorder::create(path, header)?)),
         #[cfg(feature = "rerun")]
-        Target::Rerun => Ok(Box::new(super::rerun::RerunRecorder::create(path, header)?)),
+        Target::Rerun => {
+            let file = super::rerun::RerunRecorder::create(path, header)?;
+            Ok(Box::new(super::gather::Gathered::new(Box::new(file), header.bodies.len())))
+        }
         #[cfg(not(feature = "rerun"))]
         Target::Rerun => Err(RecordError::new(path, "this build has no Rerun (cargo feature `rerun`)")),
     }

@@ -81,12 +81,18 @@ pub fn shortest(x: f64) -> String {
 /// A text as Markdown shows it: what would be a mark or the edge of a cell stands for itself, in one line.
 pub fn markdown(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
-    for c in text.chars() {
+    let mut before = ' ';
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        // Inside a word, as in the name of a column, an underscore is no mark.
+        let in_word = before.is_alphanumeric() && rest.peek().is_some_and(|next| next.is_alphanumeric());
         match c {
-            '\\' | '`' | '*' | '_' | '<' | '[' | ']' | '|' | '~' | '&' | '$' | '#' => shown.extend(['\\', c]),
+            '_' if in_word => shown.push(c),
+            '\\' | '`' | '*' | '_' | '<' | '[' | ']' | '|' | '~' | '&' | '$' => shown.extend(['\\', c]),
             c if c.is_control() => shown.push(' '),
             c => shown.push(c),
         }
+        before = c;
     }
     shown
 }

@@ -1,11 +1,12 @@
 //! `gotai export`: the series of recordings as CSV or Parquet.
 
+use super::cut::{no_recording, warn_of_end};
 use super::error::CliError;
 use super::ghosts::REPLAYS;
 use super::output::print;
-use crate::files::{make_folder, write_whole};
+use crate::files::{FileError, make_folder, write_whole};
 use crate::record::read::recording_of;
-use crate::record::series::tables;
+use crate::record::series::{SeriesTable, TABLES, tables};
 use crate::record::writer::Target;
 use crate::sweep::folder::Folder;
 use clap::{Args, ValueEnum};
@@ -37,28 +38,52 @@ impl Command {
     /// # Errors
     /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
+        // One that holds nothing keeps no other one from its tables.
+        let mut first = Ok(ExitCode::SUCCESS);
         for path in self.recordings()? {
-            let Some(recording) = recording_of(&path)? else {
-                return Err(CliError::Input(format!(
-                    "{}: expected a recording of gotai (.mcap), found another file",
-                    path.display()
-                )));
-            };
-            let beside = path.parent().unwrap_or(Path::new("."));
-            let dir = self.out.as_deref().unwrap_or(beside);
-            make_folder(dir)?;
-            let name = path.file_stem().map_or_else(|| "recording".into(), |stem| stem.to_string_lossy());
-            for table in tables(&recording).iter().filter(|table| !table.is_empty()) {
-                let (ending, content) = match self.format {
-                    Kind::Csv => ("csv", table.to_csv().map_err(|error| failed(&error))?),
-                    Kind::Parquet => ("parquet", table.to_parquet().map_err(|error| failed(&error))?),
-                };
-                let file = dir.join(format!("{name}.{}.{ending}", table.name));
-                write_whole(&file, &content)?;
-                print(file.display());
+            match self.export(&path) {
+                Err(error @ CliError::Input(_)) if first.is_ok() => first = Err(error),
+                Err(CliError::Input(more)) => eprintln!("gotai: {more}"),
+                done => done?,
             }
         }
-        Ok(ExitCode::SUCCESS)
+        first
+    }
+
+    fn export(&self, path: &Path) -> Result<(), CliError> {
+        let beside = path.parent().unwrap_or(Path::new("."));
+        let dir = self.out.as_deref().unwrap_or(beside);
+        let name = path.file_stem().map_or_else(|| "recording".into(), |stem| stem.to_string_lossy());
+        let ending = match self.format {
+            Kind::Csv => "csv",
+            Kind::Parquet => "parquet",
+        };
+        let file_of = |table: &str| dir.join(format!("{name}.{table}.{ending}"));
+        let found = recording_of(path)?;
+        let made: Vec<SeriesTable> = found.iter().flat_map(tables).filter(|table| !table.is_empty()).collect();
+        // Older tables that this file does not make anew would stand as if they were of it.
+        for table in TABLES.iter().filter(|name| made.iter().all(|table| table.name != **name)) {
+            put_aside(&file_of(table))?;
+        }
+        let Some(recording) = found else { return Err(no_recording(path)) };
+        if made.is_empty() {
+            return Err(CliError::Input(format!(
+                "{}: expected a recording with samples, found none that is whole",
+                path.display()
+            )));
+        }
+        warn_of_end(path, &recording);
+        make_folder(dir)?;
+        for table in made {
+            let content = match self.format {
+                Kind::Csv => table.to_csv().map_err(|error| failed(&error))?,
+                Kind::Parquet => table.to_parquet().map_err(|error| failed(&error))?,
+            };
+            let file = file_of(table.name);
+            write_whole(&file, &content)?;
+            print(file.display());
+        }
+        Ok(())
     }
 
     fn recordings(&self) -> Result<Vec<PathBuf>, CliError> {
@@ -73,11 +98,17 @@ impl Command {
         let files: Vec<PathBuf> = files.collect();
         match files.is_empty() {
             false => Ok(files),
-            true => Err(CliError::Input(format!(
-                "{}: expected recordings (.mcap), found none; make them with --record mcap, or look into {}",
-                path.display(),
-                path.join(REPLAYS).display()
-            ))),
+            true => {
+                let replays = path.join(REPLAYS);
+                let look = match replays.is_dir() {
+                    true => format!(", or look into {}", replays.display()),
+                    false => String::new(),
+                };
+                Err(CliError::Input(format!(
+                    "{}: expected recordings (.mcap), found none; make them with --record mcap{look}",
+                    path.display()
+                )))
+            }
         }
     }
 
@@ -95,6 +126,18 @@ impl Command {
         }
         Ok(path.clone())
     }
+}
+
+/// Gives an older table another name, and says so.
+fn put_aside(file: &Path) -> Result<(), CliError> {
+    if !file.is_file() {
+        return Ok(());
+    }
+    let ending = file.extension().map(|ending| ending.to_string_lossy().into_owned()).unwrap_or_default();
+    let aside = file.with_extension(format!("{ending}.old"));
+    std::fs::rename(file, &aside).map_err(|error| FileError::new(&aside, error))?;
+    eprintln!("warning: {}: an older table, not of this file; it is now {}", file.display(), aside.display());
+    Ok(())
 }
 
 fn failed(error: &dyn std::error::Error) -> CliError {

@@ -1,5 +1,6 @@
 //! Several cases in one recording, made of their own recordings; a case that has none is run again, with the same bits.
 
+use super::cut::no_recording;
 use super::error::CliError;
 use crate::digest::sha256;
 use crate::experiment::ExperimentFile;
@@ -37,9 +38,7 @@ impl Ghosts {
     pub(super) fn of_files(paths: &[PathBuf]) -> Result<Self, CliError> {
         let read = paths.iter().map(|path| {
             let found = recording_of(path)?;
-            found.ok_or_else(|| {
-                CliError::Input(format!("{}: expected a recording of gotai, found another file", path.display()))
-            })
+            found.ok_or_else(|| no_recording(path))
         });
         let recordings = read.collect::<Result<Vec<_>, _>>()?;
         let axes: Vec<String> = match recordings.first() {
@@ -89,7 +88,8 @@ impl Ghosts {
     pub(super) fn write(self, dir: &Path) -> Result<PathBuf, CliError> {
         make_folder(dir)?;
         let labels = self.cases.iter().map(|(label, ..)| label.clone());
-        let values: Vec<String> = std::iter::once("ghosts".to_string()).chain(labels).collect();
+        let word = if self.cases.len() == 1 { "view" } else { "ghosts" };
+        let values: Vec<String> = std::iter::once(word.to_string()).chain(labels).collect();
         let ids: Vec<&str> = self.cases.iter().map(|(_, header, _)| header.case.as_str()).collect();
         let path = Target::Rerun.path(dir, &RecordingName::new(&values, &sha256(ids.join(" "), 4)).begun());
         write_into(&path, self)?;

@@ -6,6 +6,7 @@ mod check;
 mod checked;
 mod clean;
 mod command;
+mod cut;
 mod error;
 mod explain;
 mod export;

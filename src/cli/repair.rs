@@ -1,8 +1,9 @@
 //! `gotai repair`: a recording that was cut, with all that is whole of it, as a file that every reader takes.
 
+use super::cut::ends_at;
 use super::error::CliError;
 use super::output::print;
-use crate::record::mend::mend_mcap;
+use crate::record::mend::{Whole, mend_mcap};
 use crate::record::writer::Target;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -35,25 +36,30 @@ impl Command {
         let mended = match Target::ALL.into_iter().find(|target| target.extension() == ending) {
             Some(Target::Mcap) => mend_mcap(file, &out)?,
             Some(Target::Rerun) => mend_rrd(file, &out)?,
-            None => None,
+            None => {
+                return Err(CliError::Input(format!(
+                    "{}: expected a recording (.mcap or .rrd), found another file",
+                    file.display()
+                )));
+            }
         };
-        let Some(messages) = mended else {
+        let Some(Whole { messages, until_s }) = mended else {
             return Err(CliError::Input(format!(
-                "{}: expected a recording (.mcap or .rrd), found another file",
+                "{}: expected a recording of which something is whole, found no message of one; nothing is written",
                 file.display()
             )));
         };
-        print(format!("{}: {messages} messages", out.display()));
+        print(format!("{}: {messages} messages; {}", out.display(), ends_at(until_s)));
         Ok(ExitCode::SUCCESS)
     }
 }
 
 #[cfg(feature = "rerun")]
-fn mend_rrd(torn: &Path, mended: &Path) -> Result<Option<u64>, CliError> {
+fn mend_rrd(torn: &Path, mended: &Path) -> Result<Option<Whole>, CliError> {
     Ok(crate::record::rerun::mend::mend_rrd(torn, mended)?)
 }
 
 #[cfg(not(feature = "rerun"))]
-fn mend_rrd(_: &Path, _: &Path) -> Result<Option<u64>, CliError> {
+fn mend_rrd(_: &Path, _: &Path) -> Result<Option<Whole>, CliError> {
     Err(CliError::Input("this gotai was built without Rerun (cargo feature `rerun`)".into()))
 }

@@ -7,6 +7,7 @@ use super::table::table;
 use crate::experiment::filter::{Condition, Filter, is_same, shown_cell};
 use crate::experiment::nearest::nearest;
 use crate::outcome::Outcome;
+use crate::record::story::shortest;
 use crate::rows::plan_file::PlanFile;
 use crate::rows::table::{Table, to_csv};
 use crate::sweep::folder::Folder;
@@ -167,7 +168,9 @@ fn refuse_unknown_value(name: &str, condition: &Condition, plan: &PlanFile) -> R
         None => Ok(()),
         Some(value) => {
             let known: Vec<String> = known.iter().map(shown_cell).collect();
-            Err(CliError::Input(format!("--where {name}={}: expected one of {}", shown_cell(value), known.join(", "))))
+            // As it was written: a number that is whole has no fraction.
+            let written = value.as_f64().map_or_else(|| shown_cell(value), shortest);
+            Err(CliError::Input(format!("--where {name}={written}: expected one of {}", known.join(", "))))
         }
     }
 }

@@ -1,5 +1,6 @@
 //! `gotai view`: opens recordings in the Rerun Viewer; several cases as ghosts, on one timeline.
 
+use super::cut::{no_recording, warn_of_end};
 use super::error::CliError;
 use super::ghosts::{self, Ghosts};
 use super::rows::{filter, takes};
@@ -74,7 +75,10 @@ impl Command {
                 dir.display(),
                 rows.len()
             ))),
-            [row] => ghosts::recording_of_row(&folder, row, &Target::ALL),
+            [row] => {
+                let file = ghosts::recording_of_row(&folder, row, &Target::ALL)?;
+                shown(file, &dir.join(ghosts::REPLAYS))
+            }
             several if several.len() > Ghosts::MOST => Err(CliError::Input(format!(
                 "{}: expected at most {} rows to show together, found {}; choose with --where, or give a file",
                 dir.display(),
@@ -99,12 +103,8 @@ fn of_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
         if !path.is_file() {
             return Err(CliError::Input(format!("{}: expected a recording, found no such file", path.display())));
         }
-        if ending == Target::Mcap.extension() && recording_of(path)?.is_none() {
-            return Err(CliError::Input(format!(
-                "{}: expected a recording of gotai, found another file",
-                path.display()
-            )));
-        }
+        let is_mcap = ending == Target::Mcap.extension();
+        if is_mcap { check_mcap(path)? } else { check_rrd(path)? }
     }
     let beside = |path: &PathBuf, target: Target| {
         let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned())?;
@@ -113,7 +113,11 @@ fn of_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
         (RecordingName::values_of(&name).is_some() || &file == path).then_some(file).filter(|file| file.is_file())
     };
     if let [path] = paths {
-        return Ok(vec![beside(path, Target::Rerun).unwrap_or_else(|| path.clone())]);
+        let dir = path.parent().unwrap_or(Path::new("."));
+        return match beside(path, Target::Rerun) {
+            Some(file) => Ok(vec![file]),
+            None => Ok(vec![shown(path.clone(), dir)?]),
+        };
     }
     if paths.len() > Ghosts::MOST {
         return Err(CliError::Input(format!("expected at most {} files, found {}", Ghosts::MOST, paths.len())));
@@ -127,4 +131,39 @@ fn of_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
         // The viewer shows them one after the other.
         None => Ok(paths.to_vec()),
     }
+}
+
+/// What shows a file as a recording opens: of an .mcap, which is numbers to a viewer, an .rrd in a folder.
+fn shown(file: PathBuf, dir: &Path) -> Result<PathBuf, CliError> {
+    let is_mcap = file.extension().is_some_and(|ending| ending == Target::Mcap.extension());
+    if is_mcap && Target::AVAILABLE.contains(&Target::Rerun) {
+        return Ghosts::of_files(&[file])?.write(dir);
+    }
+    Ok(file)
+}
+
+/// An .mcap of ours, with a warning if it was cut.
+fn check_mcap(path: &Path) -> Result<(), CliError> {
+    let Some(recording) = recording_of(path)? else { return Err(no_recording(path)) };
+    warn_of_end(path, &recording);
+    Ok(())
+}
+
+/// An .rrd of ours, with a warning if it was cut.
+#[cfg(feature = "rerun")]
+fn check_rrd(path: &Path) -> Result<(), CliError> {
+    use crate::record::rerun::mend::{is_cut, is_recording, whole_of};
+    if !is_recording(path)? {
+        return Err(no_recording(path));
+    }
+    if is_cut(path)? {
+        super::cut::warn_of_cut(path, whole_of(path)?.and_then(|whole| whole.until_s));
+    }
+    Ok(())
+}
+
+/// Without Rerun, what begins like an .rrd is one.
+#[cfg(not(feature = "rerun"))]
+fn check_rrd(path: &Path) -> Result<(), CliError> {
+    if crate::files::read(path)?.starts_with(b"RRF2") { Ok(()) } else { Err(no_recording(path)) }
 }

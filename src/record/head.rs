@@ -28,7 +28,7 @@ pub fn header(case: &Case, name: &RecordingName, model: &Model, start: &State, c
         program: PROGRAM.to_string(),
         build: BUILD.to_string(),
         config_yaml: to_yaml(&case.experiment),
-        step_s: clock.step_s,
+        step_s: (!case.experiment.method.follows_events()).then_some(clock.step_s),
         sample_every_s: steps_between(record, clock) as f64 * clock.step_s,
         streams: streams(record),
         bodies: (0..model.bodies.len()).map(|i| body_header(model, i, start, clock)).collect(),

@@ -244,10 +244,10 @@ fn said(header: &Header) -> BTreeMap<String, String> {
         ("up", "y in the frame world, z in the frame root".to_owned()),
         ("program", header.program.clone()),
         ("build", header.build.clone()),
-        ("step_s", header.step_s.to_string()),
         ("sample_every_s", header.sample_every_s.to_string()),
     ];
-    known.into_iter().chain(axes).map(|(key, value)| (key.to_owned(), value)).collect()
+    let step = header.step_s.map(|step_s| ("step_s", step_s.to_string()));
+    known.into_iter().chain(step).chain(axes).map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
 /// Statements that the end adds.

@@ -10,19 +10,29 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-/// Writes what is whole of an .mcap into a new file; returns the number of messages. None: it is no .mcap.
+/// What was whole of a recording that was cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Whole {
+    pub messages: u64,
+    /// Time of the last of them, if they have times.
+    pub until_s: Option<f64>,
+}
+
+/// Writes what is whole of an .mcap into a new file; None, and no file, if nothing is.
 ///
 /// # Errors
 /// A file cannot be read or written.
-pub fn mend_mcap(torn: &Path, mended: &Path) -> Result<Option<u64>, RecordError> {
+pub fn mend_mcap(torn: &Path, mended: &Path) -> Result<Option<Whole>, RecordError> {
     let bytes = std::fs::read(torn).map_err(|error| RecordError::unread(torn, &error))?;
-    if !bytes.starts_with(mcap::MAGIC) {
+    let has_message = MessageStream::new_with_options(&bytes, Options::IgnoreEndMagic.into())
+        .is_ok_and(|mut stream| stream.next().is_some_and(|message| message.is_ok()));
+    if !has_message {
         return Ok(None);
     }
     try_mend_mcap(&bytes, mended).map(Some).map_err(|error| RecordError::caused(mended, error.as_ref()))
 }
 
-fn try_mend_mcap(bytes: &[u8], mended: &Path) -> Result<u64, Box<dyn Error>> {
+fn try_mend_mcap(bytes: &[u8], mended: &Path) -> Result<Whole, Box<dyn Error>> {
     let options = || Options::IgnoreEndMagic.into();
     let mut writer = WriteOptions::new()
         .compression(Some(Compression::Zstd))
@@ -41,12 +51,13 @@ fn try_mend_mcap(bytes: &[u8], mended: &Path) -> Result<u64, Box<dyn Error>> {
             _ => {}
         }
     }
-    let mut count = 0;
+    let (mut messages, mut last_ns) = (0, 0);
     for message in MessageStream::new_with_options(bytes, options())?.map_while(Result::ok) {
         writer.write(&message)?;
-        count += 1;
+        messages += 1;
+        last_ns = last_ns.max(message.log_time);
     }
     writer.finish()?;
     writer.into_inner().flush()?;
-    Ok(count)
+    Ok(Whole { messages, until_s: Some(last_ns as f64 / 1e9) })
 }

@@ -3,6 +3,9 @@
 //! The simulating thread fills `sample::Batch`es and hands them to `writer::Writer`, whose thread feeds every
 //! `Recorder`. `schema` names topics, fields and units once for all of them.
 
+mod effort;
+#[cfg(feature = "rerun")]
+mod gather;
 pub mod head;
 pub mod mcap;
 pub mod mend;

@@ -24,6 +24,16 @@ pub struct ReadBack {
     pub bodies: Vec<String>,
     /// Samples in the order of time, and events. Streams that were not recorded are empty.
     pub samples: Batch,
+    /// Whether the file lacks its end, or a part of it cannot be read.
+    pub is_cut: bool,
+}
+
+impl ReadBack {
+    /// Time of the last sample or event.
+    pub fn until_s(&self) -> Option<f64> {
+        let events = self.samples.events.iter().map(|event| event.time_s);
+        self.samples.time_s.iter().copied().chain(events).reduce(f64::max)
+    }
 }
 
 /// The experiment that an .mcap of ours shows, as YAML, of a torn file too; None where there is none in it.
@@ -71,14 +81,19 @@ struct Found {
     contacts: Vec<schema::Contacts>,
     energies: Vec<schema::Energy>,
     events: Vec<Event>,
+    is_cut: bool,
 }
 
 impl Found {
     fn in_file(bytes: &[u8]) -> Option<Found> {
-        let mut found = Found::default();
+        let mut found = Found { is_cut: !bytes.ends_with(mcap::MAGIC), ..Found::default() };
         let stream = MessageStream::new_with_options(bytes, Options::IgnoreEndMagic.into()).ok()?;
         // A file that ends early gives its complete chunks, then one error.
-        for message in stream.map_while(Result::ok) {
+        for message in stream {
+            let Ok(message) = message else {
+                found.is_cut = true;
+                break;
+            };
             let data = &message.data[..];
             match message.channel.topic.as_str() {
                 schema::BODIES => found.bodies.extend(schema::Bodies::decode(data).ok()),
@@ -122,7 +137,7 @@ impl Found {
                 penetration_m: message.penetration_m,
             }));
         }
-        ReadBack { said, experiment, bodies, samples: batch }
+        ReadBack { said, experiment, bodies, samples: batch, is_cut: self.is_cut }
     }
 }
 

@@ -3,8 +3,10 @@
 //! A recorded run is the same run: the sampler only looks. What no stream asks for is not computed.
 
 use super::RecordError;
+use super::effort::Effort;
 use super::ring::Ring;
 use super::sample::{Batch, ContactSample, Ending, EnergySample, Event, Severity, Streams, contact_mode};
+use super::story::shortest;
 use super::watch::Watch;
 use super::writer::Writer;
 use crate::clock::Clock;
@@ -46,6 +48,7 @@ pub struct Sampler {
     /// Step of the last sample, and steps that are still to be recorded after one that decides.
     last: u64,
     ahead: u64,
+    effort: Effort,
 }
 
 impl Sampler {
@@ -61,6 +64,7 @@ impl Sampler {
             maxima: Default::default(),
             last: 0,
             ahead: 0,
+            effort: Effort::default(),
         }
     }
 
@@ -72,6 +76,8 @@ impl Sampler {
     pub fn start(&mut self, model: &Model, start: &State, solves_contacts: bool) {
         self.watch = Some(Watch::new(model, start, solves_contacts));
         self.sample(model, start, std::iter::empty());
+        // How a run begins can be seen while it goes on.
+        self.writer.flush();
     }
 
     /// Looks at a step, judged already; says whether it is to be recorded whatever the rate of samples. Those just
@@ -90,10 +96,13 @@ impl Sampler {
         is_notable
     }
 
-    /// Looks at the counters of work after a step.
+    /// Looks at the counters of work after a step; after much work, what is sampled is written.
     pub fn count(&mut self, work: &Work, state: &State) {
         if let Some(watch) = &mut self.watch {
             watch.count(work, (state.step, state.time_s));
+        }
+        if self.effort.add(work, state.bodies.len()) && self.writer.flush() {
+            self.effort.restart();
         }
     }
 
@@ -182,7 +191,7 @@ impl Sampler {
             (_, None) => (Severity::Warning, "ended early".to_string()),
         };
         let said = text.clone();
-        let text = format!("{text} at t = {} s, step {}", state.time_s, state.step);
+        let text = format!("{text} at t = {} s, step {}", shortest(state.time_s), state.step);
         let (rest, unlogged) = self.watch.as_mut().map_or((Vec::new(), None), |watch| {
             let rest: Vec<_> = watch.events().collect();
             (rest, watch.unlogged())

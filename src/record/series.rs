@@ -23,6 +23,9 @@ pub struct SeriesTable {
     columns: Vec<(String, Cells)>,
 }
 
+/// Names of the tables that a recording may have.
+pub const TABLES: [&str; 3] = ["series", "contacts", "log"];
+
 /// Tables of a recording: of its samples, of its contacts, of its events. What was not recorded has no column.
 pub fn tables(recording: &ReadBack) -> Vec<SeriesTable> {
     vec![of_samples(recording), of_contacts(recording), of_events(recording)]
@@ -67,7 +70,7 @@ fn of_samples(recording: &ReadBack) -> SeriesTable {
             add(format!("{body}.angular_velocity_rad_s.{name}"), values);
         }
     }
-    SeriesTable { name: "series", columns }
+    SeriesTable { name: TABLES[0], columns }
 }
 
 fn of_contacts(recording: &ReadBack) -> SeriesTable {
@@ -91,7 +94,7 @@ fn of_contacts(recording: &ReadBack) -> SeriesTable {
         columns.push((format!("normal.{part}"), number(&|contact| contact.normal[axis])));
         columns.push((format!("force_n.{part}"), number(&|contact| contact.force_n[axis])));
     }
-    SeriesTable { name: "contacts", columns }
+    SeriesTable { name: TABLES[1], columns }
 }
 
 fn of_events(recording: &ReadBack) -> SeriesTable {
@@ -107,7 +110,7 @@ fn of_events(recording: &ReadBack) -> SeriesTable {
         ("level".to_string(), Cells::Texts(events.iter().map(|event| level(event.severity).to_string()).collect())),
         ("text".to_string(), Cells::Texts(events.iter().map(|event| event.text.clone()).collect())),
     ];
-    SeriesTable { name: "log", columns }
+    SeriesTable { name: TABLES[2], columns }
 }
 
 impl SeriesTable {

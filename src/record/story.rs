@@ -72,6 +72,36 @@ impl Story {
     }
 }
 
+/// A number to its last bit, in as few characters as it takes.
+pub fn shortest(x: f64) -> String {
+    let text = format!("{x:?}");
+    text.strip_suffix(".0").map_or(text.clone(), str::to_string)
+}
+
+/// A text as Markdown shows it: what would be a mark or the edge of a cell stands for itself, in one line.
+pub fn markdown(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    let mut before = ' ';
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        // Inside a word, as in the name of a column, an underscore is no mark.
+        let in_word = before.is_alphanumeric() && rest.peek().is_some_and(|next| next.is_alphanumeric());
+        match c {
+            '_' if in_word => shown.push(c),
+            '\\' | '`' | '*' | '_' | '<' | '[' | ']' | '|' | '~' | '&' | '$' => shown.extend(['\\', c]),
+            c if c.is_control() => shown.push(' '),
+            c => shown.push(c),
+        }
+        before = c;
+    }
+    shown
+}
+
+/// The same as code; what code cannot hold is plain text.
+pub fn markdown_code(text: &str) -> String {
+    if text.contains('`') || text.chars().any(char::is_control) { markdown(text) } else { format!("`{text}`") }
+}
+
 /// A number for people: four significant digits, without an exponent where it is of ordinary size.
 pub fn brief(x: f64) -> String {
     if x == 0.0 || !x.is_finite() {

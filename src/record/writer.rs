@@ -12,13 +12,6 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-/// Samples in a full batch: larger ones write no faster, and a kill loses what was not yet written.
-const BATCH_SAMPLES: usize = 1_000;
-
-/// Body states, or contacts, in a full batch: about 7 MB of either, for scenes with many bodies. Of fewer, an .rrd of
-/// 1,000 bodies would be mostly heads of chunks (measured, 20,000: 85 MB for 600 samples of 1,024 bodies).
-const BATCH_ENTRIES: usize = 60_000;
-
 /// Batches in circulation: one being filled, one being written, two between, so that neither thread waits for the
 /// other's pauses.
 const BATCHES: usize = 4;
@@ -66,10 +59,16 @@ impl Writer {
     /// Ends a sample; sends the batch when it is full.
     pub fn sample_done(&mut self) {
         let batch = &self.filling;
-        if batch.len() >= BATCH_SAMPLES || batch.contacts.len() >= BATCH_ENTRIES || batch.bodies.len() >= BATCH_ENTRIES
-        {
+        if batch.is_full() {
             self.send_batch();
         }
+    }
+
+    /// Sends what there is, full or not, so that a kill does not lose it; says whether there was something.
+    pub fn flush(&mut self) -> bool {
+        let is_something = !self.filling.is_empty();
+        self.send_batch();
+        is_something
     }
 
     /// Adds something that happened, after the samples so far.
@@ -226,7 +225,10 @@ fn create(target: Target, path: &Path, header: &Header) -> Result<Box<dyn Record
     match target {
         Target::Mcap => Ok(Box::new(super::mcap::McapRecorder::create(path, header)?)),
         #[cfg(feature = "rerun")]
-        Target::Rerun => Ok(Box::new(super::rerun::RerunRecorder::create(path, header)?)),
+        Target::Rerun => {
+            let file = super::rerun::RerunRecorder::create(path, header)?;
+            Ok(Box::new(super::gather::Gatherer::new(Box::new(file), header.bodies.len())))
+        }
         #[cfg(not(feature = "rerun"))]
         Target::Rerun => Err(RecordError::new(path, "this build has no Rerun (cargo feature `rerun`)")),
     }

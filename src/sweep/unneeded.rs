@@ -111,9 +111,8 @@ fn ends(path: &Path, ending: &str) -> bool {
 fn is_replay(path: &Path) -> bool {
     let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
     let Some((stem, ending)) = name.rsplit_once('.') else { return false };
-    let is_ghosts = stem.starts_with("ghosts_");
-    let is_whole =
-        is_ghosts || RecordingName::values_of(stem).is_some() || stem.ends_with(PARTIAL.trim_end_matches('.'));
+    let is_made = ["ghosts_", "view_"].iter().any(|word| stem.starts_with(word));
+    let is_whole = is_made || RecordingName::values_of(stem).is_some() || stem.ends_with(PARTIAL.trim_end_matches('.'));
     ending == LOCK || (is_whole && Target::ALL.iter().any(|target| target.extension() == ending))
 }
 

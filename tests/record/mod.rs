@@ -7,6 +7,7 @@ mod rerun;
 mod schema;
 mod story;
 mod synthetic;
+mod torn;
 #[cfg(feature = "rerun")]
 mod viewer;
 mod writer;

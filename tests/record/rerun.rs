@@ -5,6 +5,7 @@ use ::rerun::{ChunkStore, ChunkStoreConfig, StoreKind};
 use gotai::record::Recorder;
 use gotai::record::rerun::RerunRecorder;
 use gotai::record::sample::{Event, Severity, Streams};
+use gotai::record::story::markdown;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufReader;
@@ -188,6 +189,25 @@ fn the_layout_comes_first_and_the_configuration_is_shown() {
         assert!(pages.contains(part), "{part}: {pages}");
     }
     assert!(!pages.contains("Not finished"), "the page of a cut recording is replaced: {pages}");
+}
+
+#[test]
+fn names_and_questions_do_not_break_the_tables_of_the_page() {
+    assert_eq!(markdown("a|b *c* `d` _e_ work_unsolved [0]"), r"a\|b \*c\* \`d\` \_e\_ work_unsolved \[0\]");
+    let dir = crate::scratch::folder();
+    let path = dir.path().join("a.rrd");
+    let header = gotai::record::sample::Header { question: "is |x| < *y*?".to_owned(), ..s::header(ALL) };
+    let mut recorder = RerunRecorder::create(&path, &header).unwrap();
+    recorder.write(&s::batch(0..10, ALL)).unwrap();
+    let mut ending = s::ending();
+    ending.story.turns[0].text = "left|right and container".to_owned();
+    Box::new(recorder).finish(&ending).unwrap();
+    let store = read(&path);
+    let pages = store.iter_physical_chunks().filter(|chunk| chunk.entity_path().to_string() == "/headline");
+    let pages: String = pages.map(|page| format!("{:?}", page.components())).collect();
+    for part in [r"is \\|x\\| \\< \\*y\\*?", r"left\\|right and container"] {
+        assert!(pages.contains(part), "{part}: {pages}");
+    }
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// Runs an experiment of these settings; its row, its folder, the file and what is read back from it.
-fn recorded(args: &[&str]) -> (Value, scratch::Folder, PathBuf, ReadBack) {
+pub fn recorded(args: &[&str]) -> (Value, scratch::Folder, PathBuf, ReadBack) {
     let folder = scratch::folder();
     let out = folder.path().to_str().unwrap();
     let d = json(&[&["run"], args, &["--record", "mcap", "--json", "--out", out]].concat());
@@ -122,7 +122,9 @@ fn a_torn_recording_is_mended() {
     let (code, out, err) = run(&["repair", torn.to_str().unwrap()]);
     assert_eq!(code, 0, "{err}");
     let mended = std::fs::read(folder.path().join("torn.repaired.mcap")).unwrap();
-    assert!(out.contains("messages") && mcap::Summary::read(&mended).unwrap().is_some());
+    let until = format!("it ends at t = {} s", recording.until_s().unwrap());
+    assert!(out.contains("messages; ") && out.contains(&until), "{out}");
+    assert!(mcap::Summary::read(&mended).unwrap().is_some());
     let again = recording_of(&folder.path().join("torn.repaired.mcap")).unwrap().unwrap();
     assert_eq!(again.samples.step, recording.samples.step);
     let (code, _, err) = run(&["repair", "Cargo.toml"]);

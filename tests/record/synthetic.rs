@@ -29,7 +29,7 @@ pub fn header(streams: Streams) -> Header {
         program: "gotai 0.0.0".to_owned(),
         build: "0123abcd".to_owned(),
         config_yaml: CONFIG.to_owned(),
-        step_s: STEP_S,
+        step_s: Some(STEP_S),
         sample_every_s: STEP_S,
         streams,
         bodies: vec![BodyHeader {

@@ -10,7 +10,7 @@ use crate::record::RecordError;
 use crate::record::read::ReadBack;
 use crate::record::sample::Header;
 use crate::record::schema::{MOST_TOGETHER, Rgb};
-use crate::record::story::brief;
+use crate::record::story::{brief, markdown};
 use ::rerun::components::Radius;
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
@@ -246,19 +246,24 @@ fn energy_plot(drawn: &[Drawn<'_>], factor: Option<f64>) -> Option<Plot> {
 
 /// A table of the cases, with the colours that they are drawn in.
 fn page(differing: &str, cases: &[GhostCase]) -> String {
-    let question = cases.first().map_or("", |case| case.header.question.as_str());
-    let mut page = format!("# {} cases of {differing}\n\n**{question}**\n\n", cases.len());
+    let mut page = match cases {
+        [only] => format!("# {}\n\n", markdown(&only.label)),
+        _ => format!("# {} cases of {}\n\n", cases.len(), markdown(differing)),
+    };
+    if let Some(question) = cases.first().map(|case| markdown(&case.header.question)).filter(|text| !text.is_empty()) {
+        page += &format!("**{question}**\n\n");
+    }
     page += "| case | colour | outcome | at | E / E₀ ≤ | gain ≤ | residual ≤ |\n";
     page += "|---|---|---|---|---|---|---|\n";
     for ((case, word), i) in cases.iter().zip(COLOUR_WORDS).zip(0..) {
         let said = |key: &str| case.recording.said.get(key).cloned();
         let number = |key: &str| said(key).and_then(|text| text.parse().ok()).map_or("–".to_string(), brief);
         let outcome = said("outcome").unwrap_or_else(|| "cut".to_string());
-        let reason = said("criterion").map(|criterion| format!(" ({criterion})")).unwrap_or_default();
+        let reason = said("criterion").map(|criterion| format!(" ({})", markdown(&criterion))).unwrap_or_default();
         let _ = writeln!(
             page,
             "| **{}** | {word}{} | {outcome}{reason} | {} s | {} | {} | {} |",
-            case.label,
+            markdown(&case.label),
             if i == 0 { "" } else { ", ghost" },
             number("end_time_s"),
             number("energy_growth_max"),

@@ -9,7 +9,7 @@ use super::seen::{Seen, log_part};
 use super::{headline, layout};
 use crate::record::sample::{BodyHeader, Ending, Header, cross, dot, norm};
 use crate::record::schema::{self, Rgb};
-use crate::record::story::EnergyGain;
+use crate::record::story::{EnergyGain, brief, markdown};
 use ::rerun::components::{Radius, Scalar, Text};
 use ::rerun::log::LogMsg;
 use ::rerun::sink::MemorySinkStorage;
@@ -136,12 +136,15 @@ fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<
         .with_component::<Text>("case", [header.case.as_str()])
         .with_component::<Text>("title", [header.title.as_str()])
         .with_component::<Text>("program", [header.program.as_str()])
-        .with_component::<Text>("build", [header.build.as_str()])
-        .with_component::<Scalar>("step_s", [header.step_s]);
+        .with_component::<Text>("build", [header.build.as_str()]);
+    let run = header.step_s.into_iter().fold(run, |run, step_s| run.with_component::<Scalar>("step_s", [step_s]));
     stream.send_property(schema::METADATA, &run)?;
+    // Longer than what a text in it may have.
+    let longest = header.config_yaml.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+    let fence = "`".repeat(3.max(longest + 1));
     let page = format!(
-        "# {}\n\n{}, build {}\n\n```yaml\n{}\n```\n",
-        header.title,
+        "# {}\n\n{}, build {}\n\n{fence}yaml\n{}\n{fence}\n",
+        markdown(&header.title),
         header.program,
         header.build,
         header.config_yaml.trim_end()
@@ -377,7 +380,7 @@ fn marks(header: &Header, ending: &Ending, seen: &Seen, stream: &RecordingStream
     };
     let start_j = ending.story.start_j;
     if let Some(factor) = header.energy_factor.filter(|_| !seen.log_energy.is_empty()) {
-        stream.log_static(LIMIT, &line(&format!("diverged: × {factor}"), LIMIT_COLOUR))?;
+        stream.log_static(LIMIT, &line(&format!("diverged: × {}", brief(factor)), LIMIT_COLOUR))?;
         for (step, time_s) in [(0, 0.0), (ending.steps, ending.end_time_s)] {
             at(step, time_s);
             stream.log(LIMIT, &Scalars::single(libm::log10(factor)))?;

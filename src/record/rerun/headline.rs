@@ -3,7 +3,7 @@
 use crate::outcome::Outcome;
 use crate::record::sample::{ContactMode, Ending, Header, Severity};
 use crate::record::schema;
-use crate::record::story::{Decisive, Story, TurningPoint, brief};
+use crate::record::story::{Decisive, Story, TurningPoint, brief, markdown, markdown_code};
 use serde_json::Value;
 use std::fmt::Write;
 
@@ -25,15 +25,15 @@ const MEASURES: [(&str, &str); 10] = [
 pub fn begun(header: &Header) -> String {
     format!(
         "# Not finished\n\nThe run, or its recording, was cut: nothing is known about its end here.\n\n{}",
-        asked(header)
+        asked(header, None)
     )
 }
 
 /// Page of a run that has ended.
 pub fn page(header: &Header, ending: &Ending) -> String {
-    let mut page = format!("# {}\n\n{}\n\n", title(ending), asked(header));
+    let mut page = format!("# {}\n\n{}\n\n", title(ending), asked(header, Some(ending)));
     if let Some(doubt) = ending.warnings.as_ref().or(ending.notes.as_ref()) {
-        let _ = writeln!(page, "**{}{doubt}.**\n", if ending.warnings.is_some() { "⚠ " } else { "" });
+        let _ = writeln!(page, "**{}{}.**\n", if ending.warnings.is_some() { "⚠ " } else { "" }, markdown(doubt));
     }
     page += &table(&ending.story, ending.outcome);
     page += &measures(ending);
@@ -61,20 +61,29 @@ fn title(ending: &Ending) -> String {
         (outcome, reason) => {
             let mut word = outcome.name().to_string();
             word[..1].make_ascii_uppercase();
-            format!("{word} at {at}: {}", reason.unwrap_or("no reason given"))
+            format!("{word} at {at}: {}", markdown(reason.unwrap_or("no reason given")))
         }
     }
 }
 
-fn asked(header: &Header) -> String {
-    let mut line = if header.question.is_empty() { String::new() } else { format!("**{}** ", header.question) };
+fn asked(header: &Header, ending: Option<&Ending>) -> String {
+    let question = markdown(&header.question);
+    let mut line = if question.is_empty() { String::new() } else { format!("**{question}** ") };
     let axes = header.axes.iter().map(|(path, value)| {
         let name = path.rsplit('.').next().unwrap_or(path);
-        format!("`{name} = {}`", schema::label(value))
+        markdown_code(&format!("{name} = {}", schema::label(value)))
     });
-    let method = (!header.axes.iter().any(|(path, _)| path == "method")).then(|| format!("`{}`", header.method));
-    let step = format!("Δt = {} s", brief(header.step_s));
-    let parts: Vec<String> = axes.chain(method).chain([step]).collect();
+    let method = (!header.axes.iter().any(|(path, _)| path == "method")).then(|| markdown_code(&header.method));
+    let step = match (header.step_s, ending) {
+        (Some(step_s), _) => Some(format!("Δt = {} s", brief(step_s))),
+        // A method that makes its own steps has no other one than their mean.
+        (None, Some(ending)) => {
+            let mean_s = ending.row.get("step_used_s").and_then(Value::as_f64);
+            mean_s.map(|mean_s| format!("steps of its own, {} s on the mean", brief(mean_s)))
+        }
+        (None, None) => None,
+    };
+    let parts: Vec<String> = axes.chain(method).chain(step).collect();
     line += &parts.join(" · ");
     line
 }
@@ -84,8 +93,8 @@ fn table(story: &Story, outcome: Outcome) -> String {
     for TurningPoint { what, step, time_s, text } in &story.turns {
         // Of a sound run its gains are no news, and nothing is decided by the most contacts of one.
         let text = match what {
-            Decisive::End => text.clone(),
-            what => format!("{}: {text}", what.name()),
+            Decisive::End => markdown(text),
+            what => format!("{}: {}", what.name(), markdown(text)),
         };
         let decides = *what == Decisive::Onset && outcome == Outcome::Diverged;
         let bold = if decides { "**" } else { "" };
@@ -97,7 +106,7 @@ fn table(story: &Story, outcome: Outcome) -> String {
 fn measures(ending: &Ending) -> String {
     let shown = MEASURES.iter().filter_map(|(column, name)| {
         let cell = ending.row.get(*column)?;
-        let text = cell.as_f64().map_or_else(|| schema::text(cell), brief);
+        let text = cell.as_f64().map_or_else(|| markdown(&schema::text(cell)), brief);
         Some(format!("| {name} | {text} |\n"))
     });
     let rows: String = shown.collect();

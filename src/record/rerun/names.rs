@@ -6,7 +6,7 @@ use std::error::Error;
 
 /// Beginning of an application's name. Recordings of one application share a layout, and every recording opens with its
 /// own.
-const APPLICATION: &str = "gotai";
+pub(super) const APPLICATION: &str = "gotai";
 
 /// Name of a recording's application: one of its own for every recording. What no name may hold becomes a hyphen.
 ///

@@ -1,0 +1,147 @@
+//! What is left of a recording whose program was killed, and what the commands say of it.
+
+use super::story::{EXPLODES, recorded};
+use super::synthetic::{self as s, ALL};
+use crate::cli::{gotai, run};
+use crate::scratch;
+use gotai::record::Recorder;
+use gotai::record::mcap::McapRecorder;
+use gotai::record::read::{ReadBack, recording_of};
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+/// A pile that takes tens of milliseconds a step: no batch of 1,000 samples is full for a minute.
+const SLOW: [&str; 6] =
+    ["run", "configs/stack/pile.yaml", "--set", "scene.bodies.cube.copies.grid=[4,4,4]", "--record", "mcap"];
+
+fn partial(dir: &Path) -> Option<PathBuf> {
+    let mut files = std::fs::read_dir(dir).ok()?.filter_map(|entry| Some(entry.ok()?.path()));
+    files.find(|path| path.to_string_lossy().ends_with(".partial.mcap"))
+}
+
+#[test]
+fn a_kill_of_a_slow_scene_loses_little() {
+    let folder = scratch::folder();
+    let out = folder.path().to_str().unwrap();
+    let mut child = gotai(&[&SLOW[..], &["--quiet", "--out", out]].concat()).stdout(Stdio::null()).spawn().unwrap();
+    let started = Instant::now();
+    let samples = |recording: &ReadBack| recording.samples.len();
+    let read = || partial(folder.path()).and_then(|path| recording_of(&path).ok().flatten());
+    while read().as_ref().map_or(0, samples) < 3 && started.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let recording = read().unwrap();
+    assert!((3..1000).contains(&samples(&recording)) && recording.is_cut, "{}", samples(&recording));
+}
+
+/// A recording cut behind its head, which holds as many samples.
+fn cut_after(dir: &Path, samples: u64) -> PathBuf {
+    let path = dir.join("cut.mcap");
+    let mut recorder = McapRecorder::create(&path, &s::header(ALL)).unwrap();
+    if samples > 0 {
+        recorder.write(&s::batch(0..samples, ALL)).unwrap();
+    }
+    // No destructor runs, as after SIGKILL.
+    std::mem::forget(recorder);
+    path
+}
+
+#[test]
+fn tables_of_a_cut_recording_say_so() {
+    let (_, folder, file, recording) = recorded(&EXPLODES);
+    let bytes = std::fs::read(&file).unwrap();
+    let torn = folder.path().join("torn.mcap");
+    std::fs::write(&torn, &bytes[..bytes.len() - 40]).unwrap();
+    let (code, out, err) = run(&["export", torn.to_str().unwrap()]);
+    let ends = format!("it ends at t = {} s", recording.until_s().unwrap());
+    assert!(code == 0 && err.contains("the file was cut") && err.contains(&ends), "{err}");
+    assert!(err.contains("gotai repair") && out.lines().count() == 3, "{out}{err}");
+    // A whole one says nothing, a mended one that its run has no end.
+    let (code, _, err) = run(&["export", file.to_str().unwrap()]);
+    assert_eq!((code, err.as_str()), (0, ""));
+}
+
+#[test]
+fn a_recording_with_nothing_in_it_leaves_no_table() {
+    let folder = scratch::folder();
+    let table = folder.path().join("cut.series.csv");
+    std::fs::write(&table, "older").unwrap();
+    let cut = cut_after(folder.path(), 0);
+    let (code, out, err) = run(&["export", cut.to_str().unwrap()]);
+    assert!(code == 2 && out.is_empty(), "{out}{err}");
+    // What another file has made does not stand as if it were of this one, and is not lost.
+    assert!(!table.exists() && folder.path().join("cut.series.csv.old").exists(), "{err}");
+}
+
+#[test]
+fn nothing_is_mended_of_a_file_with_nothing_in_it() {
+    let folder = scratch::folder();
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    };
+    let mut files = vec![
+        file("empty.mcap", b""),
+        file("head.mcap", ::mcap::MAGIC),
+        file("noise.mcap", &[::mcap::MAGIC, &[7; 400]].concat()),
+        file("other.mcap", b"no recording"),
+        cut_after(folder.path(), 0),
+    ];
+    if cfg!(feature = "rerun") {
+        files.extend([file("empty.rrd", b""), file("three.rrd", b"RRF"), file("other.rrd", b"no recording at all")]);
+    }
+    for file in files {
+        let (code, out, err) = run(&["repair", file.to_str().unwrap()]);
+        assert!(code == 2 && out.is_empty(), "{}: {out}{err}", file.display());
+    }
+    let made = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
+    assert!(made.into_iter().all(|name| !name.to_string_lossy().contains("repaired")));
+}
+
+#[test]
+fn what_is_no_recording_is_not_opened() {
+    let folder = scratch::folder();
+    for (name, bytes) in
+        [("empty.rrd", &b""[..]), ("three.rrd", b"RRF"), ("other.rrd", b"no recording"), ("empty.mcap", b"")]
+    {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        let (code, _, err) = run(&["view", path.to_str().unwrap()]);
+        assert!(code == 2 && err.contains("expected a recording of gotai"), "{name}: {err}");
+    }
+}
+
+/// An .rrd is made of an .mcap before a viewer is looked for.
+#[cfg(feature = "rerun")]
+#[test]
+fn a_cut_recording_is_shown_with_a_line() {
+    let (_, folder, file, _) = recorded(&EXPLODES);
+    let bytes = std::fs::read(&file).unwrap();
+    let torn = folder.path().join("torn.mcap");
+    std::fs::write(&torn, &bytes[..bytes.len() - 40]).unwrap();
+    let view = |path: &Path| {
+        let output = gotai(&["view", path.to_str().unwrap()]).env("PATH", "").output().unwrap();
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (code, err) = view(&torn);
+    assert!(code == Some(3) && err.contains("the file was cut; it ends at t = "), "{err}");
+    let made = |dir: &Path| {
+        let files = std::fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path());
+        files.into_iter().find(|path| path.extension().is_some_and(|ending| ending == "rrd"))
+    };
+    let shown = made(folder.path()).unwrap();
+    // The same of an .rrd, and the folder's only row.
+    let bytes = std::fs::read(&shown).unwrap();
+    assert!(!view(&shown).1.contains("was cut"));
+    let torn = folder.path().join("torn.rrd");
+    std::fs::write(&torn, &bytes[..bytes.len() - 40]).unwrap();
+    assert!(view(&torn).1.contains("the file was cut; it ends at t = "));
+    let (code, out, err) = run(&["repair", torn.to_str().unwrap()]);
+    assert!(code == 0 && out.contains("messages; it ends at t = "), "{out}{err}");
+    assert_eq!(view(folder.path()).0, Some(3));
+    assert!(made(&folder.path().join("replays")).is_some());
+}

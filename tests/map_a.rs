@@ -82,10 +82,11 @@ fn the_lectures_method_explodes_as_often_as_measured() {
     assert!(at("ico 162", "0.01") >= at("ico 12", "0.01") + SEEDS / 5, "more nodes diverge more easily");
 }
 
-/// With the energy criterion at 1.05: no step of any run is above 1.05 times the start.
+/// With the energy criterion at 1.05: no step of any run is above 1.05 times the start. By sweeps, as the solver auto
+/// takes three times as long for all of it.
 #[test]
 fn the_sound_method_explodes_nowhere() {
-    let (exploded, gain) = map(&["method=time-stepping", "diverge.energy_factor=1.05"]);
+    let (exploded, gain) = map(&["method={time-stepping: {solver: pgs}}", "diverge.energy_factor=1.05"]);
     assert!(exploded.values().all(|count| *count == 0), "{exploded:?}");
     // measured: gain 1.0000000000000
     assert!(gain <= 1.0 + 1e-12, "{gain}");

@@ -146,7 +146,7 @@ fn stacks_carry_the_weight_above_at_any_ratio_of_masses() {
             let (gathered, solved) = solve(assembly);
             let (residual, error) = (gathered.residual(&solved.p), weight_error(&gathered, &solved.p));
             // Of the lighter stone's own weight: rounding times the ratio of masses.
-            // measured: 3.2e-14 … 2.4e-8, at 1 : 10⁶ RESMAX
+            // measured: 3.2e-14 … 2.4e-8, at 1 : 10⁶ below 1e-5
             assert!(
                 solved.says && residual <= if what.contains("1e6") { 1e-5 } else { 1e-8 },
                 "{what}, {friction}: {residual}"

@@ -65,11 +65,6 @@ impl Pattern {
         Some(Pattern { place, later, first, blocks })
     }
 
-    /// Whether it is that of so many bodies.
-    pub fn has_bodies(&self, bodies: usize) -> bool {
-        self.place.len() == bodies
-    }
-
     /// Place of the block of places i < j.
     fn slot(&self, i: usize, j: usize) -> usize {
         self.first[i] + self.later[i].partition_point(|later| *later < j)

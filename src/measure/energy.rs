@@ -154,6 +154,11 @@ impl EnergyLedger {
         self.taken.parts += taken.parts * times;
     }
 
+    /// Kinetic energy of the last state.
+    pub fn kinetic_j(&self) -> f64 {
+        self.end.kinetic_j
+    }
+
     /// Energy less the work of loads and of driven bodies.
     pub fn without_work_j(&self) -> f64 {
         self.end.total_j() - self.work_j

@@ -85,6 +85,8 @@ pub struct Watch {
     next: Vec<NearBodies>,
     found: Vec<Touch>,
     events: Vec<Event>,
+    /// One of the step's is an impact, or worse.
+    is_major: bool,
     counts: [u64; Happening::ALL.len()],
     fall_j: f64,
     kinetic_max_j: f64,
@@ -115,6 +117,7 @@ impl Watch {
             next: Vec::new(),
             found: Vec::new(),
             events: Vec::new(),
+            is_major: false,
             counts: [0; Happening::ALL.len()],
             fall_j: model.bodies.iter().filter(|body| !body.driven).map(weigh).sum(),
             kinetic_max_j: energy.kinetic_j,
@@ -137,7 +140,7 @@ impl Watch {
         if shown.stalled.is_some() {
             return false;
         }
-        let logged = self.events.len();
+        self.is_major = false;
         let Shown { before, after, .. } = *shown;
         match shown.acted {
             Acted::Kick { contacts, step_s, .. } => {
@@ -157,10 +160,10 @@ impl Watch {
                 self.touches(model, [before, after], pushes, f64::INFINITY);
             }
         }
-        let major = self.events.len() > logged && self.events[logged..].iter().any(is_major);
-        let gained = self.energy(model, after, judge);
+        let is_major = self.is_major;
+        let gained = self.energy(after, judge);
         let doubted = self.judged(after, judge);
-        let is_notable = major || gained || doubted;
+        let is_notable = is_major || gained || doubted;
         if is_notable {
             self.first_s.get_or_insert(before.time_s);
             self.last_s = after.time_s;
@@ -329,13 +332,12 @@ impl Watch {
     }
 
     /// Whether the step gained energy.
-    fn energy(&mut self, model: &Model, after: &State, judge: &Judge) -> bool {
-        let kinetic_j = Energy::of(model, after).kinetic_j;
+    fn energy(&mut self, after: &State, judge: &Judge) -> bool {
         let (before_j, after_j) = (self.last_j, judge.energy.without_work_j());
         self.last_j = after_j;
         // Against what there was before: an explosion is its own scale.
         let scale_j = self.kinetic_max_j.max(LEAST * self.fall_j);
-        self.kinetic_max_j = self.kinetic_max_j.max(kinetic_j);
+        self.kinetic_max_j = self.kinetic_max_j.max(judge.energy.kinetic_j());
         let start_j = self.up_to_now.start_j;
         let is_calm = after_j <= start_j + CALM * start_j.abs().max(LEAST * self.fall_j);
         if is_calm {
@@ -407,13 +409,10 @@ impl Watch {
         let count = &mut self.counts[kind as usize];
         *count += 1;
         if *count <= MOST_EVENTS {
+            self.is_major |= kind == Happening::Impact || severity != Severity::Info;
             self.events.push(Event { step: at.0, time_s: at.1, severity, text: text() });
         }
     }
-}
-
-fn is_major(event: &Event) -> bool {
-    event.severity != Severity::Info || event.text.starts_with("impact")
 }
 
 fn names(model: &Model, (body, other): (usize, Option<usize>)) -> [&str; 2] {

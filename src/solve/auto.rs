@@ -9,15 +9,13 @@
 //! solver is given up at, are left to conjugate gradients, whose starts survive from step to step; where they miss the
 //! tolerance they say so.
 
-use super::gauss_seidel::{self, Sweeps, Variant};
+use super::gauss_seidel::{self, Sweeps};
 use super::island::{Island, islands_without_pattern};
 use super::missed::{shares_matter, strict_residual};
 use super::problem::ContactProblem;
 use super::twist::Twist;
 use super::{Impulse, active_set, newton, nncg};
-use crate::experiment::types::{
-    AFFORDABLE_BODIES, AFFORDABLE_PROBLEMS, AFFORDABLE_PRODUCTS, FEWEST_PROBLEMS, Local, Order,
-};
+use crate::experiment::types::{AFFORDABLE_BODIES, AFFORDABLE_PROBLEMS, AFFORDABLE_PRODUCTS, FEWEST_PROBLEMS};
 use crate::work::Work;
 
 /// Sweeps before a look whether impulses are near enough for Newton's method: of few contacts, and of many.
@@ -67,7 +65,7 @@ pub fn solve(
         let is_new = own.iter().all(|p| *p == Impulse::zeros());
         let contacts = island.touches.iter().map(|touch| touch.index);
         let is_shared = is_new || shares_matter(problem, contacts, p, &scratch.u);
-        if !is_shared && island.is_enough(island.strict_residual(&own), KEPT * goal.tolerance, &own) {
+        if !is_shared && island.is_strictly_met(KEPT * goal.tolerance, &own) {
             work.kept_solves += 1;
             continue;
         }
@@ -119,14 +117,13 @@ impl Part<'_> {
                 break;
             }
         }
-        if !self.is_shared && self.is_lasting(island, own) {
+        if !self.is_shared && island.is_strictly_met(KEPT * self.goal.tolerance, own) {
             return true;
         }
         let goal = self.goal;
         let within = if self.is_shared { goal.tolerance } else { LASTING };
-        let shuffled = Variant { local: Local::Exact, order: Order::Shuffled, ..Variant::default() };
+        let sweeps = newton::more_sweeps(&goal);
         let more = |own: &mut Vec<Impulse>, work: &mut Work| {
-            let sweeps = Sweeps { most: newton::MORE_SWEEPS, tolerance: 0.0, variant: shuffled, ..goal };
             let mut p = island.with_units(own);
             gauss_seidel::iterate(self.problem, &sweeps, &mut p, &mut self.scratch.sweeps, work);
             *own = island.without_units(&p);
@@ -148,15 +145,7 @@ impl Part<'_> {
     /// By Newton's method, from impulses that are near. Whether that was enough.
     fn goes_on(&self, island: &Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
         active_set::improve_near(island, own, self.goal.tolerance, &mut work.newton_steps);
-        self.is_lasting(island, own)
-    }
-
-    fn is_lasting(&self, island: &Island, own: &[Impulse]) -> bool {
-        island.is_enough(island.strict_residual(own), KEPT * self.goal.tolerance, own)
-    }
-
-    fn is_enough(&self, island: &Island, own: &[Impulse]) -> bool {
-        island.is_enough(island.strict_residual(own), self.goal.tolerance, own)
+        island.is_strictly_met(KEPT * self.goal.tolerance, own)
     }
 
     /// By conjugate gradients.
@@ -171,7 +160,7 @@ impl Part<'_> {
     fn sweep_until_solved(&mut self, island: &Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
         MANY_SWEEPS.iter().any(|most| {
             self.sweep(island, own, *most, work);
-            self.is_enough(island, own)
+            island.is_strictly_met(self.goal.tolerance, own)
         })
     }
 }

@@ -160,7 +160,7 @@ impl<'a> Method<'a> {
             Law::Contact { .. } => Pair { x: Vector3::x() * fastest, z: Vector3::x() * fastest },
         };
         let pairs = island.touches.iter().map(begin).collect();
-        let mut method = Method { island, y: DVector::zeros(island.unknowns), pairs };
+        let mut method = Method { island, y: DVector::zeros(island.unknowns()), pairs };
         method.y = island.pushed(&method.impulses());
         method
     }

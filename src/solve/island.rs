@@ -44,8 +44,6 @@ pub struct Share {
 #[derive(Clone, Debug)]
 pub struct Island {
     pub touches: Vec<Share>,
-    /// Of y: six a body.
-    pub unknowns: usize,
     bodies: Vec<Mover>,
     /// The power of two that is next below its first body's mass.
     unit_kg: f64,
@@ -60,7 +58,7 @@ pub struct Island {
 pub fn islands(problem: &ContactProblem, deadline: Deadline) -> Vec<Island> {
     let mut islands = islands_without_pattern(problem, deadline);
     for island in &mut islands {
-        island.pattern = Pattern::new(island.unknowns / 6, island.touches.iter().filter_map(Share::pair));
+        island.pattern = Pattern::new(island.bodies(), island.touches.iter().filter_map(Share::pair));
     }
     islands
 }
@@ -78,7 +76,7 @@ pub fn islands_without_pattern(problem: &ContactProblem, deadline: Deadline) -> 
     }
     // Of every body where its numbers begin, and of every first body its island.
     let (mut at, mut island_of) = (vec![0; moves.len()], vec![usize::MAX; moves.len()]);
-    let mut whitened = vec![Whitened::FIXED; moves.len()];
+    let mut whitened = vec![None; moves.len()];
     let mut islands: Vec<Island> = Vec::new();
     let mut touched = vec![false; moves.len()];
     problem.blocks.iter().flat_map(Block::ends).for_each(|end| touched[end.body] = true);
@@ -88,7 +86,6 @@ pub fn islands_without_pattern(problem: &ContactProblem, deadline: Deadline) -> 
             island_of[body] = islands.len();
             islands.push(Island {
                 touches: Vec::new(),
-                unknowns: 0,
                 bodies: Vec::new(),
                 unit_kg: unit_kg(problem.inertias[body].mass_kg),
                 cancelling: problem.cancelling,
@@ -97,10 +94,10 @@ pub fn islands_without_pattern(problem: &ContactProblem, deadline: Deadline) -> 
             });
         }
         let island = &mut islands[island_of[first]];
-        at[body] = island.unknowns;
-        island.unknowns += 6;
-        whitened[body] = Whitened::new(&problem.inertias[body], island.unit_kg);
-        island.bodies.push(Mover { whitened: whitened[body], speeds: problem.speeds[body] });
+        at[body] = island.unknowns();
+        let own = Whitened::new(&problem.inertias[body], island.unit_kg);
+        whitened[body] = Some(own);
+        island.bodies.push(Mover { whitened: own, speeds: problem.speeds[body] });
     }
     for (index, block) in problem.blocks.iter().enumerate() {
         if let Some(end) = block.ends().find(moving) {
@@ -136,34 +133,31 @@ fn unit_kg(mass_kg: f64) -> f64 {
 /// L of one body: M⁻¹ = L Lᵀ, in a unit of mass.
 #[derive(Clone, Copy, Debug)]
 struct Whitened {
-    moves: bool,
     linear: f64,
     angular: Matrix3<f64>,
 }
 
 impl Whitened {
-    const FIXED: Whitened =
-        Whitened { moves: false, linear: 0.0, angular: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0) };
-
     fn new(inertia: &Inertia, unit_kg: f64) -> Self {
         let inverse_W = inertia.inverse_W * unit_kg;
         let angular = inverse_W.cholesky().map_or_else(Matrix3::zeros, |cholesky| cholesky.l());
-        Whitened { moves: true, linear: 1.0 / (inertia.mass_kg / unit_kg).sqrt(), angular }
+        Whitened { linear: 1.0 / (inertia.mass_kg / unit_kg).sqrt(), angular }
     }
 }
 
 impl Share {
-    fn new(index: usize, block: &Block, whitened: &[Whitened], at: &[usize], unit_kg: f64) -> Self {
+    /// `whitened`: of the bodies that something can move.
+    fn new(index: usize, block: &Block, whitened: &[Option<Whitened>], at: &[usize], unit_kg: f64) -> Self {
         let scale = 1.0 / (block.A.trace() * unit_kg).sqrt();
         let side = |end: &End| {
-            let Whitened { linear, angular, .. } = &whitened[end.body];
+            let Whitened { linear, angular } = whitened[end.body].as_ref()?;
             let mut rows = Matrix3x6::zeros();
             for (i, row) in end.rows.iter().enumerate() {
                 rows.fixed_view_mut::<1, 3>(i, 0).copy_from(&(row.j.v.transpose() * (*linear * scale)));
                 rows.fixed_view_mut::<1, 3>(i, 3).copy_from(&(angular.tr_mul(&row.j.w).transpose() * scale));
             }
             let part = rows.norm_squared();
-            whitened[end.body].moves.then_some(Side { at: at[end.body], rows, arm_m: end.arm_m(), part })
+            Some(Side { at: at[end.body], rows, arm_m: end.arm_m(), part })
         };
         let sides = [side(&block.end), block.other.as_ref().and_then(side)];
         Share { index, law: block.law(), scale, b: block.b * scale, sides }
@@ -195,13 +189,19 @@ impl Island {
         let bodies = self.bodies();
         let pairs = || self.touches.iter().filter_map(Share::pair);
         let pattern = (bodies <= most_bodies).then(|| Pattern::within(bodies, pairs(), most_products)).flatten();
+        let is_affordable = pattern.is_some();
         self.pattern = pattern.unwrap_or_default();
-        self.pattern.has_bodies(bodies)
+        is_affordable
     }
 
     /// Number of its bodies.
     pub fn bodies(&self) -> usize {
         self.bodies.len()
+    }
+
+    /// Of y: six a body.
+    pub fn unknowns(&self) -> usize {
+        6 * self.bodies()
     }
 
     /// Whether a residual is the tolerance, or rounding; a tolerance of 0 asks for more than there is.
@@ -211,7 +211,7 @@ impl Island {
 
     /// Gᵀ p.
     pub fn pushed(&self, p: &[Impulse]) -> DVector<f64> {
-        let mut y = DVector::zeros(self.unknowns);
+        let mut y = DVector::zeros(self.unknowns());
         self.touches.iter().zip(p).for_each(|(touch, p)| touch.push(p, &mut y));
         y
     }
@@ -309,10 +309,10 @@ impl Island {
         self.residual_with(self.cancelling, p)
     }
 
-    /// The same by what every body gets alone, however much presses it: what bodies that rest may be left with for
-    /// ever.
-    pub fn strict_residual(&self, p: &[Impulse]) -> f64 {
-        self.residual_with(0.0, p)
+    /// Whether the residual by what every body gets alone, however much presses it, is the tolerance, or rounding: what
+    /// bodies that rest may be left with for ever.
+    pub fn is_strictly_met(&self, tolerance: f64, p: &[Impulse]) -> bool {
+        self.is_enough(self.residual_with(0.0, p), tolerance, p)
     }
 
     fn residual_with(&self, cancelling: f64, p: &[Impulse]) -> f64 {

@@ -22,7 +22,7 @@ use crate::work::Work;
 /// helps.
 const SWEEPS: u32 = 20;
 const SWEEPS_OF_FEW: u32 = 100;
-pub(super) const MORE_SWEEPS: u32 = 300;
+const MORE_SWEEPS: u32 = 300;
 
 /// η of the first proximal problem and least, contacts having blocks of trace 1 (rounding of a velocity is felt as 1/η
 /// of it); what it is multiplied by when the problem was solved, and when it was not.
@@ -75,29 +75,31 @@ fn improve(
     scratch: &mut gauss_seidel::Scratch,
     work: &mut Work,
 ) -> bool {
-    let mut sweep = |p: &mut [Impulse], most: u32, variant: Variant, work: &mut Work| {
-        let sweeps = Sweeps { most, tolerance: 0.0, variant, ..*sweeps };
-        gauss_seidel::iterate(problem, &sweeps, p, scratch, work);
-    };
     let near = |island: &Island| island.residual(&island.impulses(p)) <= NEAR;
     if !islands.iter().all(near) {
         let most = if problem.is_dense() { SWEEPS_OF_FEW } else { SWEEPS };
-        sweep(p, most, sweeps.variant, work);
+        let first = Sweeps { most, tolerance: 0.0, ..*sweeps };
+        gauss_seidel::iterate(problem, &first, p, scratch, work);
     }
     let mut solved = true;
     for island in islands {
         let mut own = island.impulses(p);
-        let shuffled = Variant { local: Local::Exact, order: Order::Shuffled, ..Variant::default() };
         let more = |own: &mut Vec<Impulse>, work: &mut Work| {
             let mut others = p.to_vec();
             island.put(own, &mut others);
-            sweep(&mut others, MORE_SWEEPS, shuffled, work);
+            gauss_seidel::iterate(problem, &more_sweeps(sweeps), &mut others, scratch, work);
             *own = island.impulses(&others);
         };
         solved &= solve_island(island, sweeps, &mut own, shares, more, work);
         island.put(&own, p);
     }
     solved
+}
+
+/// Sweeps where nothing else helps: another order every time, contact by contact exactly.
+pub(super) fn more_sweeps(goal: &Sweeps) -> Sweeps {
+    let variant = Variant { local: Local::Exact, order: Order::Shuffled, ..Variant::default() };
+    Sweeps { most: MORE_SWEEPS, tolerance: 0.0, variant, ..*goal }
 }
 
 /// What whoever steps from event to event asks for.

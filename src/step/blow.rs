@@ -115,14 +115,13 @@ impl Blow {
         let strikes: Vec<bool> = found
             .iter()
             .map(|contact| {
-                let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
-                let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
+                let motion = normal_motion(contact, state, free);
                 // Bodies that rest on each other fall alike: what they approach each other by is rounding.
                 let speed = |(i, r_W, _): (usize, Vector3<f64>, f64)| free[i].v.norm() + free[i].w.norm() * r_W.norm();
                 let rounding = ROUNDING * contact.ends().map(speed).fold(0.0, f64::max);
                 hold(contact).is_none()
-                    && -before > rounding
-                    && self.approach.strikes(model, contact, [before, gained], step_s)
+                    && -motion[0] > rounding
+                    && self.approach.strikes(model, contact, motion, step_s)
             })
             .collect();
         for (contact, _) in found.iter().zip(&strikes).filter(|(_, strikes)| **strikes) {
@@ -144,4 +143,11 @@ impl Blow {
         }
         !self.contacts.is_empty()
     }
+}
+
+/// Normal velocity of a contact before the step, and what the step's forces add to it.
+pub(super) fn normal_motion(contact: &Contact, state: &State, free: &[Twist]) -> [f64; 2] {
+    let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
+    let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
+    [before, gained]
 }

@@ -9,7 +9,7 @@
 //! half-way (J. J. Moreau, Comput. Methods Appl. Mech. Engrg 177 (1999) 329). A step of the clock is made in parts
 //! where bodies hit each other that would be through by its end.
 
-use super::blow::Blow;
+use super::blow::{Blow, normal_motion};
 use super::drift::drift;
 use super::foreseen::Foreseen;
 use super::push_out::push_out;
@@ -240,9 +240,8 @@ impl TimeStepping {
         let known = &*lasting;
         let is_struck = |i: usize| blow.as_ref().is_some_and(|blow| blow.is_struck[i]);
         let lasts = |(i, (contact, p)): (usize, (&Contact, &Impulse))| {
-            let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
-            let gained = contact.normal.dot(&contact.velocity(|i| [s.free[i].v, s.free[i].w])) - before;
-            let lasts = approach.lasts(model, contact, [before, gained], *made_s, known.of(contact)) && !is_struck(i);
+            let motion = normal_motion(contact, state, &s.free);
+            let lasts = approach.lasts(model, contact, motion, *made_s, known.of(contact)) && !is_struck(i);
             let hold = Hold::of(p.x, p.yz().norm(), contact.friction).filter(|_| lasts)?;
             Some((contact.key(), hold))
         };

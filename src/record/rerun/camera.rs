@@ -97,9 +97,13 @@ fn distance_m(half: [f64; 3], from: [f64; 3]) -> f64 {
     corners.map(needed).fold(0.0, f64::max)
 }
 
-/// A round length, 1, 2 or 5 of a power of ten, of about a tenth of the motion.
+/// A round length of about a tenth of the motion.
 pub fn spacing_m(size_m: f64) -> f64 {
-    let exact = 0.1 * size_m;
+    rounded(0.1 * size_m)
+}
+
+/// The nearest number that is 1, 2 or 5 of a power of ten.
+pub fn rounded(exact: f64) -> f64 {
     let power = libm::exp10(libm::floor(libm::log10(exact)));
     let part = exact / power;
     power

@@ -3,7 +3,7 @@
 //! It is written twice: at the head for a recording that is cut, and, since a story is known at its end, with the end.
 //! The viewer takes the last.
 
-use super::camera::{Camera, scale, spacing_m};
+use super::camera::{Camera, rounded, scale, spacing_m};
 use super::names::{
     CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION, SIM_TIME,
     application, body_path,
@@ -212,18 +212,7 @@ fn round_speed(exact: f64) -> f64 {
     if (0.4..2.5).contains(&exact) {
         return 1.0;
     }
-    let power = libm::exp10(libm::floor(libm::log10(exact)));
-    let part = exact / power;
-    power
-        * if part < 1.5 {
-            1.0
-        } else if part < 3.5 {
-            2.0
-        } else if part < 7.5 {
-            5.0
-        } else {
-            10.0
-        }
+    rounded(exact)
 }
 
 /// Energy on the scale that shows the story; no plot without data.

@@ -9,7 +9,9 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-const SEEDS: u64 = 200;
+/// Seeds of a cell in every run of the tests, and in the whole map of `.ci/full`.
+const SEEDS: u64 = 80;
+const ALL_SEEDS: u64 = 400;
 const TABLE_SEEDS: u64 = 400;
 const STEPS_S: [&str; 6] = ["0.001", "0.002", "0.005", "0.01", "0.02", "0.05"];
 const TABLE: [(&str, [u64; 6]); 7] = [
@@ -23,12 +25,12 @@ const TABLE: [(&str, [u64; 6]); 7] = [
 ];
 
 /// Explosions by mesh and step; largest contact gain.
-fn map(sets: &[&str]) -> (BTreeMap<(String, String), u64>, f64) {
+fn map(sets: &[&str], seeds: u64) -> (BTreeMap<(String, String), u64>, f64) {
     let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/lecture/stability.yaml"));
-    let seeds = format!("sweep.axes.seed={{range: {{from: 0, to: {}}}}}", SEEDS - 1);
-    let sets: Vec<&str> = sets.iter().copied().chain([seeds.as_str()]).collect();
+    let axis = format!("sweep.axes.seed={{range: {{from: 0, to: {}}}}}", seeds - 1);
+    let sets: Vec<&str> = sets.iter().copied().chain([axis.as_str()]).collect();
     let cases = cases(&yaml::file(&text.unwrap(), &sets)).unwrap();
-    assert_eq!(cases.len() as u64, 7 * 6 * SEEDS);
+    assert_eq!(cases.len() as u64, 7 * 6 * seeds);
     let measured: Vec<_> = cases.par_iter().map(|Planned { case, .. }| yaml::run(&case.experiment).measured).collect();
     let mut exploded = BTreeMap::new();
     let mut gain = 0.0_f64;
@@ -65,29 +67,45 @@ fn fishers_test_is_fishers_test() {
     assert!(fisher(100, 400, 200, 400) < 1e-12);
 }
 
-/// 1 % over all 42 cells together (Bonferroni). measured: least p 0.099 with 200 seeds, 0.073 with 400.
-#[test]
-fn the_lectures_method_explodes_as_often_as_measured() {
-    let (exploded, _) = map(&[]);
+/// 1 % over all 42 cells together (Bonferroni), and the notes themselves.
+fn explodes_as_often_as_measured(seeds: u64) {
+    let (exploded, _) = map(&[], seeds);
     for (mesh, row) in TABLE {
         for (step, expected) in STEPS_S.iter().zip(row) {
             let seen = exploded[&(mesh.to_string(), step.to_string())];
-            let p = fisher(seen, SEEDS, expected, TABLE_SEEDS);
-            assert!(p > 0.01 / 42.0, "{mesh}, {step} s: {seen} of {SEEDS}, expected {expected} of 400, p = {p:.1e}");
+            let p = fisher(seen, seeds, expected, TABLE_SEEDS);
+            assert!(p > 0.01 / 42.0, "{mesh}, {step} s: {seen} of {seeds}, expected {expected} of 400, p = {p:.1e}");
         }
     }
     let at = |mesh: &str, step: &str| exploded[&(mesh.to_string(), step.to_string())];
-    // The notes themselves. measured: 142 and 78 of 200
-    assert!(at("cube 125", "0.05") >= at("cube 125", "0.001") + SEEDS / 2, "a shorter step is more stable");
-    assert!(at("ico 162", "0.01") >= at("ico 12", "0.01") + SEEDS / 5, "more nodes diverge more easily");
+    // measured: 142 and 78 of 200
+    assert!(at("cube 125", "0.05") >= at("cube 125", "0.001") + seeds / 2, "a shorter step is more stable");
+    assert!(at("ico 162", "0.01") >= at("ico 12", "0.01") + seeds / 5, "more nodes diverge more easily");
 }
 
 /// With the energy criterion at 1.05: no step of any run is above 1.05 times the start. By sweeps, as the solver auto
-/// takes three times as long for all of it.
-#[test]
-fn the_sound_method_explodes_nowhere() {
-    let (exploded, gain) = map(&["method={time-stepping: {solver: pgs}}", "diverge.energy_factor=1.05"]);
+/// takes longer for all of it.
+fn explodes_nowhere(seeds: u64) {
+    let (exploded, gain) = map(&["method={time-stepping: {solver: pgs}}", "diverge.energy_factor=1.05"], seeds);
     assert!(exploded.values().all(|count| *count == 0), "{exploded:?}");
     // measured: gain 1.0000000000000
     assert!(gain <= 1.0 + 1e-12, "{gain}");
+}
+
+#[test]
+fn the_lectures_method_explodes_as_often_as_measured() {
+    explodes_as_often_as_measured(SEEDS);
+}
+
+#[test]
+fn the_sound_method_explodes_nowhere() {
+    explodes_nowhere(SEEDS);
+}
+
+/// measured: least p 0.073
+#[test]
+#[ignore = "the whole map, a minute of both methods"]
+fn the_whole_map_is_the_table() {
+    explodes_as_often_as_measured(ALL_SEEDS);
+    explodes_nowhere(ALL_SEEDS);
 }

@@ -203,6 +203,8 @@ fn an_interrupted_sweep_keeps_what_is_finished_and_goes_on_later() {
         "--set",
         "time.step_s=2e-4",
         "--set",
+        "time.end_s=1",
+        "--set",
         SEEDS,
     ];
     let mut child = gotai(&long).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();

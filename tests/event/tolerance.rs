@@ -52,22 +52,42 @@ fn is_good(text: &str, tolerance: f64) -> Option<bool> {
     Some(error <= 1.0 || sensitivity(&rough, &model, &start, &a.state).is_some_and(|grown| error <= grown))
 }
 
-#[test]
-fn the_tolerance_means_what_it_says() {
+/// Wrong and late ones among the scenes of which `chosen`, given their place in the grid and the tolerance's, says so.
+fn not_good(chosen: impl Fn(usize, usize) -> bool) -> [Vec<(String, f64)>; 2] {
     let mut scenes = Vec::new();
     for shape in SHAPES {
         for friction in [0.0, 0.1, 0.4, 0.9] {
             for restitution in [0.0, 0.3, 0.7, 1.0] {
-                for (seed, tolerance) in [(0, 1e-4), (1, 1e-6), (2, 1e-9)] {
-                    scenes.push((thrown(shape, friction, restitution, seed), tolerance));
-                }
+                scenes.push((shape, friction, restitution));
             }
         }
     }
+    let tolerances = [1e-4, 1e-6, 1e-9];
+    let grid = (0..scenes.len()).flat_map(|i| (0..tolerances.len()).map(move |k| (i, k)));
+    let scenes: Vec<_> = grid
+        .filter(|(i, k)| chosen(*i, *k))
+        .map(|(i, k)| (thrown(scenes[i].0, scenes[i].1, scenes[i].2, k as u64), tolerances[k]))
+        .collect();
     let judged: Vec<_> = scenes.par_iter().map(|(text, tolerance)| is_good(text, *tolerance)).collect();
-    let which =
-        |verdict| scenes.iter().zip(&judged).filter(move |(_, judged)| **judged == verdict).map(|(scene, _)| scene);
-    let (wrong, late): (Vec<_>, Vec<_>) = (which(Some(false)).collect(), which(None).collect());
+    let those = |verdict| {
+        let both = scenes.iter().zip(&judged);
+        both.filter(|(_, judged)| **judged == verdict).map(|(scene, _)| scene.clone()).collect()
+    };
+    [those(Some(false)), those(None)]
+}
+
+/// Each scene at one of the three tolerances, which turn over from scene to scene.
+#[test]
+fn the_tolerance_means_what_it_says() {
+    let [wrong, late] = not_good(|i, k| (i + i / 4 + i / 16) % 3 == k);
+    // measured: 0 and 0 of 96
+    assert!(wrong.len() + late.len() <= 1, "{wrong:?} {late:?}");
+}
+
+#[test]
+#[ignore = "three times as many"]
+fn the_tolerance_means_what_it_says_in_all_scenes() {
+    let [wrong, late] = not_good(|_, _| true);
     // measured: 1 of 288, a box whose error is 1.6e-8 at 1e-9
     assert!(wrong.len() <= 2, "{wrong:?}");
     // measured: 1 of 288, a box on its edge whose events accumulate at 1e-12

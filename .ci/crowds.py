@@ -67,7 +67,7 @@ def scene(draw, count):
     arrangement = draw.choice(["thrown", "flush", "stacked"] if count > 1 else ["thrown", "flush"])
     friction = draw.choice([0, 0, 0.1, 0.3, 0.5, 1])
     restitution = draw.choice([0, 0, 0.3, 0.5, 0.9])
-    container = {"plane": "{ plane: { normal: [0, 1, 0] } }", "box": "{ box: { size_m: [4, 4, 4] } }", "blocks": None}[ground]
+    container = {"plane": "{ plane: { normal: [0, 1, 0] } }", "box": "{ box: { size_m: [4, 8, 4] } }", "blocks": None}[ground]
     lines, names, smallest_m, kinds = [], [], math.inf, []
     if ground == "blocks":
         lines.append("{ name: floor, shape: { box: { size_m: [3, 1, 3] } }, mass_kg: 1, fixed: true, "

@@ -22,6 +22,8 @@ use nalgebra::Vector3;
 pub struct Change {
     /// What slips no faster, sticks if it can.
     pub slow_m_s: f64,
+    /// However slowly, what slips has not come to its end.
+    pub slips_on: bool,
     pub opening: Vec<(Key, Vector3<f64>)>,
     pub slipping: Vec<(Key, Vector3<f64>)>,
 }

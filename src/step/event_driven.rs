@@ -115,8 +115,9 @@ const LOCAL: f64 = 0.01;
 /// Change of a velocity by the projection, over the integrator's own error, that is none of it.
 const SLAP: f64 = 1e3;
 
-/// Events at one moment, of all contacts, before something is wrong.
+/// Events at one moment, of all contacts, before something is wrong; and a moment, over the length of a stretch.
 const AT_ONCE: u32 = 200;
+const AT_ONCE_S: f64 = 1e-9;
 
 /// Points of a rim that are tried, one after another: each is nearer to the one that bears.
 const POINTS: u32 = 40;
@@ -223,7 +224,12 @@ impl EventDriven {
         } else if self.stalled.is_none() && !self.trouble && !matches!(self.next, Event::Jam) {
             blow = self.go_on(model, state, ending_s, end_s);
         }
-        self.at_once = if state.time_s > from_s { 0 } else { self.at_once + 1 };
+        if std::env::var("DBG").is_ok() {
+            let b = &state.bodies[0];
+            eprintln!("{} t={:.15} dt={:.2e} blow={blow} span={:?} next={:?} v={:.3e} w={:.3e} held={} pace={:?} ending={:?} dense={:.2e} modes={}", state.step, state.time_s, state.time_s-from_s, self.span, self.next, b.v_WB.norm(), b.w_WB.norm(), self.held.len(), self.pace, ending_s, self.dense.h,
+                self.held.iter().map(|h| format!("{:?}/{:?}/{:.1e} ", h.slip, h.slides().is_some(), h.touch.here(state).slip_W().norm())).collect::<String>());
+        }
+        self.at_once = if state.time_s - from_s > AT_ONCE_S * self.stretch_s { 0 } else { self.at_once + 1 };
         if std::mem::take(&mut self.trouble) || self.at_once > AT_ONCE || self.accumulates(state) {
             self.begin_stretch(model, state);
         }
@@ -323,7 +329,8 @@ impl EventDriven {
 
     /// What holds from now on, and how everything moves.
     fn regroup(&mut self, model: &Model, state: &mut State, change: &Change) {
-        let change = &Change { slow_m_s: self.slow.fading_m_s, ..change.clone() };
+        let slow_m_s = if change.slips_on { 0.0 } else { self.slow.fading_m_s };
+        let change = &Change { slow_m_s, ..change.clone() };
         let (mut solved, mut sinking) = (Solved::default(), Sinking::default());
         for _ in 0..POINTS {
             let Some(touches) = self.resting(model, state) else {
@@ -386,21 +393,21 @@ impl EventDriven {
     /// Smooth motion, with what had to be put to rest before it. True: that took no time, and is all of the step.
     fn go_on(&mut self, model: &Model, state: &mut State, ending_s: Option<f64>, end_s: f64) -> bool {
         self.look_at_slips(model, state, true);
-        let fades_s = if ending_s.is_none() { self.pace.ends_s } else { None };
-        let Some(over_s) = ending_s.or(fades_s) else {
-            self.advance(model, state, end_s);
-            return false;
-        };
-        if fades_s.is_some() {
+        let from_s = state.time_s;
+        if ending_s.is_none() {
             self.kicked.copy_from(state);
         }
-        let from_s = state.time_s;
-        let at_once = from_s + over_s <= from_s;
+        let over_s = ending_s.or(self.pace.ends_s);
+        let at_once = over_s.is_some_and(|over_s| from_s + over_s <= from_s);
         let mut others = Vec::new();
         if !at_once {
-            let to_s = end_s.min(from_s + over_s);
+            let to_s = over_s.map_or(end_s, |over_s| end_s.min(from_s + over_s));
             self.advance(model, state, to_s);
-            if state.time_s == from_s && !self.trouble {
+            // What leaves its line may be seen to fade only then.
+            if ending_s.is_none() && self.pace.ends_s.is_none() {
+                return false;
+            }
+            if over_s.is_some() && state.time_s == from_s && !self.trouble {
                 // What is put to rest is so against others that touch: they take part.
                 self.motion_to(model, state, to_s);
                 self.detect(model, state);
@@ -411,9 +418,10 @@ impl EventDriven {
         self.scratch.copy_from(state);
         let (states, gathered) = ([&mut self.kicked, &mut *state], &mut self.placing);
         self.solved = ending::end(model, states, &self.held, &others, gathered, &mut self.work);
-        if fades_s.is_some() || !others.is_empty() || ending::changes(model, [&self.scratch, state], ending::NOTHING) {
-            // Not all of it holds, or slides on.
-            self.next = Event::Change(Change::default());
+        if ending_s.is_none() || !others.is_empty() || ending::changes(model, [&self.scratch, state], ending::NOTHING) {
+            // Not all of it holds, or slides on; before its end it does.
+            let slips_on = ending_s.is_none() && over_s.is_none_or(|over_s| state.time_s < from_s + over_s);
+            self.next = Event::Change(Change { slips_on, ..Change::default() });
         }
         self.span = if at_once { Span::Blow } else { Span::Ending { step_s: state.time_s - from_s } };
         at_once
@@ -497,6 +505,7 @@ impl EventDriven {
         let mut good = self.dense_step(model, state, end_s);
         if good && slip::leaves_lines(model, &self.dense_end(model, state), &self.held) {
             self.look_at_slips(model, state, false);
+            let end_s = self.pace.ends_s.map_or(end_s, |over_s| end_s.min(state.time_s + over_s));
             good = self.dense_step(model, state, end_s);
         }
         good

@@ -58,13 +58,14 @@ impl Look {
         Look { gap_m: distance - reach_m, rate_m_s, toward_m_s2, ..Look::EMPTY }
     }
 
+    /// The gap that is left to close. A bounce comes back to where it began; what lingers within δ is let through it.
+    pub(super) fn height_m(&self, delta_m: f64) -> f64 {
+        if self.gap_m > delta_m { self.gap_m } else { self.gap_m.max(0.0) + delta_m }
+    }
+
     /// The time in which the gap cannot close.
     pub(super) fn safe_s(&self, delta_m: f64, slow_m_s: f64) -> f64 {
-        let g = match self.gap_m {
-            gap_m if gap_m > delta_m => gap_m,
-            // A bounce comes back to where it began; what lingers within δ is let through it.
-            gap_m => gap_m.max(0.0) + delta_m,
-        };
+        let g = self.height_m(delta_m);
         let (rate, m) = (self.rate_m_s, self.toward_m_s2);
         let square = rate * rate + 2.0 * m * g;
         let s = if square < 0.0 || (m <= 0.0 && rate >= 0.0) {

@@ -310,11 +310,14 @@ impl<'a> Two<'a> {
     fn rolling_s(&self, now: &Now, touch: &Found, look: &Look) -> f64 {
         let Now { at, delta_m, slow_m_s, .. } = now;
         let w_rad_s = self.bounds[0].w + self.bounds[1].w;
-        let Some(rolling) = caps::rolling(self.bodies, at, &touch.normal, w_rad_s) else {
+        let Some(rolling) = caps::rolling(self.bodies, at, (touch, *delta_m), w_rad_s) else {
             return look.safe_s(*delta_m, *slow_m_s);
         };
         let of_any = Look { rate_m_s: look.rate_m_s - rolling.faster_m_s, ..*look };
-        let of_any_s = of_any.safe_s(*delta_m, *slow_m_s);
+        let of_rims_s = rolling.down.iter().flat_map(|down| {
+            down.iter().map(|rim| rim.safe_s(look.height_m(*delta_m), look.toward_m_s2)).reduce(f64::min)
+        });
+        let of_any_s = of_rims_s.fold(of_any.safe_s(*delta_m, *slow_m_s), f64::max);
         let Some((more_m_s2, known_s)) = rolling.along else { return of_any_s };
         let along = Look { toward_m_s2: look.toward_m_s2 + more_m_s2, known_s: look.known_s.min(known_s), ..*look };
         of_any_s.max(along.safe_s(*delta_m, *slow_m_s))

@@ -96,7 +96,8 @@ fn with_face(
             let (rate_m_s, more_m_s) = cap.rates(&at, &face.normal);
             let (gap_m, rate_m_s) = (face.gap_m(&(at.p_WB + arm_W)) - sagitta_m, rate_m_s - more_m_s);
             let toward_m_s2 = bounds.toward(&face.normal, arm_m);
-            (Look { gap_m, rate_m_s, toward_m_s2, ..Look::EMPTY }, cap)
+            let down = cap.descent_on_plane(&at, &face.normal);
+            (Look { gap_m, rate_m_s, toward_m_s2, ..Look::EMPTY }, cap, down)
         });
         let (mut safe_s, mut touching) = (f64::INFINITY, false);
         let mut of_flattest_s = f64::INFINITY;
@@ -106,12 +107,13 @@ fn with_face(
             }
             let rate_m_s = face.normal.dot(&(at.v_WB + at.w_WB.cross(&r_W)));
             let look = Look { gap_m, rate_m_s, toward_m_s2, known_s, is_exact: arm_m == 0.0 && bounds.beside == 0.0 };
-            let of = if flat.as_ref().is_some_and(|(_, cap)| cap.has(node)) { &mut of_flattest_s } else { &mut safe_s };
+            let of =
+                if flat.as_ref().is_some_and(|(_, cap, _)| cap.has(node)) { &mut of_flattest_s } else { &mut safe_s };
             *of = of.min(look.safe_s(delta_m, slow));
             touching |= look.is_touching(delta_m, slow);
         });
-        if let Some((look, cap)) = &flat {
-            let of_rim_s = look.safe_s(delta_m, slow);
+        if let Some((look, cap, down)) = &flat {
+            let of_rim_s = down.safe_s(look.height_m(delta_m), look.toward_m_s2).max(look.safe_s(delta_m, slow));
             if cap.is_flat(&at, &face.normal) {
                 of_flattest_s = of_rim_s;
                 touching |= look.is_touching(delta_m, slow);

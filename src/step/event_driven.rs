@@ -224,11 +224,6 @@ impl EventDriven {
         } else if self.stalled.is_none() && !self.trouble && !matches!(self.next, Event::Jam) {
             blow = self.go_on(model, state, ending_s, end_s);
         }
-        if std::env::var("DBG").is_ok() {
-            let b = &state.bodies[0];
-            eprintln!("{} t={:.15} dt={:.2e} blow={blow} span={:?} next={:?} v={:.3e} w={:.3e} held={} pace={:?} ending={:?} dense={:.2e} modes={}", state.step, state.time_s, state.time_s-from_s, self.span, self.next, b.v_WB.norm(), b.w_WB.norm(), self.held.len(), self.pace, ending_s, self.dense.h,
-                self.held.iter().map(|h| format!("{:?}/{:?}/{:.1e} ", h.slip, h.slides().is_some(), h.touch.here(state).slip_W().norm())).collect::<String>());
-        }
         self.at_once = if state.time_s - from_s > AT_ONCE_S * self.stretch_s { 0 } else { self.at_once + 1 };
         if std::mem::take(&mut self.trouble) || self.at_once > AT_ONCE || self.accumulates(state) {
             self.begin_stretch(model, state);

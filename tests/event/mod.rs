@@ -10,6 +10,7 @@ mod painleve;
 mod round_parts;
 mod same;
 mod seams;
+mod spinning;
 mod symmetries;
 mod tolerance;
 

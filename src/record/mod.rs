@@ -4,9 +4,13 @@
 //! `Recorder`. `schema` names topics, fields and units once for all of them.
 
 mod effort;
+pub mod flight;
 #[cfg(feature = "rerun")]
 mod gather;
+pub mod foxglove_layout;
 pub mod head;
+pub mod instants;
+mod limited;
 pub mod mcap;
 pub mod mend;
 pub mod name;

@@ -125,7 +125,8 @@ impl FilmArgs {
 
     /// The pictures as a GIF that begins anew.
     fn film(&self, files: &[PathBuf]) -> Result<Vec<u8>, CliError> {
-        let failed = |error: &dyn std::fmt::Display| CliError::Machine(format!("cannot make the moving picture: {error}"));
+        let failed =
+            |error: &dyn std::fmt::Display| CliError::Machine(format!("cannot make the moving picture: {error}"));
         let mut bytes = Vec::new();
         let [width, height] = self.size.map(|length| length as u16);
         let mut encoder = Encoder::new(&mut bytes, width, height, &[]).map_err(|error| failed(&error))?;

@@ -96,7 +96,7 @@ impl Ghosts {
         let Some((label, header, recording)) = self.cases.pop() else { return self.write(dir) };
         let name = RecordingName::new(&["view".to_string(), label], &sha256(&header.case, 4)).begun();
         let path = Target::Rerun.path(dir, &name);
-        write_alone(&path, &header, &recording)?;
+        write_alone(&path, &header, &recording).inspect_err(|_| forget(&path))?;
         Ok(path)
     }
 
@@ -111,9 +111,23 @@ impl Ghosts {
         let values: Vec<String> = std::iter::once(word.to_string()).chain(labels).collect();
         let ids: Vec<&str> = self.cases.iter().map(|(_, header, _)| header.case.as_str()).collect();
         let path = Target::Rerun.path(dir, &RecordingName::new(&values, &sha256(ids.join(" "), 4)).begun());
-        write_into(&path, self)?;
+        write_into(&path, self).inspect_err(|_| forget(&path))?;
         Ok(path)
     }
+}
+
+/// Drops what could not be written to its end: nobody is to take it for a recording.
+pub(super) fn forget(path: &Path) {
+    // The first error is the one to tell.
+    let _ = std::fs::remove_file(path);
+}
+
+/// A folder itself if files can be made in it, else one for what is made for a while.
+pub(super) fn writable(dir: &Path) -> PathBuf {
+    let probe = dir.join(format!(".gotai-{}", std::process::id()));
+    let can_write = make_folder(dir).is_ok() && std::fs::write(&probe, "").is_ok();
+    let _ = std::fs::remove_file(&probe);
+    if can_write { dir.to_path_buf() } else { std::env::temp_dir().join("gotai-views") }
 }
 
 #[cfg(feature = "rerun")]

@@ -1,5 +1,5 @@
-//! Signals during one run: it ends after its step, what it has recorded is written and closed, and the exit code says which
-//! signal it was.
+//! Signals during one run: it ends after its step, what it has recorded is written and closed, and the exit code says
+//! which signal it was.
 
 use super::error::CliError;
 use crate::interrupt;

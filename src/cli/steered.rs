@@ -1,5 +1,5 @@
-//! A viewer without a window that is steered: any instant of a recording as a picture. It obeys `rerun viewer-mcp`, which
-//! comes with it and speaks JSON-RPC, a line each.
+//! A viewer without a window that is steered: any instant of a recording as a picture. It obeys `rerun viewer-mcp`,
+//! which comes with it and speaks JSON-RPC, a line each.
 
 use super::error::CliError;
 use super::viewer::Viewer;

@@ -50,7 +50,9 @@ impl Command {
         let viewer = Viewer::find(self.quiet)?;
         if self.gif.is_some() || self.frames.is_some() {
             let [file] = files.as_slice() else {
-                return Err(CliError::Input("--gif, --frames: expected one recording, or .mcap files of several".into()));
+                return Err(CliError::Input(
+                    "--gif, --frames: expected one recording, or .mcap files of several".into(),
+                ));
             };
             self.film.make(&viewer, file, self.gif.as_deref(), self.frames.as_deref(), self.quiet)?;
             return Ok(ExitCode::SUCCESS);
@@ -142,7 +144,7 @@ fn of_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
     match sources {
         Some(sources) => {
             let dir = paths[0].parent().unwrap_or(Path::new(".")).to_path_buf();
-            Ok(vec![Ghosts::of_files(&sources)?.write(&dir)?])
+            Ok(vec![Ghosts::of_files(&sources)?.write(&ghosts::writable(&dir))?])
         }
         // The viewer shows them one after the other.
         None => Ok(paths.to_vec()),
@@ -153,7 +155,7 @@ fn of_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
 fn shown(file: PathBuf, dir: &Path) -> Result<PathBuf, CliError> {
     let is_mcap = file.extension().is_some_and(|ending| ending == Target::Mcap.extension());
     if is_mcap && Target::AVAILABLE.contains(&Target::Rerun) {
-        return Ghosts::of_files(&[file])?.write_whole(dir);
+        return Ghosts::of_files(&[file])?.write_whole(&ghosts::writable(dir));
     }
     Ok(file)
 }

@@ -1,8 +1,8 @@
 //! Flight recorder: the contact system of the step that gained most, which says which contact gained.
 //!
-//! u⁺ = A p + b (L16): u⁺ are the velocities of the contact points after the step's impulses p, b those without them, A =
-//! J M⁻¹ Jᵀ. Three rows a contact, along its normal and two tangents. A contact gives the bodies the energy
-//! p·½(u⁻ + u⁺), u⁻ the velocity before; what a law of contact lets be is never positive.
+//! u⁺ = A p + b (L16): u⁺ are the velocities of the contact points after the step's impulses p, b those without them, A
+//! = J M⁻¹ Jᵀ. Three rows a contact, along its normal and two tangents. A contact gives the bodies the kinetic energy
+//! p·½(b + u⁺): nothing, or what is negative, but where rebound and friction meet.
 
 use crate::collide::SolvedContact;
 use crate::model::Model;
@@ -91,7 +91,7 @@ impl Flight {
                     b_m_s: along(i, without),
                     after_m_s: along(i, after),
                     force_n: along(i, solved.impulse_W / step_s),
-                    given_j: 0.5 * solved.impulse_W.dot(&(before + after)),
+                    given_j: 0.5 * solved.impulse_W.dot(&(without + after)),
                 };
                 (i, contact)
             })

@@ -47,13 +47,15 @@ pub fn layout(streams: Streams) -> String {
         plots.push("Plot!contacts");
     }
     let below = |first: Value, second: Value, percent: f64| {
-        json!({ "direction": "column", "first": first, "second": second, "splitPercentage": percent })
+        let split = json!({ "direction": "column", "first": first, "second": second });
+        with(split, "splitPercentage", json!(percent))
     };
     let left = below(json!("3D!scene"), json!("RosOut!events"), 75.0);
     let stacked = |plots: &[&str]| {
         let mut rest = plots.iter().rev();
         let last = rest.next().map(|name| json!(name))?;
-        let stack = rest.zip(2..).fold(last, |stack, (name, count)| below(json!(name), stack, 100.0 / f64::from(count)));
+        let stack =
+            rest.zip(2..).fold(last, |stack, (name, count)| below(json!(name), stack, 100.0 / f64::from(count)));
         Some(stack)
     };
     let whole = match stacked(&plots) {
@@ -65,6 +67,12 @@ pub fn layout(streams: Streams) -> String {
         "layout": whole,
     });
     format!("{layout:#}\n")
+}
+
+/// An object with one key more.
+fn with(mut object: Value, key: &str, value: Value) -> Value {
+    object[key] = value;
+    object
 }
 
 /// Surfaces of the bodies as Wavefront OBJ, relative to the centre of mass, in body axes, and the file of every body;

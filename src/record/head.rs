@@ -82,8 +82,7 @@ fn title(case: &Case) -> String {
 
 fn body_header(model: &Model, i: usize, start: &State, clock: &Clock) -> BodyHeader {
     let body = &model.bodies[i];
-    let pins_m: Vec<[f64; 3]> =
-        model.pins.iter().flat_map(|pin| pinned_at(pin, i)).map(|r_B| r_B.into()).collect();
+    let pins_m: Vec<[f64; 3]> = model.pins.iter().flat_map(|pin| pinned_at(pin, i)).map(|r_B| r_B.into()).collect();
     let has_no_shape = matches!(body.geometry, Geometry::None);
     let is_fine = model.bodies.len() <= FINE_BODIES;
     let (vertices, triangles) = match &body.geometry {
@@ -146,9 +145,8 @@ fn of_inertia(body: &Body, pins_m: &[[f64; 3]]) -> Option<Surface> {
     const THINNEST: f64 = 1e-3;
     let semi_axes = squared.map(|x| x.max(THINNEST * longest).sqrt());
     // How far outside of the ellipsoid a place is: 1 on it.
-    let outside = |p: &[f64; 3]| {
-        (principal.eigenvectors.transpose() * Vector3::from(*p)).component_div(&semi_axes).norm()
-    };
+    let outside =
+        |p: &[f64; 3]| (principal.eigenvectors.transpose() * Vector3::from(*p)).component_div(&semi_axes).norm();
     let nearest = pins_m.iter().map(outside).filter(|part| *part > 0.0).fold(f64::INFINITY, f64::min);
     Some(ellipsoid(&(semi_axes * (OF_PIN * nearest).min(1.0)), &principal.eigenvectors, Vector3::zeros()))
 }

@@ -22,12 +22,14 @@ pub struct Limited {
     streams: Streams,
     most: f64,
     end_s: f64,
-    /// Size of the file when its first batch had been written, and numbers written since.
+    /// Size of the file when its first batch had been written, and numbers written since, of them by rate.
     head: Option<u64>,
     numbers: f64,
+    by_rate: f64,
     kept: Batch,
     left_out: u64,
-    /// Time and bodies of the last sample, if it is left out: the next one may rely on it to show where its contacts act.
+    /// Time and bodies of the last sample, if it is left out: the next one may rely on it to show where its contacts
+    /// act.
     hidden: Option<(f64, Vec<BodyRow>)>,
 }
 
@@ -41,6 +43,7 @@ impl Limited {
             end_s: header.end_s,
             head: None,
             numbers: 0.0,
+            by_rate: 0.0,
             kept: Batch::default(),
             left_out: 0,
             hidden: None,
@@ -53,11 +56,14 @@ impl Limited {
         if self.numbers > 0.0 && written > 0.0 { written / self.numbers } else { FIRST_GUESS }
     }
 
-    /// Whether there is room for a sample, when so much is written already.
-    fn fits(&self, sample: &Sample<'_>, bytes: f64) -> bool {
+    /// Whether there is room for a sample: with it there are so many bytes, of them so many by rate. What decides
+    /// leaves room for what is still due by rate.
+    fn fits(&self, sample: &Sample<'_>, bytes: f64, by_rate: f64) -> bool {
         let part = if self.end_s > 0.0 { (sample.time_s / self.end_s).clamp(0.0, 1.0) } else { 1.0 };
-        let room = if sample.by_rate { AT_ONCE + BY_RATE * part } else { DECISIVE };
-        bytes <= room * self.most
+        match sample.by_rate {
+            true => by_rate <= (AT_ONCE + BY_RATE * part) * self.most && bytes <= DECISIVE * self.most,
+            false => bytes <= (DECISIVE - BY_RATE * (1.0 - part)) * self.most,
+        }
     }
 }
 
@@ -67,10 +73,8 @@ fn numbers(sample: &Sample<'_>) -> f64 {
     const OF_ACTED: usize = 7;
     const OF_A_CONTACT: usize = 14;
     const OF_ALL: usize = 10;
-    let count = OF_A_BODY * sample.bodies.len()
-        + OF_ACTED * sample.acted.len()
-        + OF_A_CONTACT * sample.contacts.len()
-        + OF_ALL;
+    let count =
+        OF_A_BODY * sample.bodies.len() + OF_ACTED * sample.acted.len() + OF_A_CONTACT * sample.contacts.len() + OF_ALL;
     count as f64
 }
 
@@ -78,14 +82,17 @@ impl Recorder for Limited {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
         let each = self.bytes_a_number();
         let written = self.file.bytes() as f64;
-        let mut more = 0.0;
+        let (mut more, mut more_by_rate) = (0.0, 0.0);
         let mut left_out = 0;
         let mut kept = std::mem::take(&mut self.kept);
         kept.clear();
         for sample in batch.samples() {
             let own = numbers(&sample);
-            if self.head.is_none() || self.fits(&sample, written + each * (more + own)) {
+            let own_by_rate = if sample.by_rate { own } else { 0.0 };
+            let by_rate = each * (self.by_rate + more_by_rate + own_by_rate);
+            if self.head.is_none() || self.fits(&sample, written + each * (more + own), by_rate) {
                 more += own;
+                more_by_rate += own_by_rate;
                 let hidden = self.hidden.take();
                 let lacks = sample.acted.is_empty() && !sample.contacts.is_empty();
                 let acted = match &hidden {
@@ -107,7 +114,10 @@ impl Recorder for Limited {
         self.left_out += left_out;
         match self.head {
             None => self.head = Some(self.file.bytes()),
-            Some(_) => self.numbers += more,
+            Some(_) => {
+                self.numbers += more;
+                self.by_rate += more_by_rate;
+            }
         }
         done
     }

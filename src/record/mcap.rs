@@ -2,9 +2,9 @@
 //!
 //! Every batch ends with a complete chunk on disk, so that a kill loses no batch that was written.
 
+use super::foxglove_layout::{layout, surfaces_as_files};
 use super::name::RecordingName;
 use super::sample::{Batch, BodyHeader, Ending, EnergySample, Event, Header, Sample, Streams};
-use super::foxglove_layout::{layout, surfaces_as_files};
 use super::scene::{Scene, log, surfaces};
 use super::{RecordError, Recorder, schema};
 use crate::rows::BodyRow;
@@ -12,7 +12,7 @@ use foxglove::Encode;
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, Compression, McapResult, WriteOptions};
 use prost::Message;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -156,7 +156,7 @@ impl Recorder for McapRecorder {
         let json = serde_json::to_string(ending).unwrap_or_default();
         let whole = [(schema::ENDING_JSON.to_owned(), json)].into();
         let whole = Metadata { name: schema::ENDING.to_owned(), metadata: whole };
-        let written = out.writer.write_metadata(&end).and_then(|()| out.writer.write_metadata(&whole));
+        let written = out.writer.write_metadata(&whole).and_then(|()| out.writer.write_metadata(&end));
         let closed = written.and_then(|()| close(out.writer));
         closed.map_err(|error| RecordError::caused(&path, &error))
     }
@@ -202,12 +202,9 @@ impl Out {
     fn head(&mut self, header: &Header) -> McapResult<Channels> {
         self.attach(schema::CONFIG_FILE, "application/yaml", header.config_yaml.as_bytes())?;
         self.attach(schema::LAYOUT_FILE, "application/json", layout(header.streams).as_bytes())?;
-        let (files, of_bodies) = surfaces_as_files(header);
-        for (name, surface) in &files {
+        for (name, surface) in &surfaces_as_files(header).0 {
             self.attach(name, "model/obj", surface.as_bytes())?;
         }
-        let meshes = Metadata { name: schema::METADATA_MESHES.to_owned(), metadata: of_bodies };
-        self.writer.write_metadata(&meshes)?;
         let start = Metadata { name: schema::METADATA_START.to_owned(), metadata: said(header) };
         self.writer.write_metadata(&start)?;
 
@@ -274,6 +271,7 @@ fn said(header: &Header) -> BTreeMap<String, String> {
         ("schema", schema::VERSION.to_owned()),
         (schema::AXES, Value::from(header.axes.iter().map(|(path, _)| path.as_str()).collect::<Vec<_>>()).to_string()),
         ("question", header.question.clone()),
+        (schema::MESHES, json!(surfaces_as_files(header).1).to_string()),
         ("method", header.method.clone()),
         ("time", "simulated, from zero".to_owned()),
         ("up", "y in the frame world, z in the frame root".to_owned()),

@@ -5,15 +5,15 @@
 
 mod effort;
 pub mod flight;
+pub mod foxglove_layout;
 #[cfg(feature = "rerun")]
 mod gather;
-pub mod foxglove_layout;
 pub mod head;
-pub mod instants;
 mod limited;
 pub mod mcap;
 pub mod mend;
 pub mod name;
+pub mod pictures;
 pub mod read;
 mod recorder;
 #[cfg(feature = "rerun")]

@@ -19,14 +19,12 @@ mod out;
 pub mod rounded;
 mod seen;
 
-use self::names::{
-    CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path,
-};
 use self::crowd::{Drawn, drawn_as};
 use self::live::Live;
+use self::names::{CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path};
 use self::out::{Appended, Out, Sink, Times, times};
 use self::seen::{Seen, log_part};
-use super::instants::{Instants, Pictures};
+use super::pictures::{Pictured, Pictures};
 use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, norm};
 use super::schema::{self, MOST_CONTACTS};
 use super::{RecordError, Recorder};
@@ -151,7 +149,7 @@ impl RerunRecorder {
         self.out.sink.finish()
     }
 
-    fn poses(&mut self, instants: &Instants) -> Appended {
+    fn poses(&mut self, instants: &Pictured) -> Appended {
         if instants.bodies.is_empty() {
             return Ok(());
         }
@@ -246,8 +244,7 @@ impl Recorder for RerunRecorder {
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        let logged =
-            self.out.events(std::slice::from_ref(event)).and_then(|()| self.out.sink.flush());
+        let logged = self.out.events(std::slice::from_ref(event)).and_then(|()| self.out.sink.flush());
         logged.map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 

@@ -120,8 +120,8 @@ impl Header {
     }
 }
 
-/// Drawing of forces: in proportion, up to a length that stays in the picture. The force of an impact, its impulse over one step,
-/// can be thousands of weights; the numbers beside the picture are whole.
+/// Drawing of forces: in proportion, up to a length that stays in the picture. The force of an impact, its impulse over
+/// one step, can be thousands of weights; the numbers beside the picture are whole.
 #[derive(Clone, Copy, Debug)]
 pub struct ForceArrows {
     pub m_per_n: f64,
@@ -276,7 +276,9 @@ impl Batch {
             () if ![self.acted_s.len(), self.acted_len.len(), self.by_rate.len()].into_iter().all(is_none_or_all) => {
                 Err("a batch says of all its samples or of none when their contacts act and why they are there")
             }
-            () if self.acted.len() as u64 != acted => Err("a batch's bodies where contacts act differ from their counts"),
+            () if self.acted.len() as u64 != acted => {
+                Err("a batch's bodies where contacts act differ from their counts")
+            }
             () if self.energy.len() != on(streams.energy, samples) => {
                 Err("a batch needs one energy a sample when energy is on, none when it is off")
             }

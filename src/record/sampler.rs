@@ -152,8 +152,8 @@ impl Sampler {
         }
     }
 
-    /// Adds a sample; `contacts` are those of the step that led to `state`, and act at `acted`. One that is there `by_rate`
-    /// alone may be left out where a file becomes too large.
+    /// Adds a sample; `contacts` are those of the step that led to `state`, and act at `acted`. One that is there
+    /// `by_rate` alone may be left out where a file becomes too large.
     pub fn sample(
         &mut self,
         model: &Model,

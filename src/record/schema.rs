@@ -32,8 +32,8 @@ pub const VERSION: &str = "3";
 /// Version of Rerun that .rrd files are of; a viewer of the same or a later one shows them.
 pub const RERUN_VERSION: &str = "0.36.3";
 
-/// Most contacts of a sample that an .rrd draws, those with the largest forces: more make a file that no viewer opens at
-/// once. All are counted, and all are in an .mcap.
+/// Most contacts of a sample that an .rrd draws, those with the largest forces: more make a file that no viewer opens
+/// at once. All are counted, and all are in an .mcap.
 pub const MOST_CONTACTS: usize = 1_000;
 
 /// Most cases that are shown together: as many as have colours apart from each other.
@@ -51,9 +51,8 @@ pub const METADATA: &str = "gotai";
 pub const ENDING: &str = "gotai.ending";
 /// Key of the JSON in it.
 pub const ENDING_JSON: &str = "json";
-/// Folder of the bodies' surfaces among the attachments, and, with the program's name, of the record which is whose.
+/// Folder of the bodies' surfaces among the attachments, and key of which is whose, as JSON.
 pub const MESHES: &str = "meshes";
-pub const METADATA_MESHES: &str = "gotai.meshes";
 /// Name of Foxglove's layout, among the attachments and beside the recordings.
 pub const LAYOUT_FILE: &str = "gotai.foxglove-layout.json";
 

@@ -207,8 +207,8 @@ impl Target {
 }
 
 /// Starts the recordings of a case in a directory that must exist. Until `finish` a file is called
-/// `<case>.partial.<ending>`, so that a file with the name that the header gives is complete. A viewer that listens at a
-/// port of this machine shows the run too; if it does not, the run goes on without it.
+/// `<case>.partial.<ending>`, so that a file with the name that the header gives is complete. A viewer that listens at
+/// a port of this machine shows the run too; if it does not, the run goes on without it.
 ///
 /// # Errors
 /// A file cannot be made, a kind is not in this build, or there is no thread.
@@ -254,11 +254,14 @@ fn create(target: Target, path: &Path, header: &Header) -> Result<Box<dyn Record
     }
 }
 
-/// Foxglove's layout beside the recordings of a folder, once.
+/// File by which a folder of results is known.
+const PLAN: &str = "plan.json";
+
+/// Foxglove's layout beside the recordings of a folder of results, once.
 fn lay_out(recording: &Path) -> Result<(), RecordError> {
     let layout = recording.with_file_name(schema::LAYOUT_FILE);
     let all = Streams { bodies: true, contacts: true, forces: true, energy: true };
-    if layout.exists() {
+    if layout.exists() || !recording.with_file_name(PLAN).exists() {
         return Ok(());
     }
     std::fs::write(&layout, foxglove_layout::layout(all)).map_err(|error| RecordError::caused(&layout, &error))

@@ -16,7 +16,8 @@ pub struct Drawn {
     pub colour: schema::Rgb,
 }
 
-/// Entities of the bodies: one each, up to as many as have their edges drawn; of more, one for all of a shape and colour.
+/// Entities of the bodies: one each, up to as many as have their edges drawn; of more, one for all of a shape and
+/// colour.
 pub fn drawn_as(header: &Header) -> Vec<Drawn> {
     let colours = schema::BODY_COLOURS;
     let own = |(i, body): (usize, &crate::record::sample::BodyHeader)| Drawn {

@@ -3,13 +3,13 @@
 use super::camera::{Camera, camera_on, scale};
 use super::crowd::EDGED_BODIES;
 use super::head::{color, details, ground, line, surface, walls};
+use super::headline::moment;
 use super::layout::{self, Opening, Plot};
 use super::names::{CONTACT_COUNT, ENERGY, HEADLINE, LOG, LOG_ENERGY, TRAILS, WORLD, application};
-use super::headline::moment;
 use super::out::{Appended, Out, Sink, times};
 use super::seen::{Between, Room, Seen, log_part};
 use crate::record::RecordError;
-use crate::record::instants::Pictures;
+use crate::record::pictures::Pictures;
 use crate::record::read::ReadBack;
 use crate::record::sample::{Event, Header};
 use crate::record::schema::{MOST_TOGETHER, Rgb};
@@ -226,7 +226,8 @@ impl<'a> Drawn<'a> {
         }
         // Whose event it is stands in it: a log shows no colours.
         let label = &self.case.label;
-        let named = batch.events.iter().map(|event| Event { text: format!("{label}: {}", event.text), ..event.clone() });
+        let named =
+            batch.events.iter().map(|event| Event { text: format!("{label}: {}", event.text), ..event.clone() });
         out.events_at(self.below(LOG), &named.collect::<Vec<_>>())
     }
 }

@@ -3,8 +3,9 @@
 use super::camera::{Camera, camera, scale};
 use super::crowd::{Drawn, EDGED_BODIES};
 use super::names::{
-    CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, ENERGY_UNIT, FLIGHT, FORCES, FRICTION_USE, GAINS, GROUND, HEADLINE, LIMIT,
-    LOG_ENERGY_TOTAL, LOG_GAINS, SIM_TIME, STEP, STRETCH, TRAILS, WORLD, application, energy_path,
+    CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, ENERGY_UNIT, FLIGHT, FORCES, FRICTION_USE, GAINS,
+    GROUND, HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, SIM_TIME, STEP, STRETCH, TRAILS, WORLD, application,
+    energy_path,
 };
 use super::seen::{Seen, log_part};
 use super::{headline, layout};

@@ -5,8 +5,8 @@
 
 use super::camera::{Camera, rounded, scale, spacing_m};
 use super::names::{
-    CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FLIGHT, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION, SIM_TIME,
-    application, body_path,
+    CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FLIGHT, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION,
+    SIM_TIME, application, body_path,
 };
 use super::seen::{Between, Seen};
 use crate::record::sample::{Ending, Header, norm};
@@ -122,7 +122,8 @@ impl Opening {
 
         // The public interface only sends a layout through a recording's stream; the recording is thrown away.
         let (stream, memory) = RecordingStreamBuilder::new(application).enabled(true).memory()?;
-        blueprint(scene, energy, contacts, [has_config, has_flight], stretch_s).send(&stream, BlueprintActivation::default())?;
+        blueprint(scene, energy, contacts, [has_config, has_flight], stretch_s)
+            .send(&stream, BlueprintActivation::default())?;
         let mut messages = memory.take();
         let recording = memory.store_id();
         messages.retain(|message| Some(message.store_id()) != recording.as_ref());
@@ -251,7 +252,9 @@ fn energy_plot(header: &Header, known: Option<Known<'_>>) -> Option<Plot> {
 
 /// The plot of energies' logarithms.
 pub fn log_energy_plot() -> Plot {
-    Plot { name: "energy: log₁₀ E / E₀".to_string(), path: LOG_ENERGY, range: None, legend: Some(Corner2D::LeftTop) }
+    Plot {
+        name: "energy: log₁₀ E / E₀".to_string(), path: LOG_ENERGY, range: None, legend: Some(Corner2D::LeftTop)
+    }
 }
 
 /// Range of the logarithms, with the limit of divergence in it; None where they say less than the energies themselves.

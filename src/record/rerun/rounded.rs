@@ -1,4 +1,5 @@
-//! Reader of .rrd files of ours: what is drawn and plotted, positions rounded to f32. Numbers for programs are in an .mcap.
+//! Reader of .rrd files of ours: what is drawn and plotted, positions rounded to f32. Numbers for programs are in an
+//! .mcap.
 
 use super::mend::messages;
 use super::names::{BODIES, ENERGY, ENERGY_UNIT, LOG, PENETRATION, SIM_TIME, STEP};
@@ -112,7 +113,8 @@ fn bodies(chunks: &[Chunk]) -> Vec<String> {
     let translation = Transform3D::descriptor_translation().component;
     for chunk in chunks.iter().filter(|chunk| chunk.components_identifiers().any(|name| name == translation)) {
         let entity = chunk.entity_path().to_string();
-        let name = entity.strip_prefix(BODIES).and_then(|rest| rest.strip_prefix('/')).map(|name| name.replace('\\', ""));
+        let name =
+            entity.strip_prefix(BODIES).and_then(|rest| rest.strip_prefix('/')).map(|name| name.replace('\\', ""));
         bodies.extend(name.filter(|name| !bodies.contains(name)));
     }
     bodies

@@ -1,14 +1,14 @@
-//! Instants of a picture: contacts and the bodies that they act on stand in it at one time.
+//! Pictured of a picture: contacts and the bodies that they act on stand in it at one time.
 //!
-//! A step's contacts act at its beginning, or within it, and the bodies move on afterwards: a sample, which is the end of
-//! its step, shows neither where a contact was nor what it pushed.
+//! A step's contacts act at its beginning, or within it, and the bodies move on afterwards: a sample, which is the end
+//! of its step, shows neither where a contact was nor what it pushed.
 
 use super::sample::Batch;
 use crate::rows::BodyRow;
 
-/// Instants of a batch, in the order of its samples.
+/// Pictured of a batch, in the order of its samples.
 #[derive(Default)]
-pub struct Instants {
+pub struct Pictured {
     /// Step and time of every picture of the bodies.
     pub step: Vec<u64>,
     pub time_s: Vec<f64>,
@@ -29,8 +29,8 @@ pub struct Pictures {
 
 impl Pictures {
     /// The pictures of a batch: the bodies where contacts act on them, and samples without contacts as they are.
-    pub fn of(&mut self, batch: &Batch) -> Instants {
-        let mut all = Instants::default();
+    pub fn of(&mut self, batch: &Batch) -> Pictured {
+        let mut all = Pictured::default();
         for sample in batch.samples() {
             let own = (sample.step, sample.time_s);
             let follows = sample.acted_s == self.last.1 && self.last.1 < sample.time_s;
@@ -56,13 +56,13 @@ impl Pictures {
     }
 
     /// The last picture: the end of the run, if it is not shown yet.
-    pub fn end(&mut self) -> Instants {
-        let mut all = Instants::default();
+    pub fn end(&mut self) -> Pictured {
+        let mut all = Pictured::default();
         self.show_hidden(&mut all);
         all
     }
 
-    fn show_hidden(&mut self, all: &mut Instants) {
+    fn show_hidden(&mut self, all: &mut Pictured) {
         if !self.hidden.is_empty() {
             show(all, self.last, &self.hidden);
             self.hidden.clear();
@@ -70,7 +70,7 @@ impl Pictures {
     }
 }
 
-fn show(all: &mut Instants, (step, time_s): (u64, f64), bodies: &[BodyRow]) {
+fn show(all: &mut Pictured, (step, time_s): (u64, f64), bodies: &[BodyRow]) {
     all.step.push(step);
     all.time_s.push(time_s);
     all.bodies.extend_from_slice(bodies);

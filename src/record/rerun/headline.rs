@@ -136,7 +136,8 @@ pub fn flight_page(flight: &Flight) -> String {
     let gained: Vec<&FlightContact> = contacts.iter().filter(|contact| contact.given_j > 0.0).collect();
     let mut page = format!(
         "# The step that gained most: step {step}, contacts at {}\n\n{contacts_count} contact{} gave {} J in {} s; {} \
-         of them gave some. A contact gives p·½(b + u⁺), p = F Δt; what slides, sticks or comes to rest takes energy.\n\n",
+         of them gave some. A contact gives p·½(b + u⁺), p = F Δt; what slides, sticks or comes to rest takes \
+         energy.\n\n",
         moment(*time_s),
         if *contacts_count == 1 { "" } else { "s" },
         brief(*given_j),

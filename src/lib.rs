@@ -26,6 +26,7 @@ pub mod deadline;
 pub mod digest;
 pub mod files;
 pub mod heading;
+pub mod interrupt;
 pub mod math;
 pub mod outcome;
 mod panics;

@@ -45,10 +45,12 @@ pub enum Criterion {
     Painleve,
     /// Limit of `limits:` that is used up.
     Limit,
+    /// A signal: the run was to end at once.
+    Interrupted,
 }
 
 impl Criterion {
-    pub const ALL: [Criterion; 8] = [
+    pub const ALL: [Criterion; 9] = [
         Criterion::NotFinite,
         Criterion::Energy,
         Criterion::Escape,
@@ -57,6 +59,7 @@ impl Criterion {
         Criterion::NotConverged,
         Criterion::Painleve,
         Criterion::Limit,
+        Criterion::Interrupted,
     ];
 
     pub fn name(self) -> &'static str {
@@ -69,6 +72,7 @@ impl Criterion {
             Criterion::NotConverged => "not-converged",
             Criterion::Painleve => "painleve",
             Criterion::Limit => "limit",
+            Criterion::Interrupted => "interrupted",
         }
     }
 }

@@ -5,7 +5,7 @@ use super::error::CliError;
 use super::ghosts::REPLAYS;
 use super::output::print;
 use crate::files::{FileError, make_folder, write_whole};
-use crate::record::read::recording_of;
+use crate::record::read::{ReadBack, recording_of};
 use crate::record::series::{SeriesTable, TABLES, tables};
 use crate::record::writer::Target;
 use crate::sweep::folder::Folder;
@@ -21,6 +21,9 @@ pub struct Command {
     /// Kind of table
     #[arg(long, value_enum, default_value_t = Kind::Csv)]
     format: Kind,
+    /// Take an .rrd too, whose positions are rounded and which has no velocities, no contacts' numbers
+    #[arg(long)]
+    rounded: bool,
     /// Folder for the tables [default: beside the recording]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -59,7 +62,7 @@ impl Command {
             Kind::Parquet => "parquet",
         };
         let file_of = |table: &str| dir.join(format!("{name}.{table}.{ending}"));
-        let found = recording_of(path)?;
+        let found = if is_rrd(path) { rounded(path)? } else { recording_of(path)? };
         let made: Vec<SeriesTable> = found.iter().flat_map(tables).filter(|table| !table.is_empty()).collect();
         // Older tables that this file does not make anew would stand as if they were of it.
         for table in TABLES.iter().filter(|name| made.iter().all(|table| table.name != **name)) {
@@ -117,15 +120,40 @@ impl Command {
         if !path.is_file() {
             return Err(CliError::Input(format!("{}: expected a recording, found no such file", path.display())));
         }
-        if path.extension().is_some_and(|ending| ending == Target::Rerun.extension()) {
+        if is_rrd(path) && !self.rounded {
             return Err(CliError::Input(format!(
-                "{}: expected an .mcap, found an .rrd, whose positions are rounded; export the .mcap beside it, or \
-                 record one with --record mcap",
+                "{}: expected an .mcap, found an .rrd, whose positions are rounded; export the .mcap beside it, record \
+                 one with --record mcap, or take what there is with --rounded",
                 path.display()
             )));
         }
         Ok(path.clone())
     }
+}
+
+fn is_rrd(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == Target::Rerun.extension())
+}
+
+/// What an .rrd of ours shows.
+#[cfg(feature = "rerun")]
+fn rounded(path: &Path) -> Result<Option<ReadBack>, CliError> {
+    use crate::record::rerun::{mend, rounded};
+    if !mend::is_recording(path)? {
+        return Ok(None);
+    }
+    let cut = mend::is_cut(path)?;
+    Ok(rounded::rounded(path)?.map(|found| ReadBack {
+        is_cut: cut,
+        // The end of the run is in its page, which is no number.
+        said: [("outcome".to_string(), String::new())].into(),
+        ..found
+    }))
+}
+
+#[cfg(not(feature = "rerun"))]
+fn rounded(_: &Path) -> Result<Option<ReadBack>, CliError> {
+    Err(CliError::Input("this gotai was built without Rerun (cargo feature `rerun`)".into()))
 }
 
 /// Gives an older table another name, and says so.

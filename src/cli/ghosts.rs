@@ -12,12 +12,14 @@ use crate::record::sample::Header;
 use crate::record::schema::{self, label};
 use crate::record::writer::Target;
 use crate::rows::Row;
+use crate::run::ticks::ticks;
 use crate::study::Place;
 use crate::sweep::build::build;
 use crate::sweep::folder::Folder;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::runner::run_case;
 pub(super) use crate::sweep::unneeded::REPLAYS;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// Cases that are shown together.
@@ -81,6 +83,23 @@ impl Ghosts {
         Self::of_files(&files.collect::<Result<Vec<_>, _>>()?)
     }
 
+    /// Writes a recording that is alone as its run would have: with all that it opens with.
+    ///
+    /// # Errors
+    /// The machine failed, or this build has no Rerun.
+    pub(super) fn write_whole(mut self, dir: &Path) -> Result<PathBuf, CliError> {
+        let is_whole = |(_, _, recording): &(String, Header, ReadBack)| recording.ending.is_some() || recording.is_cut;
+        if self.cases.len() != 1 || !self.cases.iter().all(is_whole) {
+            return self.write(dir);
+        }
+        make_folder(dir)?;
+        let Some((label, header, recording)) = self.cases.pop() else { return self.write(dir) };
+        let name = RecordingName::new(&["view".to_string(), label], &sha256(&header.case, 4)).begun();
+        let path = Target::Rerun.path(dir, &name);
+        write_alone(&path, &header, &recording).inspect_err(|_| forget(&path))?;
+        Ok(path)
+    }
+
     /// Writes them into one .rrd in a folder; returns its path.
     ///
     /// # Errors
@@ -92,9 +111,23 @@ impl Ghosts {
         let values: Vec<String> = std::iter::once(word.to_string()).chain(labels).collect();
         let ids: Vec<&str> = self.cases.iter().map(|(_, header, _)| header.case.as_str()).collect();
         let path = Target::Rerun.path(dir, &RecordingName::new(&values, &sha256(ids.join(" "), 4)).begun());
-        write_into(&path, self)?;
+        write_into(&path, self).inspect_err(|_| forget(&path))?;
         Ok(path)
     }
+}
+
+/// Drops what could not be written to its end: nobody is to take it for a recording.
+pub(super) fn forget(path: &Path) {
+    // The first error is the one to tell.
+    let _ = std::fs::remove_file(path);
+}
+
+/// A folder itself if files can be made in it, else one for what is made for a while.
+pub(super) fn writable(dir: &Path) -> PathBuf {
+    let probe = dir.join(format!(".gotai-{}", std::process::id()));
+    let can_write = make_folder(dir).is_ok() && std::fs::write(&probe, "").is_ok();
+    let _ = std::fs::remove_file(&probe);
+    if can_write { dir.to_path_buf() } else { std::env::temp_dir().join("gotai-views") }
 }
 
 #[cfg(feature = "rerun")]
@@ -102,6 +135,24 @@ fn write_into(path: &Path, ghosts: Ghosts) -> Result<(), CliError> {
     use crate::record::rerun::ghosts::{GhostCase, write_ghosts};
     let cases = ghosts.cases.into_iter().map(|(label, header, recording)| GhostCase { label, header, recording });
     Ok(write_ghosts(path, &ghosts.differing, &cases.collect::<Vec<_>>())?)
+}
+
+#[cfg(feature = "rerun")]
+fn write_alone(path: &Path, header: &Header, recording: &ReadBack) -> Result<(), CliError> {
+    use crate::record::Recorder;
+    use crate::record::rerun::RerunRecorder;
+    let mut file = RerunRecorder::create(path, header)?;
+    file.write(&recording.samples)?;
+    match &recording.ending {
+        Some(ending) => Box::new(file).finish(ending)?,
+        None => file.leave()?,
+    }
+    Ok(())
+}
+
+#[cfg(not(feature = "rerun"))]
+fn write_alone(path: &Path, _: &Header, _: &ReadBack) -> Result<(), CliError> {
+    Err(CliError::Input(format!("{}: this gotai was built without Rerun (cargo feature `rerun`)", path.display())))
 }
 
 #[cfg(not(feature = "rerun"))]
@@ -116,10 +167,24 @@ fn head_of(recording: &ReadBack, path: &Path) -> Result<Header, CliError> {
     let plan = SweepPlan::single(&file)?;
     let planned = &plan.cases[0];
     let (model, start) = build(&file, &planned.point, &planned.case.experiment)?;
-    let clock = planned.case.experiment.clock();
+    let clock = ticks(&planned.case.experiment);
     let mut header = header(&planned.case, &planned.name, &model, &start, &clock);
-    if let Some(case) = recording.said.get("case") {
-        header.case.clone_from(case);
+    // What the sweep knew, of which its case alone knows nothing.
+    let said = |key: &str| recording.said.get(key);
+    for (field, key) in [
+        (&mut header.case, "case"),
+        (&mut header.title, "title"),
+        (&mut header.method, "method"),
+        (&mut header.program, "program"),
+        (&mut header.build, "build"),
+    ] {
+        said(key).into_iter().for_each(|text| field.clone_from(text));
+    }
+    let axes = said(schema::AXES).and_then(|text| serde_json::from_str::<Vec<String>>(text).ok()).unwrap_or_default();
+    let value = |text: &String| serde_json::from_str(text).unwrap_or_else(|_| Value::from(text.as_str()));
+    header.axes = axes.iter().filter_map(|path| Some((path.clone(), value(said(path)?)))).collect();
+    if let Some(name) = said("name").and_then(|name| RecordingName::parse(name)) {
+        header.name = name;
     }
     Ok(header)
 }

@@ -2,6 +2,7 @@
 
 use super::cut::ends_at;
 use super::error::CliError;
+use super::ghosts::forget;
 use super::output::print;
 use crate::record::mend::{Whole, mend_mcap};
 use crate::record::writer::Target;
@@ -34,8 +35,8 @@ impl Command {
             return Err(CliError::Input(format!("--out {}: expected another file than the torn one", out.display())));
         }
         let mended = match Target::ALL.into_iter().find(|target| target.extension() == ending) {
-            Some(Target::Mcap) => mend_mcap(file, &out)?,
-            Some(Target::Rerun) => mend_rrd(file, &out)?,
+            Some(Target::Mcap) => mend_mcap(file, &out).inspect_err(|_| forget(&out))?,
+            Some(Target::Rerun) => mend_rrd(file, &out).inspect_err(|_| forget(&out))?,
             None => {
                 return Err(CliError::Input(format!(
                     "{}: expected a recording (.mcap or .rrd), found another file",

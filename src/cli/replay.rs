@@ -2,6 +2,8 @@
 
 use super::args::{OutputArgs, RunArgs};
 use super::error::CliError;
+use super::interrupted;
+use super::live;
 use super::output::{print, print_json};
 use super::remarks::{Remarks, Seen};
 use super::shown::{document, say_where, summary};
@@ -12,7 +14,7 @@ use crate::files::{self, FileError, make_folder};
 use crate::outcome::Outcome;
 use crate::rows::columns::is_beside_the_run;
 use crate::rows::{Measured, cells};
-use crate::study::Place;
+use crate::study::{Place, Recording};
 use crate::sweep::build::build;
 use crate::sweep::folder::Folder;
 use crate::sweep::journal::{Entry, open_alone};
@@ -31,7 +33,13 @@ struct Differing {
     replay: Value,
 }
 
-pub(super) fn replay(dir: &Path, id: &str, run: &RunArgs, output: OutputArgs) -> Result<ExitCode, CliError> {
+pub(super) fn replay(
+    dir: &Path,
+    id: &str,
+    run: &RunArgs,
+    output: OutputArgs,
+    live: Option<u16>,
+) -> Result<ExitCode, CliError> {
     let folder = Folder::read(dir)?;
     let found = find(&folder, id)?;
     let row = folder.journal.rows.get(&found.case.id);
@@ -40,7 +48,11 @@ pub(super) fn replay(dir: &Path, id: &str, run: &RunArgs, output: OutputArgs) ->
     let (model, start) = build(&folder.file, &planned.point, &planned.case.experiment)?;
     let replays = dir.join(REPLAYS);
     let _alone = (!targets.is_empty()).then(|| Alone::with(&replays, &planned.case.id)).transpose()?;
-    let place = Place { references: Some(dir), recording: planned.recording(&replays, &targets) };
+    let live = live.and_then(|port| live::viewer(port, output.quiet));
+    let recording = Recording { dir: &replays, targets: &targets, case: &planned.case, name: &planned.name, live };
+    let recording = (!targets.is_empty() || live.is_some()).then_some(recording);
+    interrupted::listen()?;
+    let place = Place { references: Some(dir), recording };
     let (ended, written) = run_case(&planned.case, &model, start, &place);
     let differing = row.map_or(Vec::new(), |row| differing(&row.measured, &ended.measured));
     let name = planned.name.ended(ended.measured.outcome);
@@ -61,6 +73,9 @@ pub(super) fn replay(dir: &Path, id: &str, run: &RunArgs, output: OutputArgs) ->
     written?;
     if !output.quiet {
         say_where(&replays, &name, &targets);
+    }
+    if let Some(code) = interrupted::code(ended.state.time_s) {
+        return Ok(code);
     }
     let is_ours = row.is_some_and(|row| row.build == BUILD) && planned.case.experiment.limits.wall_s.is_none();
     if is_ours && !differing.is_empty() {

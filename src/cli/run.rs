@@ -3,6 +3,8 @@
 use super::args::{ExperimentArgs, OutputArgs, RunArgs};
 use super::error::CliError;
 use super::ghosts::Ghosts;
+use super::interrupted;
+use super::live;
 use super::output::{print, print_json};
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen, table_of};
@@ -17,7 +19,7 @@ use crate::record::read::experiment_of;
 use crate::record::schema::text;
 use crate::record::writer::Target;
 use crate::rows::cells;
-use crate::study::{Place, reference};
+use crate::study::{Place, Recording, reference};
 use crate::sweep::build::build;
 use crate::sweep::folder::Folder;
 use crate::sweep::plan::SweepPlan;
@@ -41,6 +43,9 @@ pub struct Command {
     run: RunArgs,
     #[command(flatten)]
     output: OutputArgs,
+    /// Show the run in a Rerun Viewer on this machine while it goes on: in one that listens, or a new one
+    #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true, default_missing_value = "9876")]
+    live: Option<u16>,
 }
 
 impl Command {
@@ -52,7 +57,7 @@ impl Command {
         match &self.case {
             Some(id) => {
                 self.refuse_beside_case()?;
-                replay(&self.config, id, &self.run, self.output)
+                replay(&self.config, id, &self.run, self.output, self.live)
             }
             None => self.run_experiment(),
         }
@@ -71,6 +76,9 @@ impl Command {
 
     fn run_experiment(&self) -> Result<ExitCode, CliError> {
         if let Some(axis) = self.experiment.first_axis() {
+            if self.live.is_some() {
+                return Err(CliError::Input(format!("--live: expected one run, found the axis {axis}")));
+            }
             return self.run_together(axis);
         }
         let file = self.load()?;
@@ -93,7 +101,11 @@ impl Command {
             reference::of(&dir, &case.experiment, &model, &start)?;
             bar.end();
         }
-        let place = Place { references: Some(&dir), recording: planned.recording(&dir, &targets) };
+        let live = self.live.and_then(|port| live::viewer(port, self.output.quiet));
+        let recording = Recording { dir: &dir, targets: &targets, case, name: &planned.name, live };
+        let recording = (!targets.is_empty() || live.is_some()).then_some(recording);
+        interrupted::listen()?;
+        let place = Place { references: Some(&dir), recording };
         let (ended, kept) = run_one(case, &model, start, &place, &mut store);
         let name = planned.name.ended(ended.measured.outcome);
         let remarks = Remarks::about(&[Seen::of(&cells(&ended.measured), &case.experiment)], &[table_of(&dir)]);
@@ -107,6 +119,10 @@ impl Command {
         kept?;
         if !self.output.quiet {
             say_where(&dir, &name, &targets);
+            live.iter().for_each(|port| live::say_if_gone(*port));
+        }
+        if let Some(code) = interrupted::code(ended.state.time_s) {
+            return Ok(code);
         }
         Ok(ExitCode::from(u8::from(ended.measured.outcome == Outcome::Failed)))
     }

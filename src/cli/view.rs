@@ -2,6 +2,7 @@
 
 use super::cut::{no_recording, warn_of_end};
 use super::error::CliError;
+use super::frames::FilmArgs;
 use super::ghosts::{self, Ghosts};
 use super::rows::{filter, takes};
 use super::viewer::Viewer;
@@ -24,8 +25,16 @@ pub struct Command {
     #[arg(long = "where", value_name = "COLUMN=VALUE")]
     filters: Vec<String>,
     /// Return when the viewer is closed, not when it runs
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["gif", "frames"])]
     wait: bool,
+    /// Write what the viewer shows as a moving picture, and open no window
+    #[arg(long, value_name = "FILE")]
+    gif: Option<PathBuf>,
+    /// Write what the viewer shows as PNGs into a folder, and open no window
+    #[arg(long, value_name = "DIR")]
+    frames: Option<PathBuf>,
+    #[command(flatten)]
+    film: FilmArgs,
     /// Nothing on stderr but warnings and errors
     #[arg(long)]
     quiet: bool,
@@ -39,6 +48,15 @@ impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
         let files = self.files()?;
         let viewer = Viewer::find(self.quiet)?;
+        if self.gif.is_some() || self.frames.is_some() {
+            let [file] = files.as_slice() else {
+                return Err(CliError::Input(
+                    "--gif, --frames: expected one recording, or .mcap files of several".into(),
+                ));
+            };
+            self.film.make(&viewer, file, self.gif.as_deref(), self.frames.as_deref(), self.quiet)?;
+            return Ok(ExitCode::SUCCESS);
+        }
         if !self.quiet {
             for file in &files {
                 eprintln!("opening {}", file.display());
@@ -126,7 +144,7 @@ fn of_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
     match sources {
         Some(sources) => {
             let dir = paths[0].parent().unwrap_or(Path::new(".")).to_path_buf();
-            Ok(vec![Ghosts::of_files(&sources)?.write(&dir)?])
+            Ok(vec![Ghosts::of_files(&sources)?.write(&ghosts::writable(&dir))?])
         }
         // The viewer shows them one after the other.
         None => Ok(paths.to_vec()),
@@ -137,7 +155,7 @@ fn of_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
 fn shown(file: PathBuf, dir: &Path) -> Result<PathBuf, CliError> {
     let is_mcap = file.extension().is_some_and(|ending| ending == Target::Mcap.extension());
     if is_mcap && Target::AVAILABLE.contains(&Target::Rerun) {
-        return Ghosts::of_files(&[file])?.write(dir);
+        return Ghosts::of_files(&[file])?.write_whole(&ghosts::writable(dir));
     }
     Ok(file)
 }

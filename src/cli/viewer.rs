@@ -9,6 +9,8 @@ use std::time::{Duration, Instant};
 
 /// Names another viewer than the one on the PATH.
 const VARIABLE: &str = "GOTAI_VIEWER";
+/// Viewers listen for this machine alone.
+const LOOPBACK: &str = "127.0.0.1";
 /// The version that recordings are of.
 const INSTALL: &str = "install it with `pip install rerun-sdk==0.36.3`";
 /// Time in which a viewer that cannot open a window gives up.
@@ -59,6 +61,44 @@ impl Viewer {
         Ok(Viewer { program })
     }
 
+    /// Starts a viewer that listens at a port of this machine.
+    ///
+    /// # Errors
+    /// It cannot be started.
+    pub(super) fn listen(&self, port: u16) -> Result<Child, CliError> {
+        self.started(&["--port", &port.to_string(), "--bind", LOOPBACK])
+    }
+
+    /// Starts a viewer without a window that shows files and obeys at a port of this machine.
+    ///
+    /// # Errors
+    /// It cannot be started.
+    pub(super) fn headless(&self, files: &[PathBuf], port: u16, size: &str) -> Result<Child, CliError> {
+        let port = port.to_string();
+        let mut arguments = vec!["--headless", "--port", &port, "--bind", LOOPBACK, "--window-size", size];
+        let files: Vec<String> = files.iter().map(|file| file.to_string_lossy().into_owned()).collect();
+        arguments.extend(files.iter().map(String::as_str));
+        self.started(&arguments)
+    }
+
+    /// The server that steers a viewer; it speaks JSON, a line each.
+    ///
+    /// # Errors
+    /// It cannot be started.
+    pub(super) fn steering(&self) -> Result<Child, CliError> {
+        let mut command = Command::new(&self.program);
+        command.arg("viewer-mcp").stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
+        own_group(&mut command);
+        command.spawn().map_err(|error| CliError::Machine(format!("{}: {error}", self.program.display())))
+    }
+
+    fn started(&self, arguments: &[&str]) -> Result<Child, CliError> {
+        let mut command = Command::new(&self.program);
+        command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        own_group(&mut command);
+        command.spawn().map_err(|error| CliError::Machine(format!("{}: {error}", self.program.display())))
+    }
+
     /// Opens files, and returns once the viewer runs, or, asked to wait, when it is closed.
     ///
     /// # Errors
@@ -67,8 +107,7 @@ impl Viewer {
         let failed = |reason: String| CliError::Machine(format!("{}: {reason}", self.program.display()));
         let mut command = Command::new(&self.program);
         command.args(files).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        own_group(&mut command);
         let mut child = command.spawn().map_err(|error| failed(error.to_string()))?;
         let code = if wait { child.wait().map(Some) } else { ended_within(&mut child, MOMENT) };
         match code.map_err(|error| failed(error.to_string()))? {
@@ -78,6 +117,14 @@ impl Viewer {
             _ => Ok(()),
         }
     }
+}
+
+/// Gives a program a group of processes of its own: Ctrl-C does not end it, and all of it can be ended at once.
+fn own_group(command: &mut Command) {
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(command, 0);
+    #[cfg(not(unix))]
+    let _ = command;
 }
 
 fn ended_within(child: &mut Child, time: Duration) -> std::io::Result<Option<std::process::ExitStatus>> {

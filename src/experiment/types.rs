@@ -100,12 +100,23 @@ pub struct Record {
     pub every_s: f64,
     pub cases: RecordCases,
     pub streams: Vec<Stream>,
+    /// Largest file of a recording, in megabytes. (Written where it is another than the default: ids of cases and older
+    /// files know nothing of it.)
+    #[serde(skip_serializing_if = "is_usual_size")]
+    pub max_mb: f64,
+}
+
+/// Megabytes of a recording that a viewer opens at once.
+const USUAL_MB: f64 = 32.0;
+
+fn is_usual_size(max_mb: &f64) -> bool {
+    *max_mb == USUAL_MB
 }
 
 impl Default for Record {
     /// A sampling rate of 100 Hz: above every display's rate, small beside the step count of an accurate run.
     fn default() -> Self {
-        Record { to: None, every_s: 0.01, cases: RecordCases::Few, streams: Stream::ALL.to_vec() }
+        Record { to: None, every_s: 0.01, cases: RecordCases::Few, streams: Stream::ALL.to_vec(), max_mb: USUAL_MB }
     }
 }
 

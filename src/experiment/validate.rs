@@ -286,6 +286,7 @@ fn validate_limits(limits: &Limits, at: Path) -> Result<()> {
 
 fn validate_record(record: &Record, at: Path) -> Result<()> {
     not_negative(record.every_s, at.key("every_s"))?;
+    positive(record.max_mb, at.key("max_mb"))?;
     match record.cases {
         RecordCases::Sample(count) => at_least_one(count, at.key("cases").key("sample")),
         _ => Ok(()),

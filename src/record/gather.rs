@@ -17,7 +17,7 @@ pub struct Gatherer {
 }
 
 impl Gatherer {
-    /// In front of a file of so many bodies.
+    /// In front of a file of so many entities of bodies.
     pub fn new(file: Box<dyn Recorder>, bodies: usize) -> Self {
         Gatherer { file, pending: Batch::default(), waiting: 0, most: bodies / BODIES, begun: false }
     }
@@ -48,6 +48,10 @@ impl Recorder for Gatherer {
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
         self.write_pending()?;
         self.file.event(event)
+    }
+
+    fn bytes(&self) -> u64 {
+        self.file.bytes()
     }
 
     fn finish(mut self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {

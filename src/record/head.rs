@@ -8,16 +8,19 @@ use crate::case::Case;
 use crate::clock::Clock;
 use crate::experiment::to_yaml;
 use crate::experiment::types::{Container, ContainerBox, Plane};
+use crate::measure::energy::Energy;
 use crate::model::pins::{Anchor, Pin};
 use crate::model::{Body, Geometry, Model};
 use crate::shape::solid::Solid;
 use crate::state::State;
 use nalgebra::{Matrix3, Vector3};
+use std::collections::BTreeMap;
 
 pub fn header(case: &Case, name: &RecordingName, model: &Model, start: &State, clock: &Clock) -> Header {
     let record = &case.experiment.record;
     let container = case.experiment.scene.container.as_ref();
-    let (arrow_m_per_n, arrow_weight_n) = arrow(model);
+    let arrow_longest_m = arrow_longest_m(model, start);
+    let (arrow_m_per_n, arrow_weight_n) = arrow(model, arrow_longest_m);
     Header {
         case: case.id.clone(),
         name: name.clone(),
@@ -37,8 +40,38 @@ pub fn header(case: &Case, name: &RecordingName, model: &Model, start: &State, c
         ground: ground(model, start, clock),
         arrow_m_per_n,
         arrow_weight_n,
+        arrow_longest_m,
+        energy_unit: energy_unit(model, start),
+        end_s: clock.end_s,
+        most_bytes: (record.max_mb * 1e6) as u64,
         energy_factor: case.experiment.diverge.energy_factor,
     }
+}
+
+/// Unit in which energies are plotted: joules where their size is usual.
+fn energy_unit(model: &Model, start: &State) -> (&'static str, f64) {
+    const UNITS: [(&str, f64); 12] = [
+        ("fJ", 1e-15),
+        ("pJ", 1e-12),
+        ("nJ", 1e-9),
+        ("µJ", 1e-6),
+        ("mJ", 1e-3),
+        ("J", 1.0),
+        ("kJ", 1e3),
+        ("MJ", 1e6),
+        ("GJ", 1e9),
+        ("TJ", 1e12),
+        ("PJ", 1e15),
+        ("EJ", 1e18),
+    ];
+    /// Sizes of an energy that an axis is labelled with in few characters.
+    const USUAL_J: std::ops::Range<f64> = 1e-3..1e6;
+    let energy = Energy::of(model, start);
+    let size_j = energy.kinetic_j.abs().max(energy.potential_j.abs());
+    if !(size_j > 0.0 && size_j.is_finite()) || USUAL_J.contains(&size_j) {
+        return ("J", 1.0);
+    }
+    UNITS.into_iter().rev().find(|(_, unit_j)| *unit_j <= size_j).unwrap_or(UNITS[0])
 }
 
 fn title(case: &Case) -> String {
@@ -49,20 +82,28 @@ fn title(case: &Case) -> String {
 
 fn body_header(model: &Model, i: usize, start: &State, clock: &Clock) -> BodyHeader {
     let body = &model.bodies[i];
-    let (mut vertices, mut triangles) = body.surface();
+    let pins_m: Vec<[f64; 3]> = model.pins.iter().flat_map(|pin| pinned_at(pin, i)).map(|r_B| r_B.into()).collect();
     let has_no_shape = matches!(body.geometry, Geometry::None);
-    if has_no_shape {
-        (vertices, triangles) = of_inertia(body).unwrap_or_else(|| {
+    let is_fine = model.bodies.len() <= FINE_BODIES;
+    let (vertices, triangles) = match &body.geometry {
+        Geometry::None => of_inertia(body, &pins_m).unwrap_or_else(|| {
             let radius_m = point_radius_m(model, i, start, clock);
-            ellipsoid(&Vector3::repeat(radius_m), &Matrix3::identity())
-        });
-    }
+            ellipsoid(&Vector3::repeat(radius_m), &Matrix3::identity(), Vector3::zeros())
+        }),
+        Geometry::Solid { solid: Solid::Sphere { radius_m }, centre } if is_fine => {
+            ellipsoid(&Vector3::repeat(*radius_m), &Matrix3::identity(), *centre)
+        }
+        Geometry::Solid { solid: Solid::Ellipsoid { semi_axes_m }, centre } if is_fine => {
+            ellipsoid(semi_axes_m, &Matrix3::identity(), *centre)
+        }
+        Geometry::Solid { .. } | Geometry::Mesh { .. } => body.surface(),
+    };
     let farthest_m = vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
     BodyHeader {
         name: body.name.clone(),
         has_no_shape,
         touches_with_nodes: matches!(body.geometry, Geometry::Mesh { .. }),
-        pins_m: model.pins.iter().flat_map(|pin| pinned_at(pin, i)).map(|r_B| r_B.into()).collect(),
+        pins_m,
         vertices_m: vertices.iter().map(|v| (*v).into()).collect(),
         triangles,
         bounding_radius_m: body.bounding_radius_m.max(farthest_m),
@@ -82,8 +123,14 @@ fn pinned_at(pin: &Pin, i: usize) -> Vec<Vector3<f64>> {
 /// Points and triangles.
 type Surface = (Vec<Vector3<f64>>, Vec<[u32; 3]>);
 
-/// Ellipsoid of the body's mass and moments of inertia; None of a point, whose moments mean nothing.
-fn of_inertia(body: &Body) -> Option<Surface> {
+/// Most bodies whose round surfaces are drawn finely.
+const FINE_BODIES: usize = 24;
+
+/// Ellipsoid of the body's mass and moments of inertia, smaller in proportion where it would hide the places that a pin
+/// holds; None of a point, whose moments mean nothing.
+fn of_inertia(body: &Body, pins_m: &[[f64; 3]]) -> Option<Surface> {
+    /// Part of the way to a pin that is drawn as body.
+    const OF_PIN: f64 = 0.75;
     if body.isotropic && body.I_B == Matrix3::identity() * body.mass_kg {
         return None;
     }
@@ -97,7 +144,11 @@ fn of_inertia(body: &Body) -> Option<Surface> {
     // A disc of no thickness, or a rod, can still be seen.
     const THINNEST: f64 = 1e-3;
     let semi_axes = squared.map(|x| x.max(THINNEST * longest).sqrt());
-    Some(ellipsoid(&semi_axes, &principal.eigenvectors))
+    // How far outside of the ellipsoid a place is: 1 on it.
+    let outside =
+        |p: &[f64; 3]| (principal.eigenvectors.transpose() * Vector3::from(*p)).component_div(&semi_axes).norm();
+    let nearest = pins_m.iter().map(outside).filter(|part| *part > 0.0).fold(f64::INFINITY, f64::min);
+    Some(ellipsoid(&(semi_axes * (OF_PIN * nearest).min(1.0)), &principal.eigenvectors, Vector3::zeros()))
 }
 
 /// Radius of the ball that a point is drawn as: a part of its pendulum, or of the way that it sets out for.
@@ -115,22 +166,55 @@ fn point_radius_m(model: &Model, i: usize, start: &State, clock: &Clock) -> f64 
 }
 
 /// An ellipsoid by its semi-axes along the columns of a matrix, as a picture has it.
-fn ellipsoid(semi_axes: &Vector3<f64>, axes: &Matrix3<f64>) -> Surface {
-    let ball = Solid::Sphere { radius_m: 1.0 };
-    let (points, triangles) = ball.triangles();
-    (points.iter().map(|p| axes * p.component_mul(semi_axes)).collect(), triangles)
+fn ellipsoid(semi_axes: &Vector3<f64>, axes: &Matrix3<f64>, centre: Vector3<f64>) -> Surface {
+    let (points, triangles) = finer(Solid::Sphere { radius_m: 1.0 }.triangles());
+    (points.iter().map(|p| axes * p.component_mul(semi_axes) + centre).collect(), triangles)
+}
+
+/// A ball of radius 1 with four triangles for each.
+fn finer((mut points, triangles): Surface) -> Surface {
+    let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+    let mut finer = Vec::with_capacity(4 * triangles.len());
+    for [a, b, c] in triangles {
+        let [ab, bc, ca] = [[a, b], [b, c], [c, a]].map(|[from, to]| {
+            *middles.entry([from.min(to), from.max(to)]).or_insert_with(|| {
+                let middle = points[from as usize] + points[to as usize];
+                points.push(middle.normalize());
+                points.len() as u32 - 1
+            })
+        });
+        finer.extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
+    }
+    (points, finer)
+}
+
+/// Longest arrow that stays in a picture of the bodies: of one body some of its radii, of several half of what they
+/// take up at the start.
+fn arrow_longest_m(model: &Model, start: &State) -> f64 {
+    const RADII: f64 = 1.5;
+    let count = start.bodies.len().max(1) as f64;
+    let middle = start.bodies.iter().map(|body| body.p_WB).sum::<Vector3<f64>>() / count;
+    let apart_m = start.bodies.iter().map(|body| (body.p_WB - middle).norm()).fold(0.0, f64::max);
+    let radius_m = model.bodies.iter().filter(|body| !body.driven).map(|body| body.bounding_radius_m);
+    (RADII * radius_m.fold(0.0, f64::max)).max(apart_m)
 }
 
 /// Length of an arrow a newton, and the weight that one as long as its body's radius stands for: that of the body
-/// whose arrows are the longest. Without gravity, a weight on Earth, which nothing says.
-fn arrow(model: &Model) -> (f64, Option<f64>) {
+/// whose arrows are the longest; shorter where the weight of all bodies together would not fit. Without gravity, a
+/// weight on Earth, which nothing says.
+fn arrow(model: &Model, longest_m: f64) -> (f64, Option<f64>) {
     const EARTH: f64 = 9.8;
     let gravity = model.gravity_m_s2.norm();
     let weighing = if gravity > 0.0 { gravity } else { EARTH };
     let per_n = |body: &Body| (body.bounding_radius_m / (body.mass_kg * weighing), body.mass_kg * weighing);
-    let longest = model.bodies.iter().map(per_n).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
+    let moving = || model.bodies.iter().filter(|body| !body.driven).map(per_n);
+    let longest = moving().fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
+    let all_n: f64 = moving().map(|(_, weight_n)| weight_n).sum();
     match longest {
-        (per_n, weight_n) if per_n > 0.0 => (per_n, (gravity > 0.0).then_some(weight_n)),
+        (per_n, weight_n) if per_n > 0.0 => {
+            let fitting = if longest_m > 0.0 { per_n.min(longest_m / all_n) } else { per_n };
+            (fitting, (gravity > 0.0).then_some(weight_n))
+        }
         _ => (1.0, None),
     }
 }

@@ -2,15 +2,17 @@
 //!
 //! Every batch ends with a complete chunk on disk, so that a kill loses no batch that was written.
 
+use super::foxglove_layout::{layout, surfaces_as_files};
 use super::name::RecordingName;
 use super::sample::{Batch, BodyHeader, Ending, EnergySample, Event, Header, Sample, Streams};
 use super::scene::{Scene, log, surfaces};
 use super::{RecordError, Recorder, schema};
+use crate::rows::BodyRow;
 use foxglove::Encode;
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, Compression, McapResult, WriteOptions};
 use prost::Message;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -39,6 +41,8 @@ pub struct McapRecorder {
     scene: Scene,
     /// Number of the last display interval that had its picture; None before the first.
     shown: Option<u64>,
+    /// Time and bodies of the last sample, which a step's contacts act on.
+    last: (f64, Vec<BodyRow>),
 }
 
 impl McapRecorder {
@@ -64,6 +68,7 @@ impl McapRecorder {
             messages: Messages::new(&header.bodies),
             scene: Scene::new(header),
             shown: None,
+            last: (f64::NAN, Vec::new()),
         })
     }
 
@@ -100,14 +105,24 @@ impl McapRecorder {
         let picture = (sample.time_s * DISPLAY_HZ) as u64;
         if self.shown.is_none_or(|shown| picture > shown) {
             self.shown = Some(picture);
-            self.picture(sample, time_ns)?;
+            self.picture(sample)?;
         }
+        self.last.0 = sample.time_s;
+        self.last.1.clear();
+        self.last.1.extend_from_slice(sample.bodies);
         Ok(())
     }
 
-    fn picture(&mut self, sample: &Sample<'_>, time_ns: u64) -> McapResult<()> {
+    /// The bodies where the contacts act on them.
+    fn picture(&mut self, sample: &Sample<'_>) -> McapResult<()> {
+        let (time_s, bodies) = match sample.acted {
+            [] if sample.acted_s == self.last.0 && !sample.contacts.is_empty() => (sample.acted_s, &self.last.1[..]),
+            [] => (sample.time_s, sample.bodies),
+            acted => (sample.acted_s, acted),
+        };
+        let time_ns = schema::time_ns(time_s);
         if let Some(channel) = self.channels.transforms {
-            self.out.send(channel, time_ns, sample.step, self.scene.transforms(sample, time_ns))?;
+            self.out.send(channel, time_ns, sample.step, self.scene.transforms(bodies, time_ns))?;
         }
         if let Some(channel) = self.channels.scene_contacts
             && let Some(update) = self.scene.contacts(sample, time_ns)
@@ -129,11 +144,20 @@ impl Recorder for McapRecorder {
         self.log(event).and_then(|()| self.out.writer.flush()).map_err(|error| RecordError::caused(&self.path, &error))
     }
 
+    fn bytes(&self) -> u64 {
+        std::fs::metadata(&self.path).map_or(0, |file| file.len())
+    }
+
     fn finish(self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {
         let McapRecorder { path, mut out, mut said, name, .. } = *self;
         said.extend(ended(&name, ending));
         let end = Metadata { name: schema::METADATA.to_owned(), metadata: said };
-        let closed = out.writer.write_metadata(&end).and_then(|()| close(out.writer));
+        // JSON of numbers and texts cannot fail.
+        let json = serde_json::to_string(ending).unwrap_or_default();
+        let whole = [(schema::ENDING_JSON.to_owned(), json)].into();
+        let whole = Metadata { name: schema::ENDING.to_owned(), metadata: whole };
+        let written = out.writer.write_metadata(&whole).and_then(|()| out.writer.write_metadata(&end));
+        let closed = written.and_then(|()| close(out.writer));
         closed.map_err(|error| RecordError::caused(&path, &error))
     }
 }
@@ -176,14 +200,11 @@ impl Out {
 
     /// Configuration, versions and channels, before the first sample.
     fn head(&mut self, header: &Header) -> McapResult<Channels> {
-        self.writer.attach(&Attachment {
-            log_time: 0,
-            // A file depends on its run alone, not on the hour.
-            create_time: 0,
-            name: schema::CONFIG_FILE.to_owned(),
-            media_type: "application/yaml".to_owned(),
-            data: Cow::Borrowed(header.config_yaml.as_bytes()),
-        })?;
+        self.attach(schema::CONFIG_FILE, "application/yaml", header.config_yaml.as_bytes())?;
+        self.attach(schema::LAYOUT_FILE, "application/json", layout(header.streams).as_bytes())?;
+        for (name, surface) in &surfaces_as_files(header).0 {
+            self.attach(name, "model/obj", surface.as_bytes())?;
+        }
         let start = Metadata { name: schema::METADATA_START.to_owned(), metadata: said(header) };
         self.writer.write_metadata(&start)?;
 
@@ -209,6 +230,17 @@ impl Out {
         let scene = self.foxglove_channel::<SceneUpdate>(schema::SCENE)?;
         let log = self.foxglove_channel::<Log>(schema::LOG)?;
         Ok(Channels { bodies, contacts, energy, transforms, scene, scene_contacts, log })
+    }
+
+    fn attach(&mut self, name: &str, media_type: &str, data: &[u8]) -> McapResult<()> {
+        self.writer.attach(&Attachment {
+            log_time: 0,
+            // A file depends on its run alone, not on the hour.
+            create_time: 0,
+            name: name.to_owned(),
+            media_type: media_type.to_owned(),
+            data: Cow::Borrowed(data),
+        })
     }
 
     fn foxglove_channel<T: Encode>(&mut self, topic: &str) -> McapResult<u16> {
@@ -239,6 +271,7 @@ fn said(header: &Header) -> BTreeMap<String, String> {
         ("schema", schema::VERSION.to_owned()),
         (schema::AXES, Value::from(header.axes.iter().map(|(path, _)| path.as_str()).collect::<Vec<_>>()).to_string()),
         ("question", header.question.clone()),
+        (schema::MESHES, json!(surfaces_as_files(header).1).to_string()),
         ("method", header.method.clone()),
         ("time", "simulated, from zero".to_owned()),
         ("up", "y in the frame world, z in the frame root".to_owned()),
@@ -260,6 +293,7 @@ fn ended(name: &RecordingName, ending: &Ending) -> impl Iterator<Item = (String,
         ("end_time_s", ending.end_time_s.to_string()),
         ("steps", ending.steps.to_string()),
         ("calm_until_s", ending.story.calm_until_s.to_string()),
+        ("left_out", ending.left_out.to_string()),
         ("stretch_s", format!("{} {}", ending.story.stretch_s[0], ending.story.stretch_s[1])),
     ];
     row.chain(known).chain(texts).map(|(key, value)| (key.to_owned(), value))
@@ -297,6 +331,12 @@ impl Messages {
         let bodies = &self.bodies.bodies;
         let name = |body: u32| bodies.get(body as usize).map_or("", |state| &state.name);
         (message.time_s, message.step) = (sample.time_s, sample.step);
+        message.acted_s = sample.acted_s;
+        message.acted.resize_with(sample.acted.len(), schema::BodyPose::default);
+        for (to, from) in message.acted.iter_mut().zip(sample.acted) {
+            set(&mut to.position_m, &from.position_m);
+            set(&mut to.orientation_xyzw, &from.orientation_xyzw);
+        }
         message.contacts.resize_with(sample.contacts.len(), schema::Contact::default);
         for (to, from) in message.contacts.iter_mut().zip(sample.contacts) {
             name(from.body).clone_into(&mut to.body);

@@ -4,12 +4,16 @@
 //! `Recorder`. `schema` names topics, fields and units once for all of them.
 
 mod effort;
+pub mod flight;
+pub mod foxglove_layout;
 #[cfg(feature = "rerun")]
 mod gather;
 pub mod head;
+mod limited;
 pub mod mcap;
 pub mod mend;
 pub mod name;
+pub mod pictures;
 pub mod read;
 mod recorder;
 #[cfg(feature = "rerun")]

@@ -38,6 +38,13 @@ impl RecordingName {
         Outcome::ALL.iter().any(|known| known.name() == outcome).then_some(values)
     }
 
+    /// The name that `ended` has made this of; None of another text.
+    pub fn parse(name: &str) -> Option<Self> {
+        let values = Self::values_of(name)?.to_string();
+        let digits = name.rsplit_once('.')?.1.to_string();
+        Some(RecordingName { values, digits })
+    }
+
     /// Name while the run goes on.
     pub fn begun(&self) -> String {
         format!("{}.{}", self.values, self.digits)

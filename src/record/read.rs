@@ -1,6 +1,6 @@
 //! Reader of recordings: what an .mcap of ours says of itself, and its samples.
 
-use super::sample::{Batch, ContactMode, ContactSample, EnergySample, Event, Severity};
+use super::sample::{Batch, ContactMode, ContactSample, Ending, EnergySample, Event, Severity};
 use super::schema;
 use crate::files::{self, FileError};
 use crate::rows::BodyRow;
@@ -20,6 +20,8 @@ pub struct ReadBack {
     pub said: BTreeMap<String, String>,
     /// The experiment, as YAML.
     pub experiment: String,
+    /// How the run ended; None of a torn recording, and of one by an older version.
+    pub ending: Option<Ending>,
     /// Names of the bodies, in the order of their states.
     pub bodies: Vec<String>,
     /// Samples in the order of time, and events. Streams that were not recorded are empty.
@@ -42,7 +44,7 @@ impl ReadBack {
 /// The file cannot be read.
 pub fn experiment_of(path: &Path) -> Result<Option<String>, FileError> {
     let bytes = files::read(path)?;
-    Ok(about(&bytes).map(|(experiment, _)| experiment))
+    Ok(about(&bytes).map(|about| about.experiment))
 }
 
 /// A recording of ours with its samples, of a torn file as many as are whole; None where it is none.
@@ -51,19 +53,29 @@ pub fn experiment_of(path: &Path) -> Result<Option<String>, FileError> {
 /// The file cannot be read.
 pub fn recording_of(path: &Path) -> Result<Option<ReadBack>, FileError> {
     let bytes = files::read(path)?;
-    let Some((experiment, said)) = about(&bytes) else { return Ok(None) };
+    let Some(about) = about(&bytes) else { return Ok(None) };
     let Some(found) = Found::in_file(&bytes) else { return Ok(None) };
-    Ok(Some(found.read_back(experiment, said)))
+    Ok(Some(found.read_back(about)))
+}
+
+/// What a file says before and after its samples.
+struct About {
+    experiment: String,
+    said: BTreeMap<String, String>,
+    ending: Option<String>,
 }
 
 /// The experiment in a file, and what it says of itself.
-fn about(bytes: &[u8]) -> Option<(String, BTreeMap<String, String>)> {
+fn about(bytes: &[u8]) -> Option<About> {
     let reader = LinearReader::new_with_options(bytes, Options::IgnoreEndMagic.into()).ok()?;
-    let (mut experiment, mut said) = (None, BTreeMap::new());
+    let (mut experiment, mut said, mut ending) = (None, BTreeMap::new(), None);
     for record in reader.map_while(Result::ok) {
         match record {
             Record::Attachment { header, data, .. } if header.name == schema::CONFIG_FILE => {
                 experiment = String::from_utf8(data.into_owned()).ok();
+            }
+            Record::Metadata(mut metadata) if metadata.name == schema::ENDING => {
+                ending = metadata.metadata.remove(schema::ENDING_JSON);
             }
             Record::Metadata(metadata) if [schema::METADATA_START, schema::METADATA].contains(&&*metadata.name) => {
                 said.extend(metadata.metadata);
@@ -71,7 +83,7 @@ fn about(bytes: &[u8]) -> Option<(String, BTreeMap<String, String>)> {
             _ => {}
         }
     }
-    Some((experiment?, said))
+    Some(About { experiment: experiment?, said, ending })
 }
 
 /// Messages of a file, by topic, in the order of the file.
@@ -106,7 +118,7 @@ impl Found {
         Some(found)
     }
 
-    fn read_back(self, experiment: String, said: BTreeMap<String, String>) -> ReadBack {
+    fn read_back(self, About { experiment, said, ending }: About) -> ReadBack {
         let names = |first: &schema::Bodies| first.bodies.iter().map(|body| body.name.clone()).collect();
         let bodies: Vec<String> = self.bodies.first().map(names).unwrap_or_default();
         // Each stream that is there has a message a sample; a torn file may lack the last of one.
@@ -121,6 +133,7 @@ impl Found {
             (0..samples).filter_map(|i| clock(i).map(|(time_s, step)| (time_s, step, i))).collect();
         // Steps that turned out to decide stand behind those that came later.
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let is_older = said.get("schema").and_then(|text| text.parse::<u32>().ok()).is_some_and(|version| version < 3);
         let mut batch = Batch { events: self.events, ..Batch::default() };
         for (time_s, step, i) in order {
             batch.time_s.push(time_s);
@@ -129,6 +142,15 @@ impl Found {
             if let Some(message) = self.contacts.get(i) {
                 batch.contacts_len.push(message.contacts.len() as u32);
                 batch.contacts.extend(message.contacts.iter().map(|contact| contact_sample(contact, &bodies)));
+                // Of an older version nothing is known but the sample.
+                let acted_s = if is_older { time_s } else { message.acted_s };
+                batch.acted_s.push(acted_s);
+                batch.acted_len.push(message.acted.len() as u32);
+                batch.acted.extend(message.acted.iter().map(|pose| BodyRow {
+                    position_m: numbers(&pose.position_m),
+                    orientation_xyzw: numbers(&pose.orientation_xyzw),
+                    ..BodyRow::default()
+                }));
             }
             batch.energy.extend(self.energies.get(i).map(|message| EnergySample {
                 kinetic_j: message.kinetic_j,
@@ -137,7 +159,8 @@ impl Found {
                 penetration_m: message.penetration_m,
             }));
         }
-        ReadBack { said, experiment, bodies, samples: batch, is_cut: self.is_cut }
+        let ending = ending.and_then(|json| serde_json::from_str(&json).ok());
+        ReadBack { said, experiment, ending, bodies, samples: batch, is_cut: self.is_cut }
     }
 }
 

@@ -17,6 +17,10 @@ pub trait Recorder: Send {
     /// # Errors
     /// The machine failed.
     fn event(&mut self, event: &Event) -> Result<(), RecordError>;
+    /// Bytes of the file that are written; 0 of what is no file.
+    fn bytes(&self) -> u64 {
+        0
+    }
     /// Says how the run ended and closes the file; without it a file is incomplete.
     ///
     /// # Errors

@@ -7,42 +7,43 @@
 //! 3-D data is f32 in this format; the plotted numbers are f64.
 
 mod camera;
+mod crowd;
 pub mod ghosts;
 mod head;
 mod headline;
 mod layout;
+pub mod live;
 pub mod mend;
 mod names;
 mod out;
+pub mod rounded;
 mod seen;
 
-use self::names::{
-    CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, body_path, energy_path,
-};
-use self::out::{Appended, Out, Times, times};
+use self::crowd::{Drawn, drawn_as};
+use self::live::Live;
+use self::names::{CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path};
+use self::out::{Appended, Out, Sink, Times, times};
 use self::seen::{Seen, log_part};
+use super::pictures::{Pictured, Pictures};
 use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, norm};
-use super::schema::{self};
+use super::schema::{self, MOST_CONTACTS};
 use super::{RecordError, Recorder};
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
-use ::rerun::{Arrows3D, Color, EntityPath, Points3D, Transform3D};
+use ::rerun::{Arrows3D, Color, InstancePoses3D, Points3D, Transform3D};
 use std::error::Error;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
-
-/// Most contacts of a sample that are drawn, those with the largest forces: more make a file that no viewer opens at
-/// once. All are counted, and all are in an .mcap.
-const MOST_CONTACTS: usize = 1_000;
 
 /// A recording as one .rrd file.
 pub struct RerunRecorder {
     path: PathBuf,
     header: Header,
     arrows: ForceArrows,
-    bodies: Vec<EntityPath>,
+    bodies: Vec<Drawn>,
     seen: Seen,
+    pictures: Pictures,
     /// Energy of the first sample, if the energies of others can be held against it.
     start_j: Option<f64>,
     out: Out,
@@ -58,44 +59,73 @@ impl RerunRecorder {
     }
 
     fn try_create(path: &Path, header: &Header) -> Result<Self, Box<dyn Error>> {
-        let bodies: Vec<_> = header.bodies.iter().map(|body| body_path(&body.name)).collect();
-        let (store, messages) = head::messages(header, &bodies)?;
         let file = BufWriter::new(File::create(path)?);
         let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file)?;
-        let mut out = Out { store, encoder };
+        Self::begin(path, header, Sink::File(encoder))
+    }
+
+    /// A recording that a viewer shows while it is made.
+    ///
+    /// # Errors
+    /// Rerun's own.
+    pub fn live(viewer: Live, header: &Header) -> Result<Self, RecordError> {
+        let path = Path::new("viewer");
+        Self::begin(path, header, Sink::Viewer(viewer)).map_err(|error| RecordError::caused(path, error.as_ref()))
+    }
+
+    fn begin(path: &Path, header: &Header, sink: Sink) -> Result<Self, Box<dyn Error>> {
+        let bodies = drawn_as(header);
+        let (store, messages) = head::messages(header, &bodies)?;
+        let mut out = Out { store, sink };
         for message in &messages {
-            out.encoder.append(message)?;
+            out.sink.append(message)?;
         }
-        out.encoder.flush_blocking()?;
+        out.sink.flush()?;
         Ok(RerunRecorder {
             path: path.to_path_buf(),
             arrows: header.force_arrows(),
             bodies,
             seen: Seen::new(header),
+            pictures: Pictures::default(),
             header: header.clone(),
             start_j: None,
             out,
         })
     }
 
+    /// Ends the file of a run of which no more is known.
+    ///
+    /// # Errors
+    /// The machine failed.
+    pub fn leave(mut self) -> Result<(), RecordError> {
+        let end = self.pictures.end();
+        let poses = if self.header.streams.bodies { self.poses(&end) } else { Ok(()) };
+        poses.and_then(|()| self.out.sink.finish()).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
+    }
+
+    /// Number of entities of bodies, each of which has a head in every batch.
+    pub fn heads(&self) -> usize {
+        self.bodies.len()
+    }
+
     fn batch(&mut self, batch: &Batch) -> Appended {
         let streams = self.header.streams;
-        batch.check(streams, self.bodies.len())?;
+        batch.check(streams, self.header.bodies.len())?;
         self.look(batch);
         if !batch.step.is_empty() {
-            let times = times(&batch.step, &batch.time_s);
+            let instants = self.pictures.of(batch);
             if streams.bodies {
-                self.poses(batch, &times)?;
+                self.poses(&instants)?;
             }
             if streams.any_contact() {
-                self.contacts(batch, &times)?;
+                self.contacts(batch, &times(&instants.contacts_step, &instants.contacts_s))?;
             }
             if streams.energy {
-                self.energies(batch, &times)?;
+                self.energies(batch, &times(&batch.step, &batch.time_s))?;
             }
         }
         self.out.events(&batch.events)?;
-        Ok(self.out.encoder.flush_blocking()?)
+        self.out.sink.flush()
     }
 
     fn look(&mut self, batch: &Batch) {
@@ -109,21 +139,40 @@ impl RerunRecorder {
     }
 
     fn close(&mut self, ending: &Ending) -> Appended {
-        let encoder = &mut self.out.encoder;
-        for message in head::ending(&self.header, ending, &self.seen)? {
-            encoder.append(&message)?;
+        let end = self.pictures.end();
+        if self.header.streams.bodies {
+            self.poses(&end)?;
         }
-        encoder.finish()?;
-        Ok(encoder.flush_blocking()?)
+        for message in head::ending(&self.header, ending, &self.seen)? {
+            self.out.sink.append(&message)?;
+        }
+        self.out.sink.finish()
     }
 
-    fn poses(&mut self, batch: &Batch, times: &Times) -> Appended {
-        for (i, path) in self.bodies.iter().enumerate() {
-            let states = || batch.bodies.iter().skip(i).step_by(self.bodies.len());
-            let poses = Transform3D::update_fields()
-                .with_many_translation(states().map(|body| body.position_m))
-                .with_many_quaternion(states().map(|body| body.orientation_xyzw.map(|q| q as f32)));
-            self.out.columns(path.clone(), times, poses.columns_of_unit_batches()?)?;
+    fn poses(&mut self, instants: &Pictured) -> Appended {
+        if instants.bodies.is_empty() {
+            return Ok(());
+        }
+        let times = times(&instants.step, &instants.time_s);
+        let count = self.header.bodies.len();
+        for drawn in &self.bodies {
+            match &drawn.bodies[..] {
+                [i] => {
+                    let states = || instants.bodies.iter().skip(*i).step_by(count);
+                    let poses = Transform3D::update_fields()
+                        .with_many_translation(states().map(|body| body.position_m))
+                        .with_many_quaternion(states().map(|body| body.orientation_xyzw.map(|q| q as f32)));
+                    self.out.columns(drawn.path.clone(), &times, poses.columns_of_unit_batches()?)?;
+                }
+                several => {
+                    let states = || instants.bodies.chunks(count).flat_map(|all| several.iter().map(|&i| &all[i]));
+                    let poses = InstancePoses3D::update_fields()
+                        .with_translations(states().map(|body| body.position_m))
+                        .with_quaternions(states().map(|body| body.orientation_xyzw.map(|q| q as f32)));
+                    let lengths = std::iter::repeat_n(several.len(), instants.step.len());
+                    self.out.columns(drawn.path.clone(), &times, poses.columns(lengths)?)?;
+                }
+            }
         }
         Ok(())
     }
@@ -162,7 +211,8 @@ impl RerunRecorder {
 
     fn energies(&mut self, batch: &Batch, times: &Times) -> Appended {
         for series in &schema::ENERGY_SERIES {
-            let values = batch.energy.iter().map(series.value);
+            let unit = if series.is_length() { 1.0 } else { self.header.energy_unit.1 };
+            let values = batch.energy.iter().map(|energy| (series.value)(energy) / unit);
             self.out.scalars(energy_path(series), times, values)?;
         }
         if self.start_j.is_some() {
@@ -194,9 +244,12 @@ impl Recorder for RerunRecorder {
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        let logged =
-            self.out.events(std::slice::from_ref(event)).and_then(|()| Ok(self.out.encoder.flush_blocking()?));
+        let logged = self.out.events(std::slice::from_ref(event)).and_then(|()| self.out.sink.flush());
         logged.map_err(|error| RecordError::caused(&self.path, error.as_ref()))
+    }
+
+    fn bytes(&self) -> u64 {
+        std::fs::metadata(&self.path).map_or(0, |file| file.len())
     }
 
     fn finish(mut self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {

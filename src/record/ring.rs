@@ -12,12 +12,14 @@ const BYTES: usize = 4 << 20;
 /// A step that has not been recorded.
 pub struct KeptStep {
     pub state: State,
+    /// The state at which its contacts act.
+    pub acted: State,
     pub contacts: Vec<ContactSample>,
 }
 
 impl KeptStep {
     fn bytes(&self) -> usize {
-        size_of_val(self.state.bodies.as_slice()) + size_of_val(self.contacts.as_slice())
+        2 * size_of_val(self.state.bodies.as_slice()) + size_of_val(self.contacts.as_slice())
     }
 }
 
@@ -31,15 +33,16 @@ pub struct Ring {
 }
 
 impl Ring {
-    /// Keeps a step, and lets the oldest go where there is no room.
-    pub fn keep(&mut self, state: &State, contacts: impl Iterator<Item = ContactSample>) {
+    /// Keeps a step, by its end and the state at which its contacts act, and lets the oldest go where there is no room.
+    pub fn keep(&mut self, [state, acted]: [&State; 2], contacts: impl Iterator<Item = ContactSample>) {
         let mut kept = match self.spare.pop() {
             Some(mut kept) => {
                 kept.state.copy_from(state);
+                kept.acted.copy_from(acted);
                 kept.contacts.clear();
                 kept
             }
-            None => KeptStep { state: state.clone(), contacts: Vec::new() },
+            None => KeptStep { state: state.clone(), acted: acted.clone(), contacts: Vec::new() },
         };
         kept.contacts.extend(contacts);
         self.bytes += kept.bytes();
@@ -50,9 +53,9 @@ impl Ring {
     }
 
     /// Keeps this step alone.
-    pub fn keep_one(&mut self, state: &State, contacts: impl Iterator<Item = ContactSample>) {
+    pub fn keep_one(&mut self, states: [&State; 2], contacts: impl Iterator<Item = ContactSample>) {
         self.clear();
-        self.keep(state, contacts);
+        self.keep(states, contacts);
     }
 
     pub fn clear(&mut self) {
@@ -67,11 +70,11 @@ impl Ring {
     }
 
     /// Hands over every step since `step`, the oldest first, and keeps the earlier ones.
-    pub fn take_since(&mut self, step: u64, mut to: impl FnMut(&State, &[ContactSample])) {
+    pub fn take_since(&mut self, step: u64, mut to: impl FnMut([&State; 2], &[ContactSample])) {
         let from = self.kept.iter().position(|kept| kept.state.step >= step).unwrap_or(self.kept.len());
         for kept in self.kept.drain(from..) {
             self.bytes -= kept.bytes();
-            to(&kept.state, &kept.contacts);
+            to([&kept.state, &kept.acted], &kept.contacts);
             self.spare.push(kept);
         }
     }

@@ -4,6 +4,7 @@
 //! simulating thread, sent to the recording thread and comes back empty to be filled again. Columns of a stream that is
 //! off stay empty. Nothing here knows a file format or a method.
 
+use super::flight::Flight;
 use super::name::RecordingName;
 use super::story::Story;
 use crate::outcome::Outcome;
@@ -64,8 +65,16 @@ pub struct Header {
     pub arrow_m_per_n: f64,
     /// Weight that an arrow as long as `arrow_body_m` stands for; None without gravity.
     pub arrow_weight_n: Option<f64>,
+    /// Longest arrow.
+    pub arrow_longest_m: f64,
     /// Multiple of the energy at the start at which the run counts as diverged.
     pub energy_factor: Option<f64>,
+    /// Unit in which energies are plotted, and its size in joules.
+    pub energy_unit: (&'static str, f64),
+    /// Time at which the run ends unless something stops it.
+    pub end_s: f64,
+    /// Most bytes of a file.
+    pub most_bytes: u64,
 }
 
 #[derive(Clone, Debug)]
@@ -107,12 +116,12 @@ impl Header {
     }
 
     pub fn force_arrows(&self) -> ForceArrows {
-        ForceArrows { m_per_n: self.arrow_m_per_n, longest_m: self.scene_size_m() }
+        ForceArrows { m_per_n: self.arrow_m_per_n, longest_m: self.arrow_longest_m }
     }
 }
 
-/// Drawing of forces: in proportion, up to the size of the scene. The force of an impact, its impulse over one step,
-/// can be thousands of weights; the numbers beside the picture are whole.
+/// Drawing of forces: in proportion, up to a length that stays in the picture. The force of an impact, its impulse over
+/// one step, can be thousands of weights; the numbers beside the picture are whole.
 #[derive(Clone, Copy, Debug)]
 pub struct ForceArrows {
     pub m_per_n: f64,
@@ -169,6 +178,14 @@ pub struct Batch {
     pub contacts_len: Vec<u32>,
     /// All contacts of sample 0, then of sample 1, …
     pub contacts: Vec<ContactSample>,
+    /// Instant at which each sample's contacts act; empty where all act at the sample's own.
+    pub acted_s: Vec<f64>,
+    /// Bodies at that instant, sample after sample, and their number: none where it is the sample's own, where the
+    /// sample before shows them, or where nothing acts.
+    pub acted_len: Vec<u32>,
+    pub acted: Vec<BodyRow>,
+    /// Whether a sample is due by the rate alone, and may be left out to save room; empty where none may.
+    pub by_rate: Vec<bool>,
     /// Energies, one a sample, when energy is on.
     pub energy: Vec<EnergySample>,
     /// What happened since the batch before, in the order of time.
@@ -187,7 +204,8 @@ impl Batch {
 
     /// Whether it is to be written as it is.
     pub fn is_full(&self) -> bool {
-        self.len() >= BATCH_SAMPLES || self.contacts.len() >= BATCH_ENTRIES || self.bodies.len() >= BATCH_ENTRIES
+        let most = [&self.bodies, &self.acted].map(Vec::len).into_iter().fold(self.contacts.len(), usize::max);
+        self.len() >= BATCH_SAMPLES || most >= BATCH_ENTRIES
     }
 
     /// Adds the samples and events of another batch behind its own.
@@ -197,6 +215,10 @@ impl Batch {
         self.bodies.extend_from_slice(&other.bodies);
         self.contacts_len.extend_from_slice(&other.contacts_len);
         self.contacts.extend_from_slice(&other.contacts);
+        self.acted_s.extend_from_slice(&other.acted_s);
+        self.acted_len.extend_from_slice(&other.acted_len);
+        self.acted.extend_from_slice(&other.acted);
+        self.by_rate.extend_from_slice(&other.by_rate);
         self.energy.extend_from_slice(&other.energy);
         self.events.extend_from_slice(&other.events);
     }
@@ -208,8 +230,28 @@ impl Batch {
         self.bodies.clear();
         self.contacts_len.clear();
         self.contacts.clear();
+        self.acted_s.clear();
+        self.acted_len.clear();
+        self.acted.clear();
+        self.by_rate.clear();
         self.energy.clear();
         self.events.clear();
+    }
+
+    /// Adds one sample of another batch.
+    pub fn push(&mut self, sample: &Sample<'_>, streams: Streams) {
+        self.step.push(sample.step);
+        self.time_s.push(sample.time_s);
+        self.bodies.extend_from_slice(sample.bodies);
+        if streams.any_contact() {
+            self.contacts_len.push(sample.contacts.len() as u32);
+            self.contacts.extend_from_slice(sample.contacts);
+        }
+        self.acted_s.push(sample.acted_s);
+        self.acted_len.push(sample.acted.len() as u32);
+        self.acted.extend_from_slice(sample.acted);
+        self.by_rate.push(sample.by_rate);
+        self.energy.extend(sample.energy);
     }
 
     /// Checks that every column has the length that the streams ask for; the recorders rely on it.
@@ -220,6 +262,8 @@ impl Batch {
         let samples = self.len();
         let on = |stream: bool, len: usize| if stream { len } else { 0 };
         let contacts: u64 = self.contacts_len.iter().map(|&len| u64::from(len)).sum();
+        let acted: u64 = self.acted_len.iter().map(|&len| u64::from(len)).sum();
+        let is_none_or_all = |len: usize| len == 0 || len == samples;
         match () {
             () if self.time_s.len() != samples => Err("a batch needs one time a step"),
             () if self.bodies.len() != on(streams.bodies, samples * bodies) => {
@@ -229,6 +273,12 @@ impl Batch {
                 "a batch needs one count of contacts a sample when contacts or forces are on, none when they are off",
             ),
             () if self.contacts.len() as u64 != contacts => Err("a batch's contacts differ from their counts"),
+            () if ![self.acted_s.len(), self.acted_len.len(), self.by_rate.len()].into_iter().all(is_none_or_all) => {
+                Err("a batch says of all its samples or of none when their contacts act and why they are there")
+            }
+            () if self.acted.len() as u64 != acted => {
+                Err("a batch's bodies where contacts act differ from their counts")
+            }
             () if self.energy.len() != on(streams.energy, samples) => {
                 Err("a batch needs one energy a sample when energy is on, none when it is off")
             }
@@ -240,7 +290,11 @@ impl Batch {
     pub fn samples(&self) -> impl Iterator<Item = Sample<'_>> {
         let bodies = self.bodies.len() / self.len().max(1);
         let mut first_contact = 0;
+        let mut first_acted = 0;
         (0..self.len()).map(move |i| {
+            let acted = self.acted_len.get(i).map_or(0, |&len| len as usize);
+            let acted_range = first_acted..first_acted + acted;
+            first_acted = acted_range.end;
             let contacts = self.contacts_len.get(i).map_or(0, |&len| len as usize);
             let contact_range = first_contact..first_contact + contacts;
             first_contact = contact_range.end;
@@ -249,6 +303,9 @@ impl Batch {
                 time_s: self.time_s[i],
                 bodies: &self.bodies[i * bodies..(i + 1) * bodies],
                 contacts: &self.contacts[contact_range],
+                acted_s: self.acted_s.get(i).copied().unwrap_or(self.time_s[i]),
+                acted: &self.acted[acted_range],
+                by_rate: self.by_rate.get(i).copied().unwrap_or(false),
                 energy: self.energy.get(i),
             }
         })
@@ -262,6 +319,12 @@ pub struct Sample<'a> {
     pub time_s: f64,
     pub bodies: &'a [BodyRow],
     pub contacts: &'a [ContactSample],
+    /// Instant at which the contacts act, and the bodies then; none where the sample's own, or the sample before, shows
+    /// them.
+    pub acted_s: f64,
+    pub acted: &'a [BodyRow],
+    /// Whether it is there by the rate of samples alone.
+    pub by_rate: bool,
     pub energy: Option<&'a EnergySample>,
 }
 
@@ -348,7 +411,7 @@ pub struct EnergySample {
 }
 
 /// End of a run; written once, at the end of a recording.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Ending {
     pub outcome: Outcome,
     /// Criterion that stopped the run; None where it came to its end.
@@ -362,6 +425,12 @@ pub struct Ending {
     /// Columns of the row that are the same on every machine and not empty.
     pub row: Map<String, Value>,
     pub story: Story,
+    /// The contacts of the step of the largest gain, of a recording of every step.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flight: Option<Flight>,
+    /// Samples that are left out to keep the file small.
+    #[serde(default)]
+    pub left_out: u64,
 }
 
 impl Ending {

@@ -4,6 +4,7 @@
 
 use super::RecordError;
 use super::effort::Effort;
+use super::flight::{Flight, KeptContacts};
 use super::ring::Ring;
 use super::sample::{Batch, ContactSample, Ending, EnergySample, Event, Severity, Streams, contact_mode};
 use super::story::shortest;
@@ -18,7 +19,7 @@ use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::rows::doubts::doubt;
 use crate::rows::{BodyRow, Measured, cells};
-use crate::shown::{ContactForce, Shown};
+use crate::shown::{Acted, ContactForce, Shown};
 use crate::state::State;
 use crate::work::Work;
 
@@ -45,10 +46,15 @@ pub struct Sampler {
     ring: Ring,
     /// Steps of the most contacts and of the deepest overlap, which the row tells; samples that beat them come first.
     maxima: [Maximum; 2],
+    /// Time of the last sample in the file.
+    last_s: f64,
     /// Step of the last sample, and steps that are still to be recorded after one that decides.
     last: u64,
     ahead: u64,
     effort: Effort,
+    /// Whether every step is recorded, and the contacts of the step that gained most then.
+    is_flight: bool,
+    flight: Option<KeptContacts>,
 }
 
 impl Sampler {
@@ -62,9 +68,12 @@ impl Sampler {
             watch: None,
             ring: Ring::default(),
             maxima: Default::default(),
+            last_s: f64::NAN,
             last: 0,
             ahead: 0,
             effort: Effort::default(),
+            is_flight: record.every_s == 0.0,
+            flight: None,
         }
     }
 
@@ -75,7 +84,7 @@ impl Sampler {
     /// Begins with the first state, of a method that claims to solve the law of contact or does not.
     pub fn start(&mut self, model: &Model, start: &State, solves_contacts: bool) {
         self.watch = Some(Watch::new(model, start, solves_contacts));
-        self.sample(model, start, std::iter::empty());
+        self.sample(model, [start, start], std::iter::empty(), false);
         // How a run begins can be seen while it goes on.
         self.writer.flush();
     }
@@ -85,6 +94,12 @@ impl Sampler {
     pub fn look(&mut self, model: &Model, shown: &Shown, judge: &Judge) -> bool {
         let Some(watch) = &mut self.watch else { return false };
         let is_notable = watch.look(model, shown, judge);
+        if let (true, true, Acted::Kick { kicked, contacts, step_s, .. }) =
+            (self.is_flight, watch.gains_most(shown.after), shown.acted)
+        {
+            let (step, contacts) = (shown.after.step, contacts.to_vec());
+            self.flight = Some(KeptContacts { acted: kicked.clone(), step, step_s, contacts });
+        }
         if is_notable {
             let since = shown.after.step.saturating_sub(AROUND).max(self.last + 1);
             self.take_since(model, since);
@@ -106,21 +121,22 @@ impl Sampler {
         }
     }
 
-    /// Keeps a step that is no sample, judged already, in case that it turns out to decide.
+    /// Keeps a step that is no sample, judged already, in case that it turns out to decide: its end, and the state at
+    /// which its contacts act.
     pub fn keep(
         &mut self,
-        state: &State,
+        states: [&State; 2],
         contacts: impl ExactSizeIterator<Item = ContactForce> + Clone,
         judge: &Judge,
     ) {
         let with_contacts = self.streams.any_contact();
         let sampled = || contacts.clone().map(contact_sample).filter(|_| with_contacts);
-        self.ring.keep(state, sampled());
+        self.ring.keep(states, sampled());
         let amounts = [contacts.len() as f64, judge.geometry.penetration_max_m.unwrap_or(0.0)];
         for (maximum, amount) in self.maxima.iter_mut().zip(amounts) {
             if amount > maximum.amount {
                 maximum.amount = amount;
-                maximum.step.keep_one(state, sampled());
+                maximum.step.keep_one(states, sampled());
             }
         }
     }
@@ -136,15 +152,24 @@ impl Sampler {
         }
     }
 
-    /// Adds a sample; `contacts` are those of the step that led to `state`.
-    pub fn sample(&mut self, model: &Model, state: &State, contacts: impl ExactSizeIterator<Item = ContactForce>) {
-        let Sampler { writer, streams, geometry, .. } = self;
+    /// Adds a sample; `contacts` are those of the step that led to `state`, and act at `acted`. One that is there
+    /// `by_rate` alone may be left out where a file becomes too large.
+    pub fn sample(
+        &mut self,
+        model: &Model,
+        [state, acted]: [&State; 2],
+        contacts: impl ExactSizeIterator<Item = ContactForce>,
+        by_rate: bool,
+    ) {
+        let Sampler { writer, streams, geometry, last_s, .. } = self;
         let batch = writer.batch();
         if streams.any_contact() {
-            batch.contacts_len.push(contacts.len() as u32);
+            push_acted(batch, *streams, (state, acted, *last_s), contacts.len());
             batch.contacts.extend(contacts.map(contact_sample));
         }
         push(batch, *streams, geometry, model, state);
+        batch.by_rate.push(by_rate);
+        *last_s = state.time_s;
         if let Some(watch) = &mut self.watch {
             batch.events.extend(watch.events());
         }
@@ -154,24 +179,24 @@ impl Sampler {
 
     /// Records what was kept from a step on.
     fn take_since(&mut self, model: &Model, step: u64) {
-        let Sampler { writer, streams, geometry, ring, maxima, .. } = self;
-        ring.take_since(step, |state, contacts| {
-            for maximum in maxima.iter_mut().filter(|maximum| maximum.step.holds(state.step)) {
+        let Sampler { writer, streams, geometry, ring, maxima, last_s, .. } = self;
+        ring.take_since(step, |states, contacts| {
+            for maximum in maxima.iter_mut().filter(|maximum| maximum.step.holds(states[0].step)) {
                 maximum.step.clear();
             }
-            add(writer, *streams, geometry, model, (state, contacts));
+            add(writer, *streams, geometry, model, (states, contacts, last_s));
         });
     }
 
     /// Records the steps of the maxima that no sample shows, each once.
     fn take_maxima(&mut self, model: &Model) {
-        let Sampler { writer, streams, geometry, maxima, .. } = self;
+        let Sampler { writer, streams, geometry, maxima, last_s, .. } = self;
         let mut taken = None;
         for maximum in maxima {
-            maximum.step.take_since(0, |state, contacts| {
-                if taken != Some(state.step) {
-                    taken = Some(state.step);
-                    add(writer, *streams, geometry, model, (state, contacts));
+            maximum.step.take_since(0, |states, contacts| {
+                if taken != Some(states[0].step) {
+                    taken = Some(states[0].step);
+                    add(writer, *streams, geometry, model, (states, contacts, last_s));
                 }
             });
         }
@@ -222,6 +247,8 @@ impl Sampler {
             notes,
             row: row.into_iter().filter(|(name, cell)| !cell.is_null() && !name.starts_with("wall_")).collect(),
             story,
+            flight: self.flight.take().filter(|kept| !kept.contacts.is_empty()).map(|kept| Flight::of(model, &kept)),
+            left_out: 0,
         });
     }
 
@@ -240,15 +267,28 @@ fn add(
     streams: Streams,
     geometry: &mut Option<GeometryLedger>,
     model: &Model,
-    (state, contacts): (&State, &[ContactSample]),
+    ([state, acted], contacts, last_s): ([&State; 2], &[ContactSample], &mut f64),
 ) {
     let batch = writer.batch();
     if streams.any_contact() {
-        batch.contacts_len.push(contacts.len() as u32);
+        push_acted(batch, streams, (state, acted, *last_s), contacts.len());
         batch.contacts.extend_from_slice(contacts);
     }
     push(batch, streams, geometry, model, state);
+    batch.by_rate.push(false);
+    *last_s = state.time_s;
     writer.sample_done();
+}
+
+/// Adds the number of contacts, when they act, and the bodies then, if neither the sample itself shows them nor the one
+/// before it, which was at `last_s`.
+fn push_acted(batch: &mut Batch, streams: Streams, (state, acted, last_s): (&State, &State, f64), contacts: usize) {
+    let is_shown = acted.time_s == last_s || acted.time_s == state.time_s;
+    let bodies = if contacts == 0 || is_shown || !streams.bodies { &[] } else { &acted.bodies[..] };
+    batch.contacts_len.push(contacts as u32);
+    batch.acted_s.push(acted.time_s);
+    batch.acted_len.push(bodies.len() as u32);
+    batch.acted.extend(bodies.iter().map(BodyRow::from));
 }
 
 /// Adds a state to a batch: what does not depend on its contacts.

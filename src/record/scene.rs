@@ -2,6 +2,7 @@
 
 use super::sample::{BodyHeader, ContactSample, Event, ForceArrows, Header, Sample, Severity, Streams, norm};
 use super::schema::{self, Rgb};
+use crate::rows::BodyRow;
 use foxglove::messages::line_primitive::Type::LineStrip;
 use foxglove::messages::log::Level;
 use foxglove::messages::{
@@ -44,8 +45,8 @@ impl Scene {
         }
     }
 
-    pub fn transforms(&mut self, sample: &Sample<'_>, time_ns: u64) -> &FrameTransforms {
-        for (frame, body) in self.transforms.transforms.iter_mut().zip(sample.bodies) {
+    pub fn transforms(&mut self, bodies: &[BodyRow], time_ns: u64) -> &FrameTransforms {
+        for (frame, body) in self.transforms.transforms.iter_mut().zip(bodies) {
             frame.timestamp = Some(timestamp(time_ns));
             frame.translation = Some(vector(body.position_m));
             let [x, y, z, w] = body.orientation_xyzw;

@@ -27,10 +27,14 @@ pub const SCENE_CONTACTS: &str = "/scene/contacts";
 pub const LOG: &str = "/log";
 
 /// Version of what stands in a recording and what it is called; it rises when either changes.
-pub const VERSION: &str = "2";
+pub const VERSION: &str = "3";
 
 /// Version of Rerun that .rrd files are of; a viewer of the same or a later one shows them.
 pub const RERUN_VERSION: &str = "0.36.3";
+
+/// Most contacts of a sample that an .rrd draws, those with the largest forces: more make a file that no viewer opens
+/// at once. All are counted, and all are in an .mcap.
+pub const MOST_CONTACTS: usize = 1_000;
 
 /// Most cases that are shown together: as many as have colours apart from each other.
 pub const MOST_TOGETHER: usize = 12;
@@ -43,6 +47,14 @@ pub const CONFIG_FILE: &str = "experiment.yaml";
 /// Name of the record of case, axes, program and step, at the start; and of the same with name and outcome, at the end.
 pub const METADATA_START: &str = "gotai.start";
 pub const METADATA: &str = "gotai";
+/// Name of the record of the end as JSON: the instants that decide, the row, the contacts of the largest gain.
+pub const ENDING: &str = "gotai.ending";
+/// Key of the JSON in it.
+pub const ENDING_JSON: &str = "json";
+/// Folder of the bodies' surfaces among the attachments, and key of which is whose, as JSON.
+pub const MESHES: &str = "meshes";
+/// Name of Foxglove's layout, among the attachments and beside the recordings.
+pub const LAYOUT_FILE: &str = "gotai.foxglove-layout.json";
 
 /// Text of a value on an axis: text as it is, everything else as JSON.
 pub fn text(value: &Value) -> String {
@@ -111,18 +123,23 @@ pub const FORCE_COLOUR: Rgb = [225, 87, 89];
 /// A number of every sample that a viewer plots.
 pub struct Series {
     pub name: &'static str,
-    /// Label with the unit.
-    pub label: &'static str,
     pub colour: Rgb,
     pub value: fn(&EnergySample) -> f64,
 }
 
+impl Series {
+    /// Whether it is a length; else it is an energy.
+    pub fn is_length(&self) -> bool {
+        self.name == "penetration"
+    }
+}
+
 /// Series of the energy stream, field by field.
 pub const ENERGY_SERIES: [Series; 4] = [
-    Series { name: "kinetic", label: "kinetic [J]", colour: [242, 142, 43], value: |e| e.kinetic_j },
-    Series { name: "potential", label: "potential [J]", colour: [78, 121, 167], value: |e| e.potential_j },
-    Series { name: "total", label: "total [J]", colour: [170, 170, 180], value: |e| e.total_j },
-    Series { name: "penetration", label: "penetration [m]", colour: [225, 87, 89], value: |e| e.penetration_m },
+    Series { name: "kinetic", colour: [242, 142, 43], value: |e| e.kinetic_j },
+    Series { name: "potential", colour: [78, 121, 167], value: |e| e.potential_j },
+    Series { name: "total", colour: [170, 170, 180], value: |e| e.total_j },
+    Series { name: "penetration", colour: [225, 87, 89], value: |e| e.penetration_m },
 ];
 
 /// Simulated time in nanoseconds, the clock of both file formats. What a clock cannot show (negative, not a number)
@@ -166,6 +183,21 @@ pub struct Contacts {
     pub step: u64,
     #[prost(message, repeated, tag = "3")]
     pub contacts: Vec<Contact>,
+    /// Instant at which they act: points, normals and gaps are those of the bodies then.
+    #[prost(double, required, tag = "4")]
+    pub acted_s: f64,
+    /// Bodies at that instant, in the order of `/bodies`; empty where a sample of that time shows them.
+    #[prost(message, repeated, tag = "5")]
+    pub acted: Vec<BodyPose>,
+}
+
+/// Place of a body, without its name.
+#[derive(Clone, PartialEq, Message)]
+pub struct BodyPose {
+    #[prost(double, repeated, tag = "1")]
+    pub position_m: Vec<f64>,
+    #[prost(double, repeated, tag = "2")]
+    pub orientation_xyzw: Vec<f64>,
 }
 
 /// A contact. The normal points from the other to the body; the force (impulse over the step) acts on the body.
@@ -231,7 +263,19 @@ pub fn descriptor_set() -> Vec<u8> {
                     ("angular_velocity_rad_s", Kind::Array),
                 ],
             ),
-            message("Contacts", &[&clock[..], &[("contacts", Kind::Messages(".gotai.Contact"))]].concat()),
+            message(
+                "Contacts",
+                &[
+                    &clock[..],
+                    &[
+                        ("contacts", Kind::Messages(".gotai.Contact")),
+                        ("acted_s", F64),
+                        ("acted", Kind::Messages(".gotai.BodyPose")),
+                    ],
+                ]
+                .concat(),
+            ),
+            message("BodyPose", &[("position_m", Kind::Array), ("orientation_xyzw", Kind::Array)]),
             message(
                 "Contact",
                 &[

@@ -62,6 +62,10 @@ fn of_samples(recording: &ReadBack) -> SeriesTable {
         for (axis, name) in ["x", "y", "z", "w"].iter().enumerate() {
             add(format!("{body}.orientation_xyzw.{name}"), states().map(|at| at.orientation_xyzw[axis]).collect());
         }
+        // An .rrd shows none.
+        if states().all(|at| at.velocity_m_s.iter().all(|x| x.is_nan())) {
+            continue;
+        }
         for (axis, name) in ["x", "y", "z"].iter().enumerate() {
             add(format!("{body}.velocity_m_s.{name}"), states().map(|at| at.velocity_m_s[axis]).collect());
         }

@@ -1,7 +1,10 @@
 //! Story of a run: the instants that decide about it, as the recording opens with them.
 
+use serde::{Deserialize, Serialize};
+
 /// What makes an instant decisive, in the order of a table of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Decisive {
     FirstContact,
     FirstGain,
@@ -26,19 +29,23 @@ impl Decisive {
 }
 
 /// An instant that decides about a run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TurningPoint {
     pub what: Decisive,
     pub step: u64,
+    /// When the contacts of the step act; of the end, its time.
     pub time_s: f64,
     /// What happened then, in words.
     pub text: String,
 }
 
 /// A step that gained energy.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EnergyGain {
     pub step: u64,
+    /// When its contacts act.
+    pub acted_s: f64,
+    /// Its end.
     pub time_s: f64,
     /// Energy less the work of loads, before and after.
     pub before_j: f64,
@@ -46,7 +53,7 @@ pub struct EnergyGain {
 }
 
 /// What happened in a run.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Story {
     /// In the order of time.
     pub turns: Vec<TurningPoint>,

@@ -28,6 +28,10 @@ const TOLERATED: f64 = 1e-6;
 const MORE: f64 = 10.0;
 /// Energy above the start's, of the largest kinetic energy, up to which a run is calm.
 const CALM: f64 = 0.1;
+/// Growth of the energy, of the start's or of a fall, from which a run that ends is one that has exploded.
+const EXPLODED: f64 = 10.0;
+/// Rounding of an energy's parts.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Most events of a kind that are logged; the end says how many more there were.
 const MOST_EVENTS: u64 = 200;
 
@@ -98,6 +102,8 @@ pub struct Watch {
     work: Work,
     most: Option<(usize, u64, f64)>,
     largest: Option<(f64, EnergyGain)>,
+    /// Largest energy, of the start's or of a fall.
+    grown: f64,
     /// The step that left the calm, if it was never found again.
     onset: Option<EnergyGain>,
     first_s: Option<f64>,
@@ -129,6 +135,7 @@ impl Watch {
             work: Work::default(),
             most: None,
             largest: None,
+            grown: 0.0,
             onset: None,
             first_s: None,
             last_s: 0.0,
@@ -142,33 +149,39 @@ impl Watch {
         }
         self.is_major = false;
         let Shown { before, after, .. } = *shown;
+        let at = (after.step, acted_s(shown));
         match shown.acted {
             Acted::Kick { contacts, step_s, .. } => {
                 let slow_m_s = STEPS_OF_GRAVITY * model.gravity_m_s2.norm() * step_s;
-                self.touches(model, [before, after], contacts.iter().map(|s| (s.contact, s.impulse_W)), slow_m_s);
+                self.touches(model, (before, at), contacts.iter().map(|s| (s.contact, s.impulse_W)), slow_m_s);
             }
             Acted::Blow { contacts } => {
                 let pushes = contacts.iter().map(|s| (s.contact, s.impulse_W));
                 for touch in touches(before, pushes) {
-                    self.impact(model, after, &touch);
+                    self.impact(model, at, &touch);
                 }
             }
             Acted::Motion(_) => {
                 let forces = shown.way.map(|way| way.forces_at(model, after)).unwrap_or_default();
                 let pushes = forces.iter().map(|ContactForce { contact, force_W }| (*contact, *force_W));
                 // Whoever follows events has its impacts apart from its motion.
-                self.touches(model, [before, after], pushes, f64::INFINITY);
+                self.touches(model, (before, at), pushes, f64::INFINITY);
             }
         }
         let is_major = self.is_major;
-        let gained = self.energy(after, judge);
-        let doubted = self.judged(after, judge);
+        let gained = self.energy(after, at.1, judge);
+        let doubted = self.judged(at, judge);
         let is_notable = is_major || gained || doubted;
         if is_notable {
             self.first_s.get_or_insert(before.time_s);
             self.last_s = after.time_s;
         }
         is_notable
+    }
+
+    /// Whether the step that led to a state has gained more than any before.
+    pub fn gains_most(&self, after: &State) -> bool {
+        self.largest.is_some_and(|(_, gain)| gain.time_s == after.time_s && gain.step == after.step)
     }
 
     /// Looks at the counters of work after a step.
@@ -194,12 +207,12 @@ impl Watch {
     pub fn story(&mut self, state: &State, outcome: Outcome, said: String) -> Story {
         let mut story = std::mem::take(&mut self.up_to_now);
         if let Some((ratio, gain)) = self.largest {
-            let EnergyGain { step, time_s, before_j, after_j } = gain;
+            let EnergyGain { step, acted_s: time_s, before_j, after_j, .. } = gain;
             let text = format!("{} → {} J, × {}", brief(before_j), brief(after_j), brief(ratio));
             story.turns.push(TurningPoint { what: Decisive::LargestGain, step, time_s, text });
         }
-        if let Some(EnergyGain { step, time_s, before_j, after_j }) =
-            self.onset.filter(|_| outcome == Outcome::Diverged)
+        if let Some(EnergyGain { step, acted_s: time_s, before_j, after_j, .. }) =
+            self.onset.filter(|_| outcome == Outcome::Diverged || self.grown > EXPLODED)
         {
             let text = format!("{} → {} J", brief(before_j), brief(after_j));
             story.turns.push(TurningPoint { what: Decisive::Onset, step, time_s, text });
@@ -211,14 +224,16 @@ impl Watch {
         story.turns.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
         let (step, end_s) = (state.step, state.time_s);
         story.turns.push(TurningPoint { what: Decisive::End, step, time_s: end_s, text: said });
-        let stretch_s = match (outcome, self.first_s) {
-            (Outcome::Diverged, _) => [story.calm_until_s - 0.15 * end_s, end_s],
-            (_, Some(first_s)) if self.last_s > first_s => [first_s - 0.1 * end_s, self.last_s + 0.25 * end_s],
-            _ => [0.0, end_s],
+        // What has exploded and goes on is looked at as what has diverged: before its bodies are gone.
+        let explodes = outcome == Outcome::Diverged || self.onset.is_some_and(|_| self.grown > EXPLODED);
+        let stretch_s = match (explodes, self.first_s) {
+            (true, _) if outcome == Outcome::Diverged => [story.calm_until_s - 0.15 * end_s, end_s],
+            (true, _) => [0.85, 1.15].map(|part| part * story.calm_until_s),
+            (false, Some(first_s)) if self.last_s > first_s => [first_s - 0.1 * end_s, self.last_s + 0.25 * end_s],
+            (false, _) => [0.0, end_s],
         };
         story.stretch_s = stretch_s.map(|t| t.clamp(0.0, end_s));
-        // What did not diverge was calm throughout.
-        if outcome != Outcome::Diverged {
+        if !explodes {
             story.calm_until_s = end_s;
         }
         story
@@ -235,7 +250,7 @@ impl Watch {
     fn touches(
         &mut self,
         model: &Model,
-        [before, after]: [&State; 2],
+        (before, at): (&State, (u64, f64)),
         pushes: impl ExactSizeIterator<Item = (Contact, Vector3<f64>)>,
         slow_m_s: f64,
     ) {
@@ -244,13 +259,12 @@ impl Watch {
             return;
         }
         if count > self.most.map_or(0, |(most, ..)| most) {
-            self.most = Some((count, after.step, after.time_s));
+            self.most = Some((count, at.0, at.1));
         }
         let mut next = std::mem::take(&mut self.next);
         next.clear();
         let pairs = std::mem::take(&mut self.pairs);
         let mut known = pairs.iter().peekable();
-        let at = (after.step, after.time_s);
         let mut found = std::mem::take(&mut self.found);
         found.clear();
         found.extend(touches(before, pushes));
@@ -267,9 +281,9 @@ impl Watch {
             if touch.pair.touches && !touched {
                 let floor_m_s = slow_m_s.max(SLOW * self.fastest_m_s);
                 if touch.approach_m_s > floor_m_s {
-                    self.impact(model, after, touch);
+                    self.impact(model, at, touch);
                 } else {
-                    self.first(model, after, touch);
+                    self.first(model, at, touch);
                 }
             }
             if let Some(was) = was.filter(|was| was.touches) {
@@ -303,10 +317,10 @@ impl Watch {
         }
     }
 
-    fn impact(&mut self, model: &Model, after: &State, touch: &Touch) {
+    fn impact(&mut self, model: &Model, at: (u64, f64), touch: &Touch) {
         self.fastest_m_s = self.fastest_m_s.max(touch.approach_m_s);
-        self.first(model, after, touch);
-        self.happen(Happening::Impact, (after.step, after.time_s), Severity::Info, || {
+        self.first(model, at, touch);
+        self.happen(Happening::Impact, at, Severity::Info, || {
             let [body, other] = names(model, touch.pair.bodies);
             let (speed, impulse) = (brief(touch.approach_m_s), brief(touch.pushed));
             format!("impact: {body} hits {other} at {speed} m/s, impulse {impulse} N s")
@@ -314,25 +328,24 @@ impl Watch {
     }
 
     /// The first touch of all.
-    fn first(&mut self, model: &Model, after: &State, touch: &Touch) {
+    fn first(&mut self, model: &Model, (step, time_s): (u64, f64), touch: &Touch) {
         if self.up_to_now.turn(Decisive::FirstContact).is_some() {
             return;
         }
         let [body, other] = names(model, touch.pair.bodies);
         let speed = brief(touch.approach_m_s.max(0.0));
-        let from_start = touch.approach_m_s <= SLOW * self.fastest_m_s || after.step <= 1 && touch.approach_m_s <= 0.0;
+        let from_start = touch.approach_m_s <= SLOW * self.fastest_m_s || step <= 1 && touch.approach_m_s <= 0.0;
         let text = match from_start {
             true => format!("{body} and {other}"),
             false => format!("{body} and {other}, approaching at {speed} m/s"),
         };
-        let (step, time_s) = (after.step, after.time_s);
         self.up_to_now.turns.push(TurningPoint { what: Decisive::FirstContact, step, time_s, text });
         self.first_s.get_or_insert(time_s);
         self.last_s = self.last_s.max(time_s);
     }
 
     /// Whether the step gained energy.
-    fn energy(&mut self, after: &State, judge: &Judge) -> bool {
+    fn energy(&mut self, after: &State, acted_s: f64, judge: &Judge) -> bool {
         let (before_j, after_j) = (self.last_j, judge.energy.without_work_j());
         self.last_j = after_j;
         // Against what there was before: an explosion is its own scale.
@@ -344,16 +357,21 @@ impl Watch {
             self.up_to_now.calm_until_s = after.time_s;
             self.onset = None;
         } else if self.onset.is_none() {
-            self.onset = Some(EnergyGain { step: after.step, time_s: after.time_s, before_j, after_j });
+            self.onset = Some(EnergyGain { step: after.step, acted_s, time_s: after.time_s, before_j, after_j });
         }
         let scale_j = if scale_j > 0.0 { scale_j } else { self.kinetic_max_j };
-        let is_gain = after_j - before_j > GAIN * scale_j;
+        let of_j = start_j.abs().max(self.fall_j);
+        if of_j > 0.0 {
+            self.grown = self.grown.max(after_j / of_j);
+        }
+        let rounding_j = ROUNDING * (after_j.abs() + before_j.abs() + self.fall_j);
+        let is_gain = after_j - before_j > (GAIN * scale_j).max(rounding_j);
         if !is_gain {
             return false;
         }
         let floor_j = before_j.max(GAIN * scale_j);
         let ratio = (floor_j + after_j - before_j) / floor_j;
-        let gain = EnergyGain { step: after.step, time_s: after.time_s, before_j, after_j };
+        let gain = EnergyGain { step: after.step, acted_s, time_s: after.time_s, before_j, after_j };
         let story = &mut self.up_to_now;
         story.gains_count += 1;
         if story.gains.len() < Story::MOST_GAINS {
@@ -361,21 +379,20 @@ impl Watch {
         }
         if story.gains_count == 1 {
             let text = format!("{} → {} J", brief(before_j), brief(after_j));
-            let (step, time_s) = (gain.step, gain.time_s);
+            let (step, time_s) = (gain.step, gain.acted_s);
             story.turns.push(TurningPoint { what: Decisive::FirstGain, step, time_s, text });
         }
         if self.largest.is_none_or(|(largest, _)| ratio > largest) {
             self.largest = Some((ratio, gain));
         }
-        self.happen(Happening::Gain, (gain.step, gain.time_s), Severity::Warning, || {
+        self.happen(Happening::Gain, (gain.step, acted_s), Severity::Warning, || {
             format!("gain of energy: {} → {} J, × {}", brief(before_j), brief(after_j), brief(ratio))
         });
         true
     }
 
     /// What the judges have found in the step.
-    fn judged(&mut self, after: &State, judge: &Judge) -> bool {
-        let at = (after.step, after.time_s);
+    fn judged(&mut self, at: (u64, f64), judge: &Judge) -> bool {
         let severity = self.doubt();
         let mut found = false;
         if let Some(residual) = judge.residual.max.filter(|residual| *residual > self.residual) {
@@ -412,6 +429,14 @@ impl Watch {
             self.is_major |= kind == Happening::Impact || severity != Severity::Info;
             self.events.push(Event { step: at.0, time_s: at.1, severity, text: text() });
         }
+    }
+}
+
+/// Instant at which the contacts of a step act.
+fn acted_s(shown: &Shown) -> f64 {
+    match shown.acted {
+        Acted::Kick { kicked, .. } => kicked.time_s,
+        Acted::Blow { .. } | Acted::Motion(_) => shown.after.time_s,
     }
 }
 

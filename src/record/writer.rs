@@ -4,9 +4,10 @@
 //! simulation, the simulation waits; memory stays bounded. A write that fails does not stop the simulation: the first
 //! error is remembered and `finish` returns it.
 
+use super::limited::Limited;
 use super::name::RecordingName;
-use super::sample::{Batch, Ending, Event, Header};
-use super::{RecordError, Recorder};
+use super::sample::{Batch, Ending, Event, Header, Streams};
+use super::{RecordError, Recorder, foxglove_layout, schema};
 use crate::panics;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -206,11 +207,12 @@ impl Target {
 }
 
 /// Starts the recordings of a case in a directory that must exist. Until `finish` a file is called
-/// `<case>.partial.<ending>`, so that a file with the name that the header gives is complete.
+/// `<case>.partial.<ending>`, so that a file with the name that the header gives is complete. A viewer that listens at
+/// a port of this machine shows the run too; if it does not, the run goes on without it.
 ///
 /// # Errors
 /// A file cannot be made, a kind is not in this build, or there is no thread.
-pub fn open(targets: &[Target], dir: &Path, header: &Header) -> Result<Writer, RecordError> {
+pub fn open(targets: &[Target], dir: &Path, live: Option<u16>, header: &Header) -> Result<Writer, RecordError> {
     let mut sinks: Vec<Box<dyn Recorder>> = Vec::new();
     for &target in targets {
         let partial = dir.join(format!("{}{PARTIAL}{}", header.case, target.extension()));
@@ -218,20 +220,51 @@ pub fn open(targets: &[Target], dir: &Path, header: &Header) -> Result<Writer, R
         let (dir, name) = (dir.to_path_buf(), header.name.clone());
         sinks.push(Box::new(Renamed { file, target, partial, dir, name }));
     }
+    sinks.extend(live.and_then(|port| in_viewer(port, header)));
     Writer::start(sinks)
+}
+
+#[cfg(feature = "rerun")]
+fn in_viewer(port: u16, header: &Header) -> Option<Box<dyn Recorder>> {
+    let viewer = super::rerun::live::Live::connect(port).ok()?;
+    Some(Box::new(super::rerun::RerunRecorder::live(viewer, header).ok()?))
+}
+
+#[cfg(not(feature = "rerun"))]
+fn in_viewer(_: u16, _: &Header) -> Option<Box<dyn Recorder>> {
+    None
 }
 
 fn create(target: Target, path: &Path, header: &Header) -> Result<Box<dyn Recorder>, RecordError> {
     match target {
-        Target::Mcap => Ok(Box::new(super::mcap::McapRecorder::create(path, header)?)),
+        Target::Mcap => {
+            let file = super::mcap::McapRecorder::create(path, header)?;
+            lay_out(path)?;
+            Ok(Box::new(Limited::new(Box::new(file), header)))
+        }
         #[cfg(feature = "rerun")]
         Target::Rerun => {
             let file = super::rerun::RerunRecorder::create(path, header)?;
-            Ok(Box::new(super::gather::Gatherer::new(Box::new(file), header.bodies.len())))
+            let heads = file.heads();
+            let limited = Limited::new(Box::new(file), header);
+            Ok(Box::new(super::gather::Gatherer::new(Box::new(limited), heads)))
         }
         #[cfg(not(feature = "rerun"))]
         Target::Rerun => Err(RecordError::new(path, "this build has no Rerun (cargo feature `rerun`)")),
     }
+}
+
+/// File by which a folder of results is known.
+const PLAN: &str = "plan.json";
+
+/// Foxglove's layout beside the recordings of a folder of results, once.
+fn lay_out(recording: &Path) -> Result<(), RecordError> {
+    let layout = recording.with_file_name(schema::LAYOUT_FILE);
+    let all = Streams { bodies: true, contacts: true, forces: true, energy: true };
+    if layout.exists() || !recording.with_file_name(PLAN).exists() {
+        return Ok(());
+    }
+    std::fs::write(&layout, foxglove_layout::layout(all)).map_err(|error| RecordError::caused(&layout, &error))
 }
 
 /// Gives a file its name when it is complete and the outcome is known.
@@ -250,6 +283,10 @@ impl Recorder for Renamed {
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
         self.file.event(event)
+    }
+
+    fn bytes(&self) -> u64 {
+        self.file.bytes()
     }
 
     fn finish(self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {

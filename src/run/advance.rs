@@ -4,6 +4,7 @@
 use crate::clock::Clock;
 use crate::deadline::Deadline;
 use crate::experiment::types::{Limits, Method, SteppingMethod};
+use crate::interrupt;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::plan::Plan;
@@ -89,8 +90,11 @@ impl<'a> Advance<'a> {
         self.stopped.is_some() || self.stepper.is_done(&self.state, &self.clock)
     }
 
-    /// What is not at its end may have used up what it is given.
+    /// What is not at its end may have used up what it is given, or be asked to end.
     fn limit(&self) -> Option<Criterion> {
+        if interrupt::asked().is_some() && !self.stepper.is_done(&self.state, &self.clock) {
+            return Some(Criterion::Interrupted);
+        }
         let Limits { wall_s, steps, events } = self.limits;
         let is_used_up = steps.is_some_and(|most| self.state.step >= most)
             || events.is_some_and(|most| self.work().events > most)

@@ -110,10 +110,10 @@ impl<'a> Samples<'a> {
     fn show_way(&mut self, way: &dyn Passage, model: &Model, end: &State, end_is_wanted: bool) {
         while !(self.every_step || end_is_wanted && self.ticks.next_s() == end.time_s) {
             let Some(DueAt { state, .. }) = self.ticks.next(way, model, end) else { break };
-            self.sampler.sample(model, state, way.forces_at(model, state).into_iter());
+            self.sampler.sample(model, [state, state], way.forces_at(model, state).into_iter(), true);
         }
         if end_is_wanted || self.every_step {
-            self.sampler.sample(model, end, way.forces_at(model, end).into_iter());
+            self.sampler.sample(model, [end, end], way.forces_at(model, end).into_iter(), !end_is_wanted);
         }
     }
 
@@ -121,13 +121,16 @@ impl<'a> Samples<'a> {
         let due = self.sampler.is_due(shown.after.step) && (self.every_step || !shown.is_part());
         // A stalled run is back at a state that has been sampled if it was due.
         let wanted = if shown.stalled.is_some() { !due } else { due || end_is_wanted };
-        let step_s = if let Acted::Kick { step_s, .. } = shown.acted { step_s } else { self.step_s };
+        let (acted, step_s) = match shown.acted {
+            Acted::Kick { kicked, step_s, .. } => (kicked, step_s),
+            Acted::Blow { .. } | Acted::Motion(_) => (shown.after, self.step_s),
+        };
         let forces = shown.impulses().iter().map(|solved| ContactForce::mean(solved, step_s));
         if wanted {
             self.sampler.note(forces.len(), judge);
-            self.sampler.sample(model, shown.after, forces);
+            self.sampler.sample(model, [shown.after, acted], forces, due && !end_is_wanted);
         } else if shown.stalled.is_none() && !shown.is_part() {
-            self.sampler.keep(shown.after, forces, judge);
+            self.sampler.keep([shown.after, acted], forces, judge);
         }
     }
 }

@@ -31,6 +31,8 @@ pub struct Recording<'a> {
     pub targets: &'a [Target],
     pub case: &'a Case,
     pub name: &'a RecordingName,
+    /// Port of a viewer on this machine that shows the run while it goes on.
+    pub live: Option<u16>,
 }
 
 /// A run that has been measured.
@@ -65,7 +67,8 @@ pub fn measure(experiment: &Experiment, model: &Model, start: State, place: &Pla
 impl Recording<'_> {
     fn open(&self, chosen: &Chosen, model: &Model, start: &State) -> Result<Sampler, RecordError> {
         let clock = ticks::ticks(&chosen.experiment);
-        let writer = open(self.targets, self.dir, &header(self.case, self.name, model, start, &clock))?;
+        let header = header(self.case, self.name, model, start, &clock);
+        let writer = open(self.targets, self.dir, self.live, &header)?;
         Ok(Sampler::new(writer, &chosen.experiment.record, &clock))
     }
 }

@@ -35,6 +35,6 @@ impl Planned {
 
     /// Recording of the case in a folder; None where there is no kind of file to record into.
     pub fn recording<'a>(&'a self, dir: &'a Path, targets: &'a [Target]) -> Option<Recording<'a>> {
-        (!targets.is_empty()).then_some(Recording { dir, targets, case: &self.case, name: &self.name })
+        (!targets.is_empty()).then_some(Recording { dir, targets, case: &self.case, name: &self.name, live: None })
     }
 }

@@ -41,7 +41,7 @@ impl Recorded {
     ///
     /// # Errors
     /// They cannot be read.
-    pub fn of(Recording { dir, targets, case, name }: Recording, outcome: Outcome) -> Result<Self, FileError> {
+    pub fn of(Recording { dir, targets, case, name, .. }: Recording, outcome: Outcome) -> Result<Self, FileError> {
         let name = name.ended(outcome);
         let sum = |target: &Target| Ok((target.extension().to_string(), Sum::of(&target.path(dir, &name))?));
         let files = targets.iter().map(sum).collect::<Result<_, FileError>>()?;

@@ -16,7 +16,7 @@ use crate::rows::Measured;
 use crate::run::Ended;
 use crate::state::State;
 use crate::study::{self, Place, Studied, reference};
-use crate::{panics, scene};
+use crate::{interrupt, panics, scene};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -218,7 +218,8 @@ pub fn build_and_run(planned: &Planned, dir: &Path, targets: &[Target]) -> (Meas
 pub fn run_case(case: &Case, model: &Model, start: State, place: &Place) -> (Ended, Written) {
     let Studied { ended, recorded, .. } = study::measure(&case.experiment, model, start, place);
     let of_files = |recording| Recorded::of(recording, ended.measured.outcome);
-    let written = recorded.map_err(SweepError::from).and_then(|()| Ok(place.recording.map(of_files).transpose()?));
+    let in_files = place.recording.filter(|recording| !recording.targets.is_empty());
+    let written = recorded.map_err(SweepError::from).and_then(|()| Ok(in_files.map(of_files).transpose()?));
     (ended, written)
 }
 
@@ -231,6 +232,10 @@ pub fn run_one(
     store: &mut Store,
 ) -> (Ended, Result<(), SweepError>) {
     let (ended, written) = run_case(case, model, start, place);
+    if interrupt::asked().is_some() {
+        // What it has measured is no row, but what it has recorded is there until the next run's takes its place.
+        return (ended, keep(written, store));
+    }
     let measured = ended.measured.clone();
     let keep_all = || {
         store.add(&case.id, measured)?;

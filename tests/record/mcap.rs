@@ -126,8 +126,19 @@ fn configuration_and_versions_are_attached() {
     assert_eq!(attachment.data, s::CONFIG.as_bytes());
     // A torn file has the first one, a whole file both.
     let metadata = |i: usize| ::mcap::read::metadata(&bytes, &summary.metadata_indexes[i]).unwrap();
-    let (start, end) = (metadata(0), metadata(1));
+    let (start, end) = (metadata(0), metadata(2));
     assert_eq!((start.name.as_str(), end.name.as_str()), ("gotai.start", "gotai"));
+    // The bodies' surfaces, and Foxglove's layout.
+    let meshes: BTreeMap<String, String> = serde_json::from_str(&start.metadata["meshes"]).unwrap();
+    let named = |name: &str| {
+        let index = summary.attachment_indexes.iter().find(|index| index.name == name).unwrap();
+        String::from_utf8(::mcap::read::attachment(&bytes, index).unwrap().data.into_owned()).unwrap()
+    };
+    let surface = named(&meshes["cube[0]"]);
+    let lines = |kind: &str| surface.lines().filter(|line| line.starts_with(kind)).count();
+    assert_eq!((lines("v "), lines("f ")), (8, 12));
+    let layout: serde_json::Value = serde_json::from_str(&named(schema::LAYOUT_FILE)).unwrap();
+    assert_eq!(layout["configById"]["3D!scene"]["followTf"], schema::ROOT);
     let expected = [
         ("case", "0123456789abcdef"),
         ("build", "0123abcd"),
@@ -223,11 +234,11 @@ fn a_batch_that_does_not_fit_the_header_is_an_error() {
 }
 
 #[test]
-fn force_arrows_are_no_longer_than_the_scene() {
+fn force_arrows_stay_in_the_picture() {
     let arrows = s::header(ALL).force_arrows();
     assert_eq!(arrows.vector_m([0.0, 10.0, 0.0]), [0.0, 0.2, 0.0]);
     let [x, y, z] = arrows.vector_m([0.0, -1e9, 0.0]);
-    assert!(x == 0.0 && z == 0.0 && (y + 48.0_f64.sqrt()).abs() < 1e-12, "{y}");
+    assert!(x == 0.0 && z == 0.0 && (y + s::header(ALL).arrow_longest_m).abs() < 1e-12, "{y}");
 }
 
 /// Another reader, with nothing but the file: its schemas and its index are for others too.

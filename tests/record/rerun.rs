@@ -39,6 +39,18 @@ fn rows(store: &ChunkStore) -> BTreeMap<String, usize> {
     rows
 }
 
+/// Rows by entity, and the page that a recording opens with.
+pub fn whole(path: &Path) -> (BTreeMap<String, usize>, String) {
+    let store = read(path);
+    let component = ::rerun::TextDocument::descriptor_text().component;
+    let chunks = store.iter_physical_chunks().filter(|chunk| chunk.entity_path().to_string() == "/headline");
+    let pages: Vec<String> = chunks
+        .flat_map(|chunk| chunk.iter_slices::<String>(component).map(|row| row[0].to_string()).collect::<Vec<_>>())
+        .collect();
+    // The first one is of a run that is not finished.
+    (rows(&store), pages.into_iter().find(|page| !page.starts_with("# Not finished")).unwrap())
+}
+
 fn scalars(store: &ChunkStore, path: &str) -> Vec<f64> {
     let chunks = store.iter_physical_chunks().filter(|chunk| chunk.entity_path().to_string() == path);
     let component = ::rerun::Scalars::descriptor_scalars().component;

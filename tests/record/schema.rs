@@ -51,7 +51,7 @@ fn descriptors_say_what_the_messages_are() {
         .map(|message| (message.name().to_string(), message.field.iter().map(of_field).collect()))
         .collect();
     let messages = messages();
-    assert_eq!(messages.len(), 5);
+    assert_eq!(messages.len(), 6);
     assert_eq!(described, messages);
 }
 

@@ -46,6 +46,10 @@ pub fn header(streams: Streams) -> Header {
         ground: ([0.0; 3], 2.0),
         arrow_m_per_n: 0.02,
         arrow_weight_n: Some(9.8),
+        arrow_longest_m: 7.0,
+        energy_unit: ("J", 1.0),
+        end_s: 1e3,
+        most_bytes: 1 << 30,
         energy_factor: Some(1000.0),
     }
 }
@@ -63,13 +67,15 @@ pub fn ending() -> Ending {
         notes: None,
         row: cells(&Measured { contacts_max: 4, residual_max: Some(0.8), ..Measured::default() }),
         story: story(),
+        flight: None,
+        left_out: 0,
     }
 }
 
 /// A first contact, and a gain that ends it.
 pub fn story() -> Story {
     let turn = |what, step, text: &str| TurningPoint { what, step, time_s: time_s(step), text: text.to_owned() };
-    let gain = EnergyGain { step: 240, time_s: time_s(240), before_j: 1.0, after_j: 40_000.0 };
+    let gain = EnergyGain { step: 240, acted_s: time_s(239), time_s: time_s(240), before_j: 1.0, after_j: 40_000.0 };
     Story {
         turns: vec![
             turn(Decisive::FirstContact, 0, "cube[0] and container"),

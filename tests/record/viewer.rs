@@ -38,7 +38,13 @@ impl Picture {
 
     /// Part of a view's height between the lowest and the highest pixel of these.
     fn height(&self, part: [u32; 4], is_it: impl Fn([u8; 3]) -> bool) -> f64 {
-        let rows = || self.all(part).filter(|(_, pixel)| is_it(*pixel)).map(|(y, _)| y);
+        // A way of a body is a thin line.
+        const THIN: usize = 25;
+        let wide = |y: &u32| {
+            let row = [part[0], *y, part[2], *y + 1];
+            self.all(row).filter(|(_, pixel)| is_it(*pixel)).count() > THIN
+        };
+        let rows = || (part[1]..part[3]).filter(wide);
         let (low, high) = (rows().min().unwrap_or(0), rows().max().unwrap_or(0));
         f64::from(high - low) / f64::from(part[3] - part[1])
     }
@@ -120,6 +126,192 @@ fn bodies_of_any_size_are_in_view() {
     let height = picture.height(SCENE, is_body);
     assert!((0.15..0.8).contains(&height), "{height}");
     assert!(picture.bright(HEADLINE) > 400);
+}
+
+/// A body, an arrow or a way: neither the ground nor the container, which are grey.
+fn is_vivid(pixel: [u8; 3]) -> bool {
+    let most = pixel.iter().max().copied().unwrap_or(0);
+    let least = pixel.iter().min().copied().unwrap_or(0);
+    most - least > 45
+}
+
+/// Scenes of one kind each: what is set, or a file of its own, and the time at which it is looked at.
+const KINDS: [(&str, &str, &[&str], &str); 8] = [
+    (
+        "a stack of ten",
+        "",
+        &[
+            "configs/stack/stack.yaml",
+            "--set",
+            "scene.bodies.top.mass_kg=1",
+            "--set",
+            "method.time-stepping.scheme=semi-implicit",
+            "--set",
+            "time.end_s=0.1",
+        ],
+        "0.05",
+    ),
+    (
+        "a disc of 10 cm",
+        "question: Does it fall?
+scene:
+  friction: 0.3
+  container: { box: { size_m: [2, 2, 2] } }
+  bodies: [{ name: disc, shape: { cylinder: { radius_m: 0.05, height_m: 0.01 } }, mass_kg: 0.2, position_m: [0, 0.3, 0],
+    orientation: { axis: [1, 0, 0.3], angle_deg: 60 }, velocity_m_s: [0.4, 0, 0.1] }]
+time: { step_s: 0.002, end_s: 0.6 }
+",
+        &[],
+        "0.3",
+    ),
+    (
+        "a body without a shape",
+        "question: Does it turn over?
+scene:
+  gravity_m_s2: [0, 0, 0]
+  bodies: [{ name: racket, shape: none, mass_kg: 1, inertia_kg_m2: [1, 2, 3], angular_velocity_body_rad_s: [0.01, 5, 0] }]
+method: free
+time: { step_s: 0.01, end_s: 2 }
+",
+        &[],
+        "1",
+    ),
+    (
+        "a top on a pin",
+        "question: Does it precess?
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  bodies: [{ name: top, shape: none, mass_kg: 1, inertia_kg_m2: [0.02, 0.01, 0.02], position_m: [0.1, 0.17320508075688773, 0],
+    orientation: { axis: [0, 0, 1], angle_deg: -30 }, angular_velocity_body_rad_s: [0, 60, 0] }]
+  pins: [{ body: top, point_m: [0, -0.2, 0] }]
+method: free
+time: { step_s: 1e-3, end_s: 1 }
+",
+        &[],
+        "0.5",
+    ),
+    (
+        "a ball that rolls far",
+        "question: Does it roll?
+scene:
+  friction: 0.5
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies: [{ name: ball, shape: { sphere: { radius_m: 0.25 } }, mass_kg: 1, position_m: [0, 0.25, 0], velocity_m_s: [5, 0, 0],
+    angular_velocity_rad_s: [0, 0, -20] }]
+time: { step_s: 0.01, end_s: 10 }
+",
+        &[],
+        "5",
+    ),
+    (
+        "an escape",
+        "question: Does it stay?
+scene:
+  container: { box: { size_m: [2, 2, 2] } }
+  bodies: [{ name: cube, shape: { box: { size_m: [0.3, 0.3, 0.3] } }, mesh: { nodes_per_edge: 3 }, mass_kg: 1,
+    position_m: [-0.5, 1, 0], velocity_m_s: [30, 10, 3] }]
+method: { lecture: {} }
+time: { step_s: 0.02, end_s: 1 }
+",
+        &[],
+        "0.02",
+    ),
+    (
+        "an explosion that nothing stops",
+        "",
+        &[
+            "configs/lecture/demo.yaml",
+            "--set",
+            "method={lecture: {}}",
+            "--set",
+            "time.step_s=0.04",
+            "--set",
+            "scene.bodies.cube.mesh.nodes_per_edge=5",
+            "--set",
+            "diverge={energy_factor: null, escape: false}",
+        ],
+        "2.3",
+    ),
+    ("a pile", "", &["configs/stack/pile.yaml", "--set", "time.end_s=0.1"], "0.1"),
+];
+
+#[test]
+fn every_kind_of_scene_is_in_view() {
+    let Some(rerun) = tools::viewer() else { return };
+    for (kind, text, args, seconds) in KINDS {
+        let folder = scratch::folder();
+        let config = folder.path().join("scene.yaml");
+        std::fs::write(&config, text).unwrap();
+        let own = [config.to_str().unwrap()];
+        let (_folder, file) = of_run(if text.is_empty() { args } else { &own });
+        let picture = shown(&rerun, &file, seconds);
+        // Several bodies are of several colours; of one, its arrows are no part.
+        let is_it = if kind.contains("stack") || kind.contains("pile") { is_vivid } else { is_body };
+        let height = picture.height(SCENE, is_it);
+        assert!((0.15..0.8).contains(&height), "{kind}: {height}");
+        assert!(picture.bright(HEADLINE) > 300, "{kind}: a headline: {}", picture.bright(HEADLINE));
+    }
+}
+
+#[test]
+fn two_cases_are_in_view_together() {
+    let Some(rerun) = tools::viewer() else { return };
+    let folder = scratch::folder();
+    let out = folder.path().to_str().unwrap();
+    let axis = ["--axis", "method=[lecture, time-stepping]", "--set", "time.end_s=1", "--set", "time.step_s=0.01"];
+    let d = json(&[&["run", "configs/lecture/demo.yaml"][..], &axis, &["--json", "--out", out]].concat());
+    let file = folder.path().join(format!("{}.rrd", d["recording"].as_str().unwrap()));
+    let picture = shown(&rerun, &file, "0.9");
+    let is_orange = |[r, g, b]: [u8; 3]| r > 150 && g > 70 && b < 90 && r > g;
+    let is_green = |[r, g, b]: [u8; 3]| g > 90 && g > r && u32::from(g) > 12 * u32::from(b) / 10;
+    for (colour, height) in [("orange", picture.height(SCENE, is_orange)), ("green", picture.height(SCENE, is_green))] {
+        assert!((0.1..0.8).contains(&height), "{colour}: {height}");
+    }
+    assert!(picture.bright(HEADLINE) > 150);
+}
+
+#[test]
+fn a_film_shows_the_decisive_stretch() {
+    let Some(rerun) = tools::viewer() else { return };
+    let (folder, file) = of_run(&super::story::EXPLODES);
+    let frames = folder.path().join("frames");
+    let film = folder.path().join("film.gif");
+    let arguments =
+        ["view", file.to_str().unwrap(), "--frames", frames.to_str().unwrap(), "--gif", film.to_str().unwrap()];
+    let output = crate::cli::gotai(&[&arguments[..], &["--pictures", "3", "--size", "640x400"]].concat())
+        .env("GOTAI_VIEWER", rerun)
+        .output()
+        .unwrap();
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && err.contains("ffmpeg"), "{err}");
+    let pictures: Vec<_> = (0..3).map(|i| image_of(&frames.join(format!("{i:04}.png")))).collect();
+    assert!(pictures.iter().all(|(width, height, _)| (*width, *height) == (640, 400)));
+    assert!(pictures[0].2 != pictures[2].2, "it moves");
+    assert!(std::fs::read(film).unwrap().starts_with(b"GIF89a"));
+}
+
+/// A program of this version at a path.
+#[cfg(unix)]
+fn viewer_of(folder: &Path, version: &str) -> PathBuf {
+    use std::os::unix::fs::PermissionsExt;
+    let program = folder.join(version);
+    std::fs::write(&program, format!("#!/bin/sh\n[ \"$1\" = --version ] && echo rerun-cli {version}\nexit 0\n"))
+        .unwrap();
+    std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
+    program
+}
+
+#[cfg(unix)]
+#[test]
+fn an_older_viewer_is_exit_code_3_and_a_newer_one_a_line() {
+    let (folder, file) = of_run(&["configs/smoke.yaml", "--set", "time.end_s=0.1", "--set", "method=time-stepping"]);
+    for (version, code, said) in [("0.30.1", 3, "is older than"), ("0.36.3", 0, ""), ("0.99.0", 0, "is newer than")] {
+        let mut command = crate::cli::gotai(&["view", file.to_str().unwrap()]);
+        let output = command.env("GOTAI_VIEWER", viewer_of(folder.path(), version)).output().unwrap();
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(code) && err.contains(said), "{version}: {err}");
+        assert_eq!(err.lines().count(), if code == 0 && !said.is_empty() { 2 } else { 1 }, "{err}");
+    }
 }
 
 /// No viewer is needed to be told that there is none.

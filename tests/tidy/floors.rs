@@ -13,6 +13,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("outcome", &[]),
     ("digest", &[]),
     ("heading", &[]),
+    ("interrupt", &[]),
     ("work", &["heading"]),
     ("files", &[]),
     ("build_info", &[]),
@@ -110,6 +111,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "state",
             "clock",
             "deadline",
+            "interrupt",
         ],
     ),
     (
@@ -136,6 +138,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         "sweep",
         &[
             "digest",
+            "interrupt",
             "study",
             "run",
             "record",
@@ -160,6 +163,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         "cli",
         &[
             "digest",
+            "interrupt",
             "heading",
             "bench",
             "sweep",

@@ -1,16 +1,19 @@
 //! Several cases in one .rrd, on one timeline: the first as it is, the others as ghosts; one plot of all energies.
 
 use super::camera::{Camera, camera_on, scale};
-use super::head::{EDGED_BODIES, color, details, ground, line, surface, walls};
+use super::crowd::EDGED_BODIES;
+use super::head::{color, details, ground, line, surface, walls};
+use super::headline::moment;
 use super::layout::{self, Opening, Plot};
 use super::names::{CONTACT_COUNT, ENERGY, HEADLINE, LOG, LOG_ENERGY, TRAILS, WORLD, application};
-use super::out::{Appended, Out, times};
+use super::out::{Appended, Out, Sink, times};
 use super::seen::{Between, Room, Seen, log_part};
 use crate::record::RecordError;
+use crate::record::pictures::Pictures;
 use crate::record::read::ReadBack;
-use crate::record::sample::Header;
+use crate::record::sample::{Event, Header};
 use crate::record::schema::{MOST_TOGETHER, Rgb};
-use crate::record::story::{brief, markdown};
+use crate::record::story::{Decisive, brief, markdown};
 use ::rerun::components::Radius;
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
@@ -25,6 +28,8 @@ use std::path::Path;
 
 /// Opacity of a ghost, of 255.
 const GHOST_ALPHA: u8 = 110;
+/// Most cases whose instants are told: of more, the table is all that there is.
+const MOST_TOLD: usize = 4;
 const POINT_RADIUS: f32 = 3.5;
 const LINE_RADIUS: f32 = 1.0;
 
@@ -96,12 +101,13 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
         grid: layout::grid(&first.header, camera),
         energy: energy_plot(&drawn, first.header.energy_factor),
         contacts: vec![Plot {
-            name: "contacts at once",
+            name: "contacts at once".to_string(),
             path: CONTACT_COUNT,
-            range: Some([0.0, 1.08 * contacts]),
+            range: Some([-0.06 * contacts, 1.08 * contacts]),
             legend: None,
         }],
         has_config: false,
+        has_flight: false,
         stretch_s: stretch_s(cases),
     };
 
@@ -124,15 +130,14 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
 
     let file = BufWriter::new(File::create(path)?);
     let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file)?;
-    let mut out = Out { store, encoder };
+    let mut out = Out { store, sink: Sink::File(encoder) };
     for message in opening.messages()?.iter().chain(&memory.take()) {
-        out.encoder.append(message)?;
+        out.sink.append(message)?;
     }
     for case in &drawn {
         case.samples(&mut out)?;
     }
-    out.encoder.finish()?;
-    Ok(out.encoder.flush_blocking()?)
+    out.sink.finish()
 }
 
 impl<'a> Drawn<'a> {
@@ -191,9 +196,13 @@ impl<'a> Drawn<'a> {
         let batch = &recording.samples;
         let clock = times(&batch.step, &batch.time_s);
         let bodies = header.bodies.len();
-        if !batch.bodies.is_empty() {
+        let mut pictures = Pictures::default();
+        let instants = pictures.of(batch);
+        let end = pictures.end();
+        for instants in [&instants, &end].into_iter().filter(|instants| !instants.bodies.is_empty()) {
+            let clock = times(&instants.step, &instants.time_s);
             for (i, body) in header.bodies.iter().enumerate() {
-                let states = || batch.bodies.iter().skip(i).step_by(bodies);
+                let states = || instants.bodies.iter().skip(i).step_by(bodies);
                 let poses = Transform3D::update_fields()
                     .with_many_translation(states().map(|body| body.position_m))
                     .with_many_quaternion(states().map(|body| body.orientation_xyzw.map(|q| q as f32)));
@@ -201,6 +210,7 @@ impl<'a> Drawn<'a> {
             }
         }
         if !batch.contacts_len.is_empty() {
+            let clock = times(&instants.contacts_step, &instants.contacts_s);
             let lengths: Vec<usize> = batch.contacts_len.iter().map(|&len| len as usize).collect();
             let points = Points3D::update_fields().with_positions(batch.contacts.iter().map(|contact| contact.point_m));
             out.columns(self.below("/world/contacts"), &clock, points.columns(lengths)?)?;
@@ -214,7 +224,11 @@ impl<'a> Drawn<'a> {
                 out.scalars(self.below(LOG_ENERGY), &clock, batch.energy.iter().map(|energy| part(energy.total_j)))?;
             }
         }
-        out.events_at(self.below(LOG), &batch.events)
+        // Whose event it is stands in it: a log shows no colours.
+        let label = &self.case.label;
+        let named =
+            batch.events.iter().map(|event| Event { text: format!("{label}: {}", event.text), ..event.clone() });
+        out.events_at(self.below(LOG), &named.collect::<Vec<_>>())
     }
 }
 
@@ -241,7 +255,29 @@ fn energy_plot(drawn: &[Drawn<'_>], factor: Option<f64>) -> Option<Plot> {
     }
     let totals_j = all(|seen| seen.total_j)?;
     let range = layout::with_legend(layout::widened(totals_j, 1e-3 * totals_j.most.abs()));
-    Some(Plot { name: "energy [J]", path: ENERGY, range: Some(range), legend: Some(Corner2D::RightTop) })
+    Some(Plot { name: "energy [J]".to_string(), path: ENERGY, range: Some(range), legend: Some(Corner2D::RightTop) })
+}
+
+/// A table of the instants that decide, of all cases, in the order of time.
+fn instants(cases: &[GhostCase]) -> String {
+    let of = |case: &'_ GhostCase| {
+        let turns = case.recording.ending.iter().flat_map(|ending| ending.story.turns.clone()).collect::<Vec<_>>();
+        turns.into_iter().map(|turn| (turn, case.label.clone())).collect::<Vec<_>>()
+    };
+    let mut all: Vec<_> = cases.iter().flat_map(of).collect();
+    if all.is_empty() || cases.len() > MOST_TOLD {
+        return String::new();
+    }
+    all.sort_by(|(a, _), (b, _)| a.time_s.total_cmp(&b.time_s));
+    let mut table = String::from("\n| when | case | what |\n|---|---|---|\n");
+    for (turn, label) in all {
+        let text = match turn.what {
+            Decisive::End => markdown(&turn.text),
+            what => format!("{}: {}", what.name(), markdown(&turn.text)),
+        };
+        let _ = writeln!(table, "| {} | {} | {text} |", moment(turn.time_s), markdown(&label));
+    }
+    table
 }
 
 /// A table of the cases, with the colours that they are drawn in.
@@ -271,6 +307,7 @@ fn page(differing: &str, cases: &[GhostCase]) -> String {
             number("residual_max"),
         );
     }
+    page += &instants(cases);
     page += "\nE / E₀: the largest energy, of the start's; gain: the largest of a contact solve. ";
     page + "A case that has ended stays where it was.\n"
 }

@@ -1,9 +1,11 @@
 //! Head of an .rrd, once, before the first sample: layout, names, surfaces, colours, configuration.
 
 use super::camera::{Camera, camera, scale};
+use super::crowd::{Drawn, EDGED_BODIES};
 use super::names::{
-    CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, FORCES, FRICTION_USE, GAINS, GROUND, HEADLINE, LIMIT,
-    LOG_ENERGY_TOTAL, LOG_GAINS, SIM_TIME, STEP, TRAILS, WORLD, application, energy_path,
+    CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, ENERGY_UNIT, FLIGHT, FORCES, FRICTION_USE, GAINS,
+    GROUND, HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, SIM_TIME, STEP, STRETCH, TRAILS, WORLD, application,
+    energy_path,
 };
 use super::seen::{Seen, log_part};
 use super::{headline, layout};
@@ -32,9 +34,8 @@ const MARK_SIZE: f32 = 4.0;
 
 /// Most triangles of a body that is shaded by facet, 72 bytes each; above, corners are shared, half of that.
 const FACETED_TRIANGLES: usize = 20_000;
-/// Most triangles of a body whose edges are drawn, and most bodies of which they are.
+/// Most triangles of a body whose edges are drawn.
 const EDGED_TRIANGLES: usize = 4_000;
-pub const EDGED_BODIES: usize = 400;
 
 /// Opacity of the ground, of 255: what is below it, and forces on it, should be seen.
 const GROUND_ALPHA: u8 = 70;
@@ -49,18 +50,19 @@ const LIGHT_EDGE_COLOUR: Rgb = [190, 205, 225];
 const LIMIT_COLOUR: Rgb = [225, 87, 89];
 const AXES_COLOURS: [Rgb; 3] = [[235, 80, 80], [100, 210, 90], [90, 140, 250]];
 
-/// Name and first messages of the recording. `bodies` are the bodies' entities, in the header's order.
+/// Name and first messages of the recording. `bodies` are the bodies' entities.
 ///
 /// # Errors
 /// Rerun's own.
-pub fn messages(header: &Header, bodies: &[EntityPath]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
+pub fn messages(header: &Header, bodies: &[Drawn]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
     let (stream, memory) = stream(header)?;
     let store = memory.store_id().ok_or("Rerun made no recording")?;
 
     let mut messages = layout::messages(header, None)?;
     describe(header, &stream)?;
     if header.streams.bodies {
-        for ((body, path), colour) in header.bodies.iter().zip(bodies).zip(schema::BODY_COLOURS.iter().cycle()) {
+        for Drawn { path, bodies, colour } in bodies {
+            let body = &header.bodies[bodies[0]];
             stream.log_static(path.clone(), &surface(body, *colour, u8::MAX))?;
             if header.bodies.len() <= EDGED_BODIES {
                 details(body, path, &stream)?;
@@ -91,7 +93,8 @@ pub fn ending(header: &Header, ending: &Ending, seen: &Seen) -> Result<Vec<LogMs
     let run = AnyValues::default()
         .with_component::<Text>("outcome", [ending.outcome.name()])
         .with_component::<Scalar>("end_time_s", [ending.end_time_s])
-        .with_component::<Scalar>("steps", [ending.steps as f64]);
+        .with_component::<Scalar>("steps", [ending.steps as f64])
+        .with_component::<Scalar>(STRETCH, ending.story.stretch_s);
     let run = ending.texts().fold(run, |run, (field, text)| run.with_component::<Text>(field, [text]));
     let row = ending
         .row
@@ -104,11 +107,17 @@ pub fn ending(header: &Header, ending: &Ending, seen: &Seen) -> Result<Vec<LogMs
     });
     stream.send_property(schema::METADATA, &run)?;
     stream.log_static(HEADLINE, &TextDocument::from_markdown(headline::page(header, ending)))?;
+    if let Some(flight) = &ending.flight {
+        stream.log_static(FLIGHT, &TextDocument::from_markdown(headline::flight_page(flight)))?;
+    }
     let camera = camera(header, seen, ending.story.calm_until_s);
     if let Some(Camera { middle, half_m, .. }) = camera {
         ground(header, middle, 1.6 * half_m, &stream)?;
     }
-    trails(header, seen, &stream)?;
+    // One that the camera goes along with would be a bar through the picture.
+    if !camera.is_some_and(|camera| camera.follows) {
+        trails(header, seen, &stream)?;
+    }
     marks(header, ending, seen, &stream)?;
     // The recording is there already: what opens one is left out.
     let mut messages = layout::messages(header, Some((ending, seen, camera)))?;
@@ -137,6 +146,7 @@ fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<
         .with_component::<Text>("title", [header.title.as_str()])
         .with_component::<Text>("program", [header.program.as_str()])
         .with_component::<Text>("build", [header.build.as_str()]);
+    let run = run.with_component::<Scalar>(ENERGY_UNIT, [header.energy_unit.1]);
     let run = header.step_s.into_iter().fold(run, |run, step_s| run.with_component::<Scalar>("step_s", [step_s]));
     stream.send_property(schema::METADATA, &run)?;
     // Longer than what a text in it may have.
@@ -397,7 +407,7 @@ fn marks(header: &Header, ending: &Ending, seen: &Seen, stream: &RecordingStream
     stream.log_static(LOG_GAINS, &style())?;
     for EnergyGain { step, time_s, after_j, .. } in &ending.story.gains {
         at(*step, *time_s);
-        stream.log(GAINS, &Scalars::single(*after_j))?;
+        stream.log(GAINS, &Scalars::single(*after_j / header.energy_unit.1))?;
         if let Some(part) = log_part(*after_j, Some(start_j)).filter(|_| start_j > 0.0) {
             stream.log(LOG_GAINS, &Scalars::single(part))?;
         }
@@ -421,7 +431,8 @@ fn styles(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()
     }
     if streams.energy {
         for series in &schema::ENERGY_SERIES {
-            stream.log_static(energy_path(series), &line(series.label, series.colour))?;
+            let unit = if series.is_length() { "m" } else { header.energy_unit.0 };
+            stream.log_static(energy_path(series), &line(&format!("{} [{unit}]", series.name), series.colour))?;
         }
         stream.log_static(LOG_ENERGY_TOTAL, &line("log₁₀ E / E₀", schema::BODY_COLOURS[1]))?;
     }

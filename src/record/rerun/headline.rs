@@ -1,9 +1,10 @@
 //! The page that a recording opens with: what happened, when, by what; and what was asked.
 
 use crate::outcome::Outcome;
+use crate::record::flight::{Flight, FlightContact};
 use crate::record::sample::{ContactMode, Ending, Header, Severity};
 use crate::record::schema;
-use crate::record::story::{Decisive, Story, TurningPoint, brief, markdown, markdown_code};
+use crate::record::story::{Decisive, Story, TurningPoint, brief, markdown, markdown_code, shortest};
 use serde_json::Value;
 use std::fmt::Write;
 
@@ -20,6 +21,13 @@ const MEASURES: [(&str, &str); 10] = [
     ("error_position_m", "error of positions, m"),
     ("contacts_max", "contacts at once"),
 ];
+
+/// Growth of the energy from which a run that ends is one that has exploded.
+const GROWN: f64 = 10.0;
+
+/// Contacts that are listed of a step, and rows of A that are shown.
+const MOST_SHOWN: usize = 24;
+const MOST_ROWS: usize = 12;
 
 /// Page of a recording that was cut before its end.
 pub fn begun(header: &Header) -> String {
@@ -52,7 +60,10 @@ fn title(ending: &Ending) -> String {
                 1 => "one step gains energy".to_string(),
                 n => format!("{n} steps gain energy"),
             };
-            format!("Finished at {at}: {gains}")
+            match growth.filter(|growth| *growth > GROWN) {
+                Some(growth) => format!("Finished at {at}: energy {} × the start, {gains}", brief(growth)),
+                None => format!("Finished at {at}: {gains}"),
+            }
         }
         (Outcome::Diverged, Some("energy")) => match growth {
             Some(growth) => format!("Diverged at {at}: energy {} × the start", brief(growth)),
@@ -90,17 +101,89 @@ fn asked(header: &Header, ending: Option<&Ending>) -> String {
 
 fn table(story: &Story, outcome: Outcome) -> String {
     let mut table = String::from("| when | step | what |\n|---|---|---|\n");
+    let onset = story.turn(Decisive::Onset).map(|turn| turn.step);
     for TurningPoint { what, step, time_s, text } in &story.turns {
-        // Of a sound run its gains are no news, and nothing is decided by the most contacts of one.
+        // The first gain is said once.
+        if *what == Decisive::FirstGain && Some(*step) == onset {
+            continue;
+        }
         let text = match what {
             Decisive::End => markdown(text),
             what => format!("{}: {}", what.name(), markdown(text)),
         };
-        let decides = *what == Decisive::Onset && outcome == Outcome::Diverged;
+        let decides = *what == Decisive::Onset || *what == Decisive::End && outcome != Outcome::Finished;
         let bold = if decides { "**" } else { "" };
-        let _ = writeln!(table, "| {bold}{} s{bold} | {step} | {bold}{text}{bold} |", brief(*time_s));
+        let _ = writeln!(table, "| {bold}{}{bold} | {step} | {bold}{text}{bold} |", moment(*time_s));
     }
     table + "\n"
+}
+
+/// A time as the viewer's panel shows it and takes it.
+pub fn moment(time_s: f64) -> String {
+    if !(time_s > 0.0 && time_s.is_finite()) {
+        return format!("{} s", shortest(time_s));
+    }
+    // Up: at a time a little before an instant the viewer shows what was before it.
+    let digits = 5 - libm::floor(libm::log10(time_s)) as i32;
+    let scale = libm::exp10(f64::from(digits.min(9)));
+    let rounded = (time_s * scale * (1.0 - 4.0 * f64::EPSILON)).ceil() / scale;
+    format!("{} s", shortest(rounded))
+}
+
+/// Page of the contacts of the step that gained most.
+pub fn flight_page(flight: &Flight) -> String {
+    let Flight { step, time_s, step_s, contacts, contacts_count, given_j, a_per_kg, eigenvalues_per_kg } = flight;
+    let gained: Vec<&FlightContact> = contacts.iter().filter(|contact| contact.given_j > 0.0).collect();
+    let mut page = format!(
+        "# The step that gained most: step {step}, contacts at {}\n\n{contacts_count} contact{} gave {} J in {} s; {} \
+         of them gave some. A contact gives p·½(b + u⁺), p = F Δt; what slides, sticks or comes to rest takes \
+         energy.\n\n",
+        moment(*time_s),
+        if *contacts_count == 1 { "" } else { "s" },
+        brief(*given_j),
+        brief(*step_s),
+        gained.len()
+    );
+    page += "| | between | gave, J | gap, m | F, N: n, t₁, t₂ | u⁻, m/s | b, m/s | u⁺ = A p + b, m/s |\n";
+    page += "|---|---|---|---|---|---|---|---|\n";
+    let vector = |v: &[f64; 3]| v.map(brief).join(", ");
+    for (contact, number) in contacts.iter().zip(1..).take(MOST_SHOWN) {
+        let bold = if contact.given_j > 0.0 { "**" } else { "" };
+        let [body, other] = contact.bodies.each_ref().map(|name| markdown(name));
+        let _ = writeln!(
+            page,
+            "| {number} | {body}, {other} | {bold}{}{bold} | {} | {} | {} | {} | {} |",
+            brief(contact.given_j),
+            brief(contact.gap_m),
+            vector(&contact.force_n),
+            vector(&contact.before_m_s),
+            vector(&contact.b_m_s),
+            vector(&contact.after_m_s),
+        );
+    }
+    if contacts.len() > MOST_SHOWN {
+        let _ = writeln!(page, "\nThe first {MOST_SHOWN} are listed; an .mcap holds {}.", contacts.len());
+    }
+    let largest = eigenvalues_per_kg.first().copied().unwrap_or(0.0);
+    let rank = eigenvalues_per_kg.iter().filter(|value| **value > 1e-9 * largest).count();
+    let shown: Vec<String> = eigenvalues_per_kg.iter().take(12).map(|x| brief(*x)).collect();
+    let more = if eigenvalues_per_kg.len() > 12 { ", …" } else { "" };
+    let _ = writeln!(
+        page,
+        "\n**A = J M⁻¹ Jᵀ**, {0} × {0}, rank {rank}; eigenvalues, 1/kg: {1}{more}\n",
+        eigenvalues_per_kg.len(),
+        shown.join(", ")
+    );
+    let first = a_per_kg.len().min(MOST_ROWS);
+    if first > 0 {
+        let _ = writeln!(page, "Rows and columns of the first {} contacts (n, t₁, t₂ of each), 1/kg:\n", first / 3);
+        page += &format!("|{}\n|{}\n", " |".repeat(first), "---|".repeat(first));
+        for row in &a_per_kg[..first] {
+            let cells: Vec<String> = row[..first].iter().map(|x| brief(*x)).collect();
+            let _ = writeln!(page, "| {} |", cells.join(" | "));
+        }
+    }
+    page
 }
 
 fn measures(ending: &Ending) -> String {
@@ -123,12 +206,31 @@ fn legend(header: &Header, ending: &Ending) -> String {
     if header.streams.forces && touched {
         lines.push(match header.arrow_weight_n {
             Some(weight_n) => format!(
-                "Force arrows, on both bodies: {} N, a weight, are {} m; none is longer than the scene.",
+                "Force arrows, on both bodies: {} N, a weight, are {} m; none is longer than {} m.",
                 brief(weight_n),
-                brief(weight_n * header.arrow_m_per_n)
+                brief(weight_n * header.arrow_m_per_n),
+                brief(header.arrow_longest_m)
             ),
-            None => format!("Force arrows, on both bodies: 1 N is {} m.", brief(header.arrow_m_per_n)),
+            None => format!(
+                "Force arrows, on both bodies: 1 N is {} m; none is longer than {} m.",
+                brief(header.arrow_m_per_n),
+                brief(header.arrow_longest_m)
+            ),
         });
+    }
+    if ending.left_out > 0 {
+        lines.push(format!(
+            "**{} samples are left out, so that the file has at most {} MB (record.max\\_mb).**",
+            ending.left_out,
+            brief(header.most_bytes as f64 / 1e6)
+        ));
+    }
+    let most = ending.row.get("contacts_max").and_then(Value::as_u64).unwrap_or(0);
+    if most > schema::MOST_CONTACTS as u64 {
+        lines.push(format!(
+            "Of a sample's contacts the {} with the largest forces are drawn; an .mcap holds all.",
+            schema::MOST_CONTACTS
+        ));
     }
     lines.push(format!(
         "A sample every {} s, and every step about what is in the log as an impact or worse ({}, {}).",

@@ -5,8 +5,8 @@
 
 use super::camera::{Camera, rounded, scale, spacing_m};
 use super::names::{
-    CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION, SIM_TIME,
-    application, body_path,
+    CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FLIGHT, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION,
+    SIM_TIME, application, body_path,
 };
 use super::seen::{Between, Seen};
 use crate::record::sample::{Ending, Header, norm};
@@ -36,7 +36,11 @@ const GROWTH: f64 = 10.0;
 const ENERGY_FLOOR: f64 = 1e-3;
 const LENGTH_FLOOR: f64 = 1e-6;
 /// Part of a plot's height that is left for its legend.
-const LEGEND: f64 = 0.42;
+const LEGEND: f64 = 0.55;
+/// Part of a plot's height that is left below zero.
+const BELOW: f64 = 0.06;
+/// Powers of ten above the limit of divergence that are plotted: what comes after it is no more news.
+const ABOVE: f64 = 3.0;
 /// Seconds in which the decisive stretch is played.
 const PLAYED_S: f64 = 5.0;
 
@@ -45,7 +49,7 @@ const GRID: [u8; 4] = [120, 125, 140, 60];
 
 /// A plot, the range of its values, and the corner of its legend, if it has more than one line.
 pub struct Plot {
-    pub name: &'static str,
+    pub name: String,
     pub path: &'static str,
     pub range: Option<[f64; 2]>,
     pub legend: Option<Corner2D>,
@@ -60,6 +64,8 @@ pub struct Opening {
     pub contacts: Vec<Plot>,
     /// Whether there is a page with the configuration.
     pub has_config: bool,
+    /// Whether there is a page with the contacts of the largest gain.
+    pub has_flight: bool,
     /// Part of the run that is played.
     pub stretch_s: Option<[f64; 2]>,
 }
@@ -78,6 +84,7 @@ pub fn messages(header: &Header, known: Option<Known<'_>>) -> Result<Vec<LogMsg>
         energy: energy_plot(header, known),
         contacts: contact_plots(header, known),
         has_config: true,
+        has_flight: known.is_some_and(|(ending, ..)| ending.flight.is_some()),
         stretch_s: known.map(|(ending, ..)| ending.story.stretch_s),
     };
     opening.messages()
@@ -89,7 +96,7 @@ impl Opening {
     /// # Errors
     /// Rerun's own.
     pub fn messages(self) -> Result<Vec<LogMsg>, Box<dyn Error>> {
-        let Opening { application, eye, grid, energy, contacts, has_config, stretch_s } = self;
+        let Opening { application, eye, grid, energy, contacts, has_config, has_flight, stretch_s } = self;
         let mut properties = Properties::default();
         let scene: ContainerLike = Spatial3DView::new("scene").with_origin("/").with_contents(["+ /world/**"]).into();
         let [r, g, b] = BACKGROUND;
@@ -115,7 +122,8 @@ impl Opening {
 
         // The public interface only sends a layout through a recording's stream; the recording is thrown away.
         let (stream, memory) = RecordingStreamBuilder::new(application).enabled(true).memory()?;
-        blueprint(scene, energy, contacts, has_config, stretch_s).send(&stream, BlueprintActivation::default())?;
+        blueprint(scene, energy, contacts, [has_config, has_flight], stretch_s)
+            .send(&stream, BlueprintActivation::default())?;
         let mut messages = memory.take();
         let recording = memory.store_id();
         messages.retain(|message| Some(message.store_id()) != recording.as_ref());
@@ -159,10 +167,13 @@ fn blueprint(
     scene: ContainerLike,
     energy: Option<ContainerLike>,
     contacts: Vec<ContainerLike>,
-    has_config: bool,
+    [has_config, has_flight]: [bool; 2],
     stretch_s: Option<[f64; 2]>,
 ) -> Blueprint {
     let mut notes: Vec<ContainerLike> = vec![TextLogView::new("events").with_origin(LOG).into()];
+    if has_flight {
+        notes.push(TextDocumentView::new("largest gain").with_origin(FLIGHT).into());
+    }
     if has_config {
         notes.push(TextDocumentView::new("configuration").with_origin(CONFIG).into());
     }
@@ -223,27 +234,32 @@ fn energy_plot(header: &Header, known: Option<Known<'_>>) -> Option<Plot> {
     // Where the plot is low: energies mostly fall, and what explodes does so at the end.
     let falls = known.is_none_or(|(_, seen, _)| seen.falls());
     let corner = if falls { Corner2D::RightTop } else { Corner2D::LeftTop };
-    let linear = Plot { name: "energy [J]", path: ENERGY, range: None, legend: Some(corner) };
+    let (unit, unit_j) = header.energy_unit;
+    let linear = Plot { name: format!("energy [{unit}]"), path: ENERGY, range: None, legend: Some(corner) };
     let Some((ending, seen, _)) = known else { return Some(linear) };
     if seen.energy_j.is_empty() {
         return None;
     }
-    if let Some(range) = log_range(seen.log_energy, header.energy_factor) {
+    // A start that is rounding is no scale; the row knows.
+    let has_scale = ending.row.contains_key("energy_growth_max");
+    if let Some(range) = log_range(seen.log_energy, header.energy_factor).filter(|_| has_scale) {
         return Some(Plot { range: Some(range), ..log_energy_plot() });
     }
     let floor_j = ENERGY_FLOOR * ending.story.start_j.abs();
-    let range = with_legend(widened(seen.energy_j, floor_j));
+    let range = with_legend(widened(seen.energy_j, floor_j)).map(|end_j| end_j / unit_j);
     Some(Plot { range: Some(range), ..linear })
 }
 
 /// The plot of energies' logarithms.
 pub fn log_energy_plot() -> Plot {
-    Plot { name: "energy: log₁₀ E / E₀", path: LOG_ENERGY, range: None, legend: Some(Corner2D::LeftTop) }
+    Plot {
+        name: "energy: log₁₀ E / E₀".to_string(), path: LOG_ENERGY, range: None, legend: Some(Corner2D::LeftTop)
+    }
 }
 
 /// Range of the logarithms, with the limit of divergence in it; None where they say less than the energies themselves.
 pub fn log_range(log: Between, factor: Option<f64>) -> Option<[f64; 2]> {
-    let limit = factor.map_or(log.most, |factor| libm::log10(factor).max(log.most));
+    let limit = factor.map_or(log.most, |factor| libm::log10(factor).max(log.most.min(libm::log10(factor) + ABOVE)));
     (log.most > libm::log10(GROWTH)).then(|| with_legend([log.least.min(0.0) - 0.15, limit + 0.15]))
 }
 
@@ -264,8 +280,9 @@ fn contact_plots(header: &Header, known: Option<Known<'_>>) -> Vec<Plot> {
         .map(|(_, name, path, seen, floor)| {
             // From nothing up; the friction that one wrong contact uses has no end.
             let most = |seen: Between| if path == FRICTION_USE { seen.most.min(2.0) } else { seen.most };
-            let range = seen.map(|seen| [0.0, 1.08 * most(seen).max(floor)]);
-            Plot { name, path, range, legend: None }
+            // A little below nothing: the mark of zero is clear of the time below it.
+            let range = seen.map(|seen| [-BELOW, 1.08].map(|part| part * most(seen).max(floor)));
+            Plot { name: name.to_string(), path, range, legend: None }
         })
         .collect()
 }

@@ -1,6 +1,6 @@
 //! Mends an .rrd that was cut: its messages, and the end that a whole file has.
 
-use super::names::{APPLICATION, SIM_TIME};
+use super::names::{APPLICATION, SIM_TIME, STRETCH};
 use crate::record::RecordError;
 use crate::record::mend::Whole;
 use ::rerun::external::re_build_info::CrateVersion;
@@ -67,6 +67,26 @@ pub fn whole_of(path: &Path) -> Result<Option<Whole>, RecordError> {
     Ok(has_samples.then_some(whole))
 }
 
+/// The stretch that an .rrd plays; None where it says none.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn stretch_of(path: &Path) -> Result<Option<[f64; 2]>, RecordError> {
+    let Some(messages) = messages(path)? else { return Ok(None) };
+    let mut found = None;
+    for message in messages {
+        let LogMsg::ArrowMsg(_, message) = &message else { continue };
+        let Ok(chunk) = Chunk::from_arrow_msg(message) else { continue };
+        let Some(component) = chunk.components_identifiers().find(|name| name.as_str() == STRETCH) else { continue };
+        for row in chunk.iter_slices::<f64>(component) {
+            if let [from_s, to_s] = row {
+                found = Some([*from_s, *to_s]);
+            }
+        }
+    }
+    Ok(found)
+}
+
 /// Writes what is whole of an .rrd into a new file; None, and no file, if no sample is.
 ///
 /// # Errors
@@ -78,7 +98,7 @@ pub fn mend_rrd(torn: &Path, mended: &Path) -> Result<Option<Whole>, RecordError
 }
 
 /// Messages of an .rrd; of a file that ends early, those that are complete.
-fn messages(path: &Path) -> Result<Option<impl Iterator<Item = LogMsg>>, RecordError> {
+pub(super) fn messages(path: &Path) -> Result<Option<impl Iterator<Item = LogMsg>>, RecordError> {
     let file = File::open(path).map_err(|error| RecordError::unread(path, &error))?;
     let decoded = Decoder::<LogMsg>::decode_eager(BufReader::new(file));
     Ok(decoded.ok().map(|messages| messages.map_while(Result::ok)))

@@ -18,6 +18,12 @@ pub fn application(named: &str) -> Result<ApplicationId, Box<dyn Error>> {
     Ok(ApplicationId::try_new(format!("{APPLICATION} {safe}"))?)
 }
 
+/// Property that holds the stretch that is played, from and to.
+pub const STRETCH: &str = "stretch_s";
+
+/// Property that holds the unit in which energies are plotted, in joules.
+pub const ENERGY_UNIT: &str = "energy_unit_j";
+
 /// Timelines: simulated time, and the number of the step.
 pub const SIM_TIME: &str = "sim_time";
 pub const STEP: &str = "step";
@@ -44,13 +50,11 @@ pub const FRICTION_USE: &str = "/contact/friction_use";
 pub const LOG: &str = "/log";
 pub const HEADLINE: &str = "/headline";
 pub const CONFIG: &str = "/config";
+pub const FLIGHT: &str = "/largest_gain";
 
 /// Entity of a plotted energy. Penetration has a plot of its own: it is a length.
 pub fn energy_path(series: &Series) -> EntityPath {
-    match series.name {
-        "penetration" => PENETRATION.into(),
-        name => format!("{ENERGY}/{name}").into(),
-    }
+    if series.is_length() { PENETRATION.into() } else { format!("{ENERGY}/{}", series.name).into() }
 }
 
 /// A body's name is one part of the path, whatever characters it has.

@@ -1,6 +1,7 @@
 //! Columns and events as chunks of an .rrd.
 
 use super::headline::level;
+use super::live::Live;
 use super::names::{LOG, SIM_TIME, STEP};
 use crate::record::sample::Event;
 use crate::record::schema;
@@ -14,10 +15,42 @@ use std::io::BufWriter;
 /// Result of a write. Rerun's errors come from five crates; all end as the reason of a `RecordError`.
 pub type Appended = Result<(), Box<dyn Error>>;
 
-/// The file, and the name of the recording in it.
+/// Where messages go: into a file, or to a viewer.
+pub enum Sink {
+    File(Encoder<BufWriter<File>>),
+    Viewer(Live),
+}
+
+impl Sink {
+    pub fn append(&mut self, message: &LogMsg) -> Appended {
+        match self {
+            Sink::File(encoder) => drop(encoder.append(message)?),
+            Sink::Viewer(viewer) => viewer.send(message),
+        }
+        Ok(())
+    }
+
+    pub fn flush(&mut self) -> Appended {
+        match self {
+            Sink::File(encoder) => encoder.flush_blocking()?,
+            Sink::Viewer(viewer) => viewer.flush(),
+        }
+        Ok(())
+    }
+
+    /// The end of a file; a viewer needs none.
+    pub fn finish(&mut self) -> Appended {
+        if let Sink::File(encoder) = self {
+            encoder.finish()?;
+        }
+        self.flush()
+    }
+}
+
+/// The sink, and the name of the recording in it.
 pub struct Out {
     pub store: StoreId,
-    pub encoder: Encoder<BufWriter<File>>,
+    pub sink: Sink,
 }
 
 impl Out {
@@ -31,8 +64,7 @@ impl Out {
         let timelines = times.iter().map(|column| (*column.timeline().name(), column.clone())).collect();
         let components = columns.map(|column| (column.descriptor, column.list_array)).collect();
         let chunk = Chunk::from_auto_row_ids(ChunkId::new(), path, timelines, components)?;
-        self.encoder.append(&LogMsg::ArrowMsg(self.store.clone(), chunk.to_arrow_msg()?))?;
-        Ok(())
+        self.sink.append(&LogMsg::ArrowMsg(self.store.clone(), chunk.to_arrow_msg()?))
     }
 
     pub fn scalars(&mut self, path: EntityPath, times: &Times, values: impl Iterator<Item = f64>) -> Appended {

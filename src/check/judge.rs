@@ -2,6 +2,7 @@
 //!
 //! No row selected, a null or a number that is not finite: not met, never a pass.
 
+use super::failing::{Failing, failing};
 use super::schema::{Cells, Schema, selected, strata};
 use crate::experiment::expect::{Comparison, Expectation, What};
 use crate::experiment::filter::Filter;
@@ -21,6 +22,17 @@ pub struct Judged {
     pub why: Option<String>,
     /// Number of rows that the expectation is about.
     pub rows: usize,
+    /// Cases that it names where it is not met, the worst first.
+    pub failing: Vec<Failing>,
+}
+
+impl Judged {
+    /// An expectation that nobody has judged, and the reason.
+    pub fn not_judged(expectation: &Expectation, reason: &str) -> Self {
+        let (text, bound) = in_words(expectation);
+        let (measured, why) = (reason.to_string(), expectation.why.clone());
+        Judged { expectation: text, bound, measured, met: false, why, rows: 0, failing: Vec::new() }
+    }
 }
 
 /// A measurement in words, and whether it is what was expected.
@@ -55,7 +67,8 @@ pub fn judge(expectation: &Expectation, schema: &Schema, rows: &[Cells]) -> Judg
     };
     let (text, bound) = in_words(expectation);
     let Verdict { measured, met } = verdict;
-    Judged { expectation: text, bound, measured, met, why: expectation.why.clone(), rows: rows.len() }
+    let failing = if met { Vec::new() } else { failing(expectation, schema, &rows) };
+    Judged { expectation: text, bound, measured, met, why: expectation.why.clone(), rows: rows.len(), failing }
 }
 
 fn in_words(expectation: &Expectation) -> (String, String) {
@@ -120,12 +133,27 @@ fn of_compare(how: Comparison, of: Result<f64, String>, to: Result<f64, String>,
         (Err(missing), _) => return Verdict::not(format!("of: {missing}")),
         (_, Err(missing)) => return Verdict::not(format!("to: {missing}")),
     };
-    let (x, sign) = match how {
-        Comparison::Ratio => (of / to, "/"),
-        Comparison::Difference => (of - to, "−"),
-    };
+    let (x, sign) = (compared(how, of, to), how.sign());
     let measured = format!("{} ({} {sign} {})", short(x), short(of), short(to));
     Verdict { measured, met: x.is_finite() && bounds.contain(x) }
+}
+
+fn compared(how: Comparison, of: f64, to: f64) -> f64 {
+    match how {
+        Comparison::Ratio => of / to,
+        Comparison::Difference => of - to,
+    }
+}
+
+/// Ratio or difference of what was measured of two groups of rows, if both have it.
+pub(super) fn quantity_of(
+    how: Comparison,
+    of: &[&Cells],
+    to: &[&Cells],
+    quantity: &Quantity,
+    q: Option<f64>,
+) -> Option<f64> {
+    Some(compared(how, value(of, quantity, q).ok()?, value(to, quantity, q).ok()?))
 }
 
 /// A share, or the mean or quantile of a column.
@@ -159,7 +187,7 @@ fn of_trend(schema: &Schema, rows: &[&Cells], of: &Quantity, along: &str, rising
 }
 
 /// Rows by their level along the axis (or the column), in its order: of numbers by size, else as the axis is written.
-fn levels<'a>(schema: &Schema, rows: &[&'a Cells], along: &str) -> Result<Vec<Vec<&'a Cells>>, String> {
+pub(super) fn levels<'a>(schema: &Schema, rows: &[&'a Cells], along: &str) -> Result<Vec<Vec<&'a Cells>>, String> {
     let is_numeric = schema.axis(along).is_none_or(|values| values.iter().all(Value::is_number));
     let column = Column { name: along.to_string(), divided_by: None };
     let place = |row: &&Cells| match is_numeric {
@@ -214,9 +242,7 @@ fn arrows(levels: &[String]) -> String {
 }
 
 fn of_order(schema: &Schema, rows: &[&Cells], column: &Column, against: &str, bounds: &Bounds) -> Verdict {
-    // The step that was made, where rounding to a whole number of steps has changed it.
-    let x = Column::new(if against == "time.step_s" { "step_used_s" } else { against });
-    let others = if schema.axis(against).is_some() { schema.others(against) } else { Vec::new() };
+    let (x, others) = order_of(schema, against);
     let mut orders = Vec::new();
     for cell in strata(rows.iter().copied(), |row| row, &others) {
         let points = numbers(&cell, &x).and_then(|x| Ok(x.into_iter().zip(numbers(&cell, column)?)));
@@ -240,6 +266,13 @@ fn of_order(schema: &Schema, rows: &[&Cells], column: &Column, against: &str, bo
         measured += &format!("; {floor} points in rounding left out");
     }
     Verdict { measured, met: slopes.iter().all(|slope| bounds.contain(*slope)) }
+}
+
+/// What an order is measured against, and the axes that tell its cells apart.
+pub(super) fn order_of<'a>(schema: &'a Schema, against: &str) -> (Column, Vec<&'a str>) {
+    // The step that was made, where rounding to a whole number of steps has changed it.
+    let x = Column::new(if against == "time.step_s" { "step_used_s" } else { against });
+    (x, if schema.axis(against).is_some() { schema.others(against) } else { Vec::new() })
 }
 
 fn of_equal(schema: &Schema, rows: &[&Cells], column: &str, across: &str, within_rel: f64) -> Verdict {
@@ -267,7 +300,7 @@ fn of_equal(schema: &Schema, rows: &[&Cells], column: &str, across: &str, within
 }
 
 /// Largest difference of a component over the rows, relative to the largest norm of the vector; of texts 0 or infinite.
-fn spread(rows: &[&Cells], vector: &[&str]) -> Option<f64> {
+pub(super) fn spread(rows: &[&Cells], vector: &[&str]) -> Option<f64> {
     let cells =
         |name: &str| rows.iter().map(|row| row.get(name).filter(|cell| !cell.is_null())).collect::<Option<Vec<_>>>();
     if let [name] = vector {
@@ -287,16 +320,16 @@ fn spread(rows: &[&Cells], vector: &[&str]) -> Option<f64> {
     Some(if difference == 0.0 { 0.0 } else { difference / scale })
 }
 
-fn count(rows: &[&Cells], of: &Predicate) -> Result<usize, String> {
+pub(super) fn count(rows: &[&Cells], of: &Predicate) -> Result<usize, String> {
     let hold = rows.iter().map(|row| of.holds(|name| row.get(name)).ok_or_else(|| null(of, row)));
     Ok(hold.collect::<Result<Vec<_>, _>>()?.into_iter().filter(|holds| *holds).count())
 }
 
-fn numbers(rows: &[&Cells], column: &Column) -> Result<Vec<f64>, String> {
+pub(super) fn numbers(rows: &[&Cells], column: &Column) -> Result<Vec<f64>, String> {
     rows.iter().map(|row| number(column, row)).collect()
 }
 
-fn number(column: &Column, row: &Cells) -> Result<f64, String> {
+pub(super) fn number(column: &Column, row: &Cells) -> Result<f64, String> {
     column.value(|name| row.get(name)).ok_or_else(|| null(column, row))
 }
 
@@ -330,7 +363,7 @@ fn range(values: &[f64]) -> String {
 }
 
 /// A number to four significant digits.
-fn short(x: f64) -> String {
+pub fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 || !x.is_finite() {
         return format!("{x}");

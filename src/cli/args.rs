@@ -2,6 +2,7 @@
 
 use super::error::CliError;
 use super::output::ColorFlag;
+use super::progress::ProgressFlag;
 use crate::digest::sha256;
 use crate::experiment::types::RecordTo;
 use crate::experiment::{ExperimentFile, Given};
@@ -65,7 +66,7 @@ pub(super) struct OutputArgs {
     /// One JSON document on stdout and nothing else there
     #[arg(long)]
     pub(super) json: bool,
-    /// Nothing on stderr but warnings and errors
+    /// Nothing on stderr but warnings and errors; of `check`, nothing on stdout but what is not met
     #[arg(long)]
     pub(super) quiet: bool,
     /// More about what is done
@@ -95,6 +96,9 @@ pub(super) struct RunArgs {
     /// Cases at a time [default: all cores]
     #[arg(long, value_name = "N")]
     pub(super) jobs: Option<usize>,
+    /// How progress is told, on stderr [default: a bar on a terminal]
+    #[arg(long, value_enum, value_name = "HOW", default_value_t, hide_default_value = true)]
+    pub(super) progress: ProgressFlag,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -99,6 +99,11 @@ pub(super) fn print_json(value: &impl serde::Serialize) {
     print(serde_json::to_string(value).unwrap_or_default());
 }
 
+/// A number of things, whose plural ends with an s.
+pub(super) fn counted(count: usize, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+}
+
 /// A number of bytes in megabytes, to a tenth of one.
 pub(super) fn megabytes(bytes: u64) -> String {
     format!("{:.1} MB", bytes as f64 / 1e6)

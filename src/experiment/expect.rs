@@ -47,6 +47,13 @@ impl Comparison {
             Comparison::Difference => "difference",
         }
     }
+
+    pub fn sign(self) -> &'static str {
+        match self {
+            Comparison::Ratio => "/",
+            Comparison::Difference => "−",
+        }
+    }
 }
 
 /// The keys of an item as they are written.

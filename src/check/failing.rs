@@ -1,7 +1,7 @@
 //! Cases that an unmet expectation names: those that are out of bounds, or against the trend, or of a cell that is; the
 //! worst first.
 
-use super::judge::{Judged, count, levels, number, numbers, order_of, quantity_of, spread};
+use super::numbers::{count, levels, number, numbers, order_of, quantity_of, spread};
 use super::schema::{Cells, Schema, selected, strata};
 use crate::experiment::expect::{Expectation, What};
 use crate::experiment::predicate::{Bounds, Column, Predicate, Quantity};
@@ -68,18 +68,6 @@ pub fn broken(schema: &Schema, rows: &[Cells]) -> Vec<Failing> {
     let failed = rows.iter().filter(|row| row.get("outcome").and_then(Value::as_str) == Some("failed"));
     let named = |row| Named { row, excess: 0.0, column: "criterion".into(), value: cell(row, "criterion") };
     failed.map(|row| of_row(named(row), schema)).collect()
-}
-
-/// At most this many cases that the expectations name, each in its turn.
-pub fn in_turn(judged: &[Judged], most: usize) -> Vec<String> {
-    let mut chosen: Vec<String> = Vec::new();
-    let longest = judged.iter().map(|judged| judged.failing.len()).max().unwrap_or_default();
-    for failing in (0..longest).flat_map(|i| judged.iter().filter_map(move |judged| judged.failing.get(i))) {
-        if chosen.len() < most && !chosen.contains(&failing.case) {
-            chosen.push(failing.case.clone());
-        }
-    }
-    chosen
 }
 
 fn of_row(Named { row, column, value, .. }: Named, schema: &Schema) -> Failing {

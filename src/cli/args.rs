@@ -1,8 +1,7 @@
 //! Flags that commands share.
 
 use super::error::CliError;
-use super::output::ColorFlag;
-use super::progress::ProgressFlag;
+use super::output::{ColorFlag, ProgressFlag};
 use crate::digest::sha256;
 use crate::experiment::types::RecordTo;
 use crate::experiment::{ExperimentFile, Given};

@@ -2,8 +2,8 @@
 
 use super::args::{ExperimentArgs, OutputArgs};
 use super::error::CliError;
-use super::output::{print, print_json};
-use super::progress::{Bar, ProgressFlag};
+use super::output::{ProgressFlag, print, print_json};
+use super::progress::Bar;
 use super::remarks::{Remarks, Seen};
 use super::sweeping::{Config, configs};
 use super::table::table;

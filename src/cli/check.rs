@@ -1,6 +1,6 @@
 //! `gotai check`: runs experiments and judges their `expect:`. The command of a CI.
 
-use super::checked::{Checked, NamedCase, Unchecked};
+use super::checked::{Checked, NamedCase, Report, Unchecked};
 use super::error::CliError;
 use super::junit;
 use super::output::{Hue, counted, print, print_json, width, wrapped};
@@ -24,15 +24,6 @@ pub struct Command {
     junit: Option<PathBuf>,
     #[command(flatten)]
     sweep: SweepArgs,
-}
-
-/// All files of the command, as far as it has come.
-#[derive(Default)]
-pub(super) struct Report {
-    pub checked: Vec<Checked>,
-    pub unchecked: Vec<Unchecked>,
-    /// Files that were left out when another one was not met.
-    pub skipped: Vec<String>,
 }
 
 /// Most cases that an expectation names on the screen; -v shows those that JSON has.
@@ -123,19 +114,6 @@ impl Command {
         if checked.swept.failed() > 0 {
             print(page.broken(checked));
         }
-    }
-}
-
-impl Report {
-    fn cannot_check(&mut self, unchecked: Unchecked) {
-        eprintln!("gotai: {}", unchecked.error);
-        self.unchecked.push(unchecked);
-    }
-
-    /// The exit code: that of the file that went worst.
-    pub fn code(&self) -> u8 {
-        let unmet = u8::from(!self.checked.iter().all(Checked::is_met));
-        self.unchecked.iter().map(|unchecked| unchecked.error.code()).fold(unmet, u8::max)
     }
 }
 

@@ -21,6 +21,15 @@ pub struct Unchecked {
     pub error: CliError,
 }
 
+/// All files of the command, as far as it has come.
+#[derive(Default)]
+pub struct Report {
+    pub checked: Vec<Checked>,
+    pub unchecked: Vec<Unchecked>,
+    /// Files that were left out when another one was not met.
+    pub skipped: Vec<String>,
+}
+
 /// A case that an unmet expectation names, as a person needs it.
 pub struct NamedCase<'a> {
     pub id: String,
@@ -90,6 +99,20 @@ impl Checked {
             id,
             of,
         }
+    }
+}
+
+impl Report {
+    /// Says so, and goes on.
+    pub fn cannot_check(&mut self, unchecked: Unchecked) {
+        eprintln!("gotai: {}", unchecked.error);
+        self.unchecked.push(unchecked);
+    }
+
+    /// The exit code: that of the file that went worst.
+    pub fn code(&self) -> u8 {
+        let unmet = u8::from(!self.checked.iter().all(Checked::is_met));
+        self.unchecked.iter().map(|unchecked| unchecked.error.code()).fold(unmet, u8::max)
     }
 }
 

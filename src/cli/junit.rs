@@ -1,7 +1,6 @@
 //! Verdicts as a JUnit file: a suite an experiment, a test an expectation; what could not be checked is an error.
 
-use super::check::Report;
-use super::checked::{Checked, NamedCase, Unchecked};
+use super::checked::{Checked, NamedCase, Report, Unchecked};
 use super::error::CliError;
 use super::output::counted;
 use crate::check::{Failing, Judged};

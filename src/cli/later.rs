@@ -3,8 +3,8 @@
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
-const COMMANDS: [&str; 8] = ["merge", "submit", "report", "schema", "completions", "new", "compare", "doctor"];
-const FLAGS: [&str; 4] = ["--shard", "--live", "--no-report", "--fail-on-regression"];
+const COMMANDS: [&str; 7] = ["merge", "submit", "report", "schema", "completions", "new", "doctor"];
+const FLAGS: [&str; 3] = ["--shard", "--live", "--no-report"];
 
 /// Prints a parser's message (or help) and gives the exit code.
 pub fn explain_usage(error: &clap::Error) -> ExitCode {

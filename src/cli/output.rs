@@ -14,6 +14,17 @@ pub(super) enum ColorFlag {
     Never,
 }
 
+/// How progress is told.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum ProgressFlag {
+    /// A bar on a terminal, nothing elsewhere
+    #[default]
+    Auto,
+    /// Events on stderr, a JSON object a line
+    Json,
+    None,
+}
+
 /// Colour of what is told apart by it; nothing is said by colour alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Hue {

@@ -1,10 +1,10 @@
-//! Progress on stderr: a bar with the tally of outcomes, rate and time left, only on a terminal; or events as JSON lines.
+//! Progress on stderr: a bar with the tally of outcomes, rate and time left, only on a terminal; or events as JSON
+//! lines.
 
 use super::args::OutputArgs;
-use super::output::Hue;
+use super::output::{Hue, ProgressFlag};
 use crate::outcome::Outcome;
 use crate::sweep::runner::Progress;
-use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -12,17 +12,6 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard};
 use std::time::Duration;
-
-/// How progress is told.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(super) enum ProgressFlag {
-    /// A bar on a terminal, nothing elsewhere
-    #[default]
-    Auto,
-    /// Events on stderr, a JSON object a line
-    Json,
-    None,
-}
 
 /// Progress of one file.
 pub struct Bar {

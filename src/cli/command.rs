@@ -1,8 +1,11 @@
 //! The commands, one file each.
 
 use super::error::CliError;
-use super::{bench, check, clean, compare, explain, export, list, repair, rows, run, status, sweep, view};
-use clap::{Parser, Subcommand};
+use super::{
+    bench, check, clean, compare, completions, doctor, explain, export, list, new, repair, rows, run, schema, status,
+    sweep, view,
+};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 
 /// Experiment harness for rigid-body simulation: sweep time step, friction and mesh resolution; record, judge and
@@ -47,6 +50,14 @@ enum Command {
     Explain(explain::Command),
     /// What can be written in an experiment file
     List(list::Command),
+    /// Write a commented experiment to start from
+    New(new::Command),
+    /// The JSON Schema of the experiment file, for editors
+    Schema(schema::Command),
+    /// What a shell completes
+    Completions(completions::Command),
+    /// What is there: the viewer and its version, Slurm, space
+    Doctor(doctor::Command),
 }
 
 impl Cli {
@@ -69,6 +80,10 @@ impl Cli {
             Command::Clean(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::List(command) => command.run(),
+            Command::New(command) => command.run(),
+            Command::Schema(command) => command.run(),
+            Command::Completions(command) => command.run(Cli::command()),
+            Command::Doctor(command) => command.run(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
-const COMMANDS: [&str; 7] = ["merge", "submit", "report", "schema", "completions", "new", "doctor"];
+const COMMANDS: [&str; 3] = ["merge", "submit", "report"];
 const FLAGS: [&str; 3] = ["--shard", "--live", "--no-report"];
 
 /// Prints a parser's message (or help) and gives the exit code.

@@ -17,6 +17,13 @@ const MOMENT: Duration = Duration::from_millis(400);
 /// A viewer that can be started.
 pub(super) struct Viewer {
     program: PathBuf,
+    version: String,
+}
+
+impl std::fmt::Display for Viewer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Rerun Viewer {} ({})", self.version, self.program.display())
+    }
 }
 
 impl Viewer {
@@ -56,7 +63,7 @@ impl Viewer {
         if version[..2] > ours[..2] && !quiet {
             eprintln!("note: the Rerun Viewer {shown} is newer than these recordings ({RERUN_VERSION})");
         }
-        Ok(Viewer { program })
+        Ok(Viewer { program, version: shown })
     }
 
     /// Opens files, and returns once the viewer runs, or, asked to wait, when it is closed.

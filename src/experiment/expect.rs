@@ -59,7 +59,7 @@ impl Comparison {
 /// The keys of an item as they are written.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Expect {
+pub(super) struct Expect {
     column: Option<String>,
     fraction: Option<PredicateText>,
     trend: Option<QuantityText>,

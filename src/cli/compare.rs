@@ -3,7 +3,7 @@
 use super::args::OutputArgs;
 use super::checked::quoted;
 use super::compare_page::page;
-use super::compared::{at, brief, cell, changed, described, factor, finding, joined, others, outcomes};
+use super::compared::{at, brief, cell, changed, described, factor, finding, interval, joined, others, outcomes};
 use super::error::CliError;
 use super::output::{Hue, counted, print, print_json, width, wrapped};
 use crate::check::{Change, CompareBy, Compared, Regression, Side, TOLERATED, compare};
@@ -124,15 +124,22 @@ fn replay(side: &Side, case: &str) -> String {
     format!("gotai run {} --case {}", quoted(&side.name), case.get(..8).unwrap_or(case))
 }
 
-/// The columns that differ, in at most 80 letters a line as long as the numbers are of the usual sizes.
-fn table(compared: &Compared) -> Vec<String> {
+/// The columns that differ. What does not fit beside its column stands below it.
+fn table(compared: &Compared, width: usize) -> Vec<String> {
     let (column, a, b) = ("column", "A", "B");
-    let mut lines = vec![format!("  {column:28} better worse {a:>9} {b:>9}  B / A (95 %)")];
+    let mut lines = vec![format!("  {column:28} better worse {a:>8} {b:>8}  B / A (95 %)")];
     for change in changed(compared) {
         let Change { column, better, worse, cells, .. } = change;
         let (a, b) = (brief(change.median_a), brief(change.median_b));
-        let of = if *cells == compared.finished { String::new() } else { format!(", {cells} cases") };
-        lines.push(format!("  {column:28} {better:6} {worse:5} {a:>9} {b:>9}  {}{of}", factor(change)));
+        let line = format!("  {column:28} {better:6} {worse:5} {a:>8} {b:>8}  {}", factor(change));
+        let of = if *cells == compared.finished { String::new() } else { format!(" of {}", counted(*cells, "case")) };
+        let more = interval(change) + &of;
+        if line.chars().count() + 1 + more.chars().count() <= width {
+            lines.push(format!("{line} {more}").trim_end().to_string());
+        } else {
+            let indent = width.saturating_sub(more.chars().count());
+            lines.extend([line, format!("{:indent$}{more}", "")]);
+        }
     }
     lines
 }
@@ -150,7 +157,7 @@ fn shown(a: &Side, b: &Side, compared: &Compared, is_colored: bool, most: usize)
             "\nin {} that finished in both (A, B: medians of sizes):",
             counted(compared.finished, "case")
         ));
-        text.extend(table(compared));
+        text.extend(table(compared, width));
         text.push(String::new());
     }
     text.extend(others(compared).iter().map(|line| wrapped(line, width, "", "  ")));

@@ -1,6 +1,6 @@
 //! A comparison as one page of HTML that needs nothing else.
 
-use super::compared::{at, brief, cell, changed, described, factor, finding, joined, others, outcomes};
+use super::compared::{at, brief, cell, changed, described, factor, finding, interval, joined, others, outcomes};
 use crate::check::{Change, Compared, Regression, Side};
 use std::fmt::Write;
 
@@ -39,11 +39,12 @@ pub(super) fn page(a: &Side, b: &Side, compared: &Compared) -> String {
     let row = |c: &&Change| {
         let numbers = [c.cells, c.better, c.worse].map(|count| count.to_string());
         let sizes = [c.median_a, c.median_b].map(brief);
-        [vec![c.column.clone(), c.unit.to_string()], numbers.to_vec(), sizes.to_vec(), vec![factor(c)]].concat()
+        [vec![c.column.clone(), c.unit.to_string()], numbers.to_vec(), sizes.to_vec(), vec![factor(c), interval(c)]]
+            .concat()
     };
     let rows: Vec<Vec<String>> = changed(compared).iter().map(row).collect();
     if !rows.is_empty() {
-        let header = ["column", "unit", "cases", "better", "worse", "A", "B", "B / A (95 %)"];
+        let header = ["column", "unit", "cases", "better", "worse", "A", "B", "B / A", "95 %"];
         let caption = format!("Columns in {} cases that finished in both; A, B: medians of sizes", compared.finished);
         table(&mut html, &caption, &header, &rows);
     }

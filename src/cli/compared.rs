@@ -69,16 +69,20 @@ fn is_same(change: &Change) -> bool {
     change.median_a == change.median_b && change.better + change.worse == 0
 }
 
-/// Factor from A to B, with its interval.
+/// Factor from A to B.
 pub(super) fn factor(change: &Change) -> String {
-    let factor = change.factor.map_or("-".into(), brief);
-    let interval = change.interval.map(|i| format!(" ({} … {})", brief(i.low), brief(i.high)));
-    factor + &interval.unwrap_or_default()
+    change.factor.map_or("-".into(), brief)
 }
 
-/// A number to three digits.
+/// Interval of the factor, in brackets.
+pub(super) fn interval(change: &Change) -> String {
+    change.interval.map(|i: Interval| format!("({} … {})", brief(i.low), brief(i.high))).unwrap_or_default()
+}
+
+/// A number to three digits; a very large or small one to two.
 pub(super) fn brief(x: f64) -> String {
-    short(format!("{x:.2e}").parse().unwrap_or(x))
+    let is_plain = x == 0.0 || (1e-3..1e5).contains(&x.abs());
+    if is_plain { short(format!("{x:.2e}").parse().unwrap_or(x)) } else { format!("{x:.1e}") }
 }
 
 /// Columns that are the same everywhere, cannot be compared, or differ without a better, in sentences.

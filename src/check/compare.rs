@@ -372,7 +372,7 @@ fn outcome_regressions(cells: &[&Cell], axes: &[String]) -> Vec<Regression> {
         .collect()
 }
 
-fn outcome<'a>(row: &'a Cells) -> &'a str {
+fn outcome(row: &Cells) -> &str {
     row.get("outcome").and_then(Value::as_str).unwrap_or_default()
 }
 

@@ -95,7 +95,7 @@ impl Command {
             };
         }
         // Verdicts need rows alone; `--record` asks for more.
-        self.sweep.planned(config, file, Some(RecordTo::None))?.to_be_judged().map(Some)
+        self.sweep.planned(config, file, Some(RecordTo::None))?.judging().map(Some)
     }
 
     /// Prints a file's line, and what is not met.

@@ -149,7 +149,7 @@ impl SweepArgs {
         // Who asks for files of what fails means this command.
         let targets = self.run.targets(if fails_alone && said.is_some() { said } else { instead.or(said) })?;
         let planned = PlannedSweep { config, file, plan, targets, judged_by: None };
-        if fails_alone { planned.to_be_judged() } else { Ok(planned) }
+        if fails_alone { planned.judging() } else { Ok(planned) }
     }
 
     /// Runs what is missing of a file's sweep.
@@ -197,7 +197,7 @@ impl PlannedSweep {
     ///
     /// # Errors
     /// An expectation names what no row has.
-    pub fn to_be_judged(self) -> Result<Self, CliError> {
+    pub fn judging(self) -> Result<Self, CliError> {
         let mut names: Vec<String> = Vec::new();
         for name in self.plan.cases.iter().flat_map(|planned| more::names(&planned.case.experiment)) {
             if !names.contains(&name) {

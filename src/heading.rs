@@ -34,8 +34,21 @@ pub struct Heading {
     pub kind: CellKind,
     /// Whether the number is relative and has a sign, so that a bound on one side lets any size pass on the other.
     pub signed: bool,
+    /// What is better, of numbers of which the smaller is the better one.
+    pub aim: Option<Aim>,
     /// Meaning of the number, in whole sentences.
     pub meaning: &'static str,
+}
+
+/// Why the smaller of two numbers, whatever their signs, is the better one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Aim {
+    /// It is an error, or a fault; up to this size it is rounding, or none. Of a column with a unit the size is
+    /// relative to the bodies' size and the time of the run.
+    Small { floor: f64 },
+    /// It is what a run costs.
+    Cheap,
 }
 
 /// Beginning of a name that belongs to each body.
@@ -44,11 +57,21 @@ pub const EACH_BODY: &str = "<body>";
 impl Heading {
     /// A heading of one column; `meaning` as a doc comment has it, with a space before every line.
     pub const fn new(name: &'static str, kind: CellKind, meaning: &'static str) -> Self {
-        Heading { name, parts: &[], kind, signed: false, meaning: meaning.trim_ascii() }
+        Heading { name, parts: &[], kind, signed: false, aim: None, meaning: meaning.trim_ascii() }
     }
 
-    pub const fn with_sign(self) -> Self {
+    pub const fn signed(self) -> Self {
         Heading { signed: true, ..self }
+    }
+
+    /// The heading of an error: the smaller the better, down to this size.
+    pub const fn small(self, floor: f64) -> Self {
+        Heading { aim: Some(Aim::Small { floor }), ..self }
+    }
+
+    /// The heading of a cost: the smaller the better.
+    pub const fn cheap(self) -> Self {
+        Heading { aim: Some(Aim::Cheap), ..self }
     }
 
     pub const fn with_parts(self, parts: &'static [&'static str]) -> Self {
@@ -117,10 +140,11 @@ impl Serialize for Heading {
             kind: CellKind,
             unit: &'a str,
             signed: bool,
+            aim: Option<Aim>,
             meaning: &'a str,
         }
-        let Heading { name, parts, kind, signed, meaning } = *self;
-        Shown { name, parts, kind, unit: self.unit(), signed, meaning }.serialize(serializer)
+        let Heading { name, parts, kind, signed, aim, meaning } = *self;
+        Shown { name, parts, kind, unit: self.unit(), signed, aim, meaning }.serialize(serializer)
     }
 }
 
@@ -159,14 +183,16 @@ impl Headings for Map<String, Value> {
 }
 
 /// Declares a struct whose fields are the columns of a table, and lists them: a field's doc comment is the column's
-/// meaning, its type the kind, `#[serde(rename)]` another name for it, `#[column(signed)]` a relative number with a
-/// sign; a field with `#[serde(flatten)]` has columns of its own.
+/// meaning, its type the kind, `#[serde(rename)]` another name for it, `#[column(…)]` what `Heading` has a word for:
+/// `signed`, a relative number with a sign, `small = 1e-12`, an error with its floor, `cheap`, a cost; a field with
+/// `#[serde(flatten)]` has columns of its own.
 macro_rules! columns {
     (
         $(#[$on_struct:meta])*
         pub struct $row:ident {
             $(
-                $(#[doc = $meaning:literal])+ $(#[serde($($how:tt)+)])? $(#[column($sign:tt)])?
+                $(#[doc = $meaning:literal])+ $(#[serde($($how:tt)+)])?
+                $(#[column($($word:ident $(= $floor:literal)?),+)])?
                 pub $field:ident: $type:ty,
             )+
         }
@@ -179,28 +205,27 @@ macro_rules! columns {
         impl $crate::heading::Headings for $row {
             fn headings() -> Vec<$crate::heading::Heading> {
                 [$(
-                    $crate::heading::columns!(@of $field, $type, concat!($($meaning),+), [$($($how)+)? $(, $sign)?])
+                    $crate::heading::columns!(
+                        @of $field, $type, concat!($($meaning),+), [$($($how)+)?], [$($($word $(= $floor)?),+)?]
+                    )
                 ),+].concat()
             }
         }
     };
-    (@of $field:ident, $type:ty, $meaning:expr, [flatten]) => {
+    (@of $field:ident, $type:ty, $meaning:expr, [flatten], []) => {
         <$type as $crate::heading::Headings>::headings()
     };
-    (@of $field:ident, $type:ty, $meaning:expr, [rename = $name:literal]) => {
-        $crate::heading::columns!(@one $name, $type, $meaning)
+    (@of $field:ident, $type:ty, $meaning:expr, [rename = $name:literal], [$($words:tt)*]) => {
+        $crate::heading::columns!(@one $name, $type, $meaning, [$($words)*])
     };
-    (@of $field:ident, $type:ty, $meaning:expr, []) => {
-        $crate::heading::columns!(@one stringify!($field), $type, $meaning)
+    (@of $field:ident, $type:ty, $meaning:expr, [], [$($words:tt)*]) => {
+        $crate::heading::columns!(@one stringify!($field), $type, $meaning, [$($words)*])
     };
-    (@of $field:ident, $type:ty, $meaning:expr, [, signed]) => {
-        vec![$crate::heading::columns!(@heading stringify!($field), $type, $meaning).with_sign()]
-    };
-    (@one $name:expr, $type:ty, $meaning:expr) => {
-        vec![$crate::heading::columns!(@heading $name, $type, $meaning)]
-    };
-    (@heading $name:expr, $type:ty, $meaning:expr) => {
-        $crate::heading::Heading::new($name, <$type as $crate::heading::InCell>::KIND, $meaning)
+    (@one $name:expr, $type:ty, $meaning:expr, [$($word:ident $(= $floor:literal)?),*]) => {
+        vec![
+            $crate::heading::Heading::new($name, <$type as $crate::heading::InCell>::KIND, $meaning)
+                $(.$word($($floor)?))*
+        ]
     };
 }
 

@@ -9,6 +9,7 @@ columns! {
     pub struct Work {
         /// Points that were held against a face.
         #[serde(rename = "work_contact_tests")]
+        #[column(cheap)]
         pub contact_tests: u64,
         /// Contacts that were found, summed over the steps.
         #[serde(rename = "work_contacts")]
@@ -18,9 +19,11 @@ columns! {
         pub contact_solves: u64,
         /// Sweeps over the contacts of a step, for velocities and for positions.
         #[serde(rename = "work_sweeps")]
+        #[column(cheap)]
         pub sweeps: u64,
         /// Contact solves that missed their tolerance. A method that has no tolerance to miss has none.
         #[serde(rename = "work_unsolved")]
+        #[column(small = 0.0)]
         pub unsolved: u64,
         /// Solves of the solver `auto`, of a step or of an island of it, for which the last step's impulses were taken
         /// as they were.
@@ -34,21 +37,26 @@ columns! {
         pub iterated_solves: u64,
         /// Linear systems of an island's velocities that the exact contact solver (`newton`) solved.
         #[serde(rename = "work_newton_steps")]
+        #[column(cheap)]
         pub newton_steps: u64,
         /// Evaluations of the gyroscopic term, or of the momentum-conserving rotation in its place.
         #[serde(rename = "work_gyroscopic")]
+        #[column(cheap)]
         pub gyroscopic: u64,
         /// Systems of all pins of an island that were solved.
         #[serde(rename = "work_pin_solves")]
+        #[column(cheap)]
         pub pin_solves: u64,
         /// Steps inside those of the clock, summed over islands. Tries that were given up are not among them.
         #[serde(rename = "work_inner_steps")]
+        #[column(cheap)]
         pub inner_steps: u64,
         /// Impacts, and changes between flight, sticking and sliding, of a method that follows events.
         #[serde(rename = "work_events")]
         pub events: u64,
         /// Stretches of `event-driven` that were handed over to steps of equal length.
         #[serde(rename = "work_fallbacks")]
+        #[column(small = 0.0)]
         pub fallbacks: u64,
     }
 }

@@ -17,6 +17,7 @@
 //! - `allocation`: no step allocates
 //! - `counters`: how much work a run is
 //! - `docs`: pages that are made, links, paths and commands of the others
+//! - `guides`: what docs/ci.md and docs/results.md tell people to do is done as it stands there
 //! - `tidy`: rules of the repository
 //! - `dependencies`: the program and its tests are made of the same crates
 //! - `assets`: what is vendored is what its README says
@@ -37,6 +38,7 @@ mod docs;
 mod event;
 mod exact;
 mod experiment;
+mod guides;
 mod map_a;
 mod measure;
 mod methods;

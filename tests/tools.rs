@@ -23,17 +23,26 @@ pub fn viewer() -> Option<PathBuf> {
     available("viewer", on_path("rerun").filter(|_| drivers))
 }
 
+/// A Python that can import all of these modules; its name in `GOTAI_REQUIRE` is `python`. None: skip the test.
+///
+/// # Panics
+/// If it is missing and required.
+pub fn python_for(modules: &[&str]) -> Option<PathBuf> {
+    available("python", on_path("python3").filter(|python| imports(python, &modules.join(", "))))
+}
+
 /// A Python that can import `module`, whose name is also its name in `GOTAI_REQUIRE`. None: skip the test.
 ///
 /// # Panics
 /// If it is missing and required.
 pub fn python_with(module: &str) -> Option<PathBuf> {
-    let imports = |python: &PathBuf| {
-        let mut command = Command::new(python);
-        command.args(["-c", &format!("import {module}")]).stdout(Stdio::null()).stderr(Stdio::null());
-        command.status().is_ok_and(|status| status.success())
-    };
-    available(module, on_path("python3").filter(imports))
+    available(module, on_path("python3").filter(|python| imports(python, module)))
+}
+
+fn imports(python: &Path, modules: &str) -> bool {
+    let mut command = Command::new(python);
+    command.args(["-c", &format!("import {modules}")]).stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
 }
 
 fn on_path(name: &str) -> Option<PathBuf> {

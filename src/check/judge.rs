@@ -2,6 +2,8 @@
 //!
 //! No row selected, a null or a number that is not finite: not met, never a pass.
 
+use super::failing::{Failing, failing};
+use super::numbers::{compared, count, levels, mean, number, numbers, order_of, quantile, range, short, spread, value};
 use super::schema::{Cells, Schema, selected, strata};
 use crate::experiment::expect::{Comparison, Expectation, What};
 use crate::experiment::filter::Filter;
@@ -9,7 +11,6 @@ use crate::experiment::predicate::{Bounds, Column, Predicate, Quantity};
 use crate::math::order;
 use crate::math::trend::{cochran_armitage, mann_kendall};
 use serde::Serialize;
-use serde_json::Value;
 
 /// An expectation and what became of it, in words.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -21,6 +22,17 @@ pub struct Judged {
     pub why: Option<String>,
     /// Number of rows that the expectation is about.
     pub rows: usize,
+    /// Cases that it names where it is not met, the worst first.
+    pub failing: Vec<Failing>,
+}
+
+impl Judged {
+    /// An expectation that nobody has judged, and the reason.
+    pub fn not_judged(expectation: &Expectation, reason: &str) -> Self {
+        let (text, bound) = in_words(expectation);
+        let (measured, why) = (reason.to_string(), expectation.why.clone());
+        Judged { expectation: text, bound, measured, met: false, why, rows: 0, failing: Vec::new() }
+    }
 }
 
 /// A measurement in words, and whether it is what was expected.
@@ -55,7 +67,8 @@ pub fn judge(expectation: &Expectation, schema: &Schema, rows: &[Cells]) -> Judg
     };
     let (text, bound) = in_words(expectation);
     let Verdict { measured, met } = verdict;
-    Judged { expectation: text, bound, measured, met, why: expectation.why.clone(), rows: rows.len() }
+    let failing = if met { Vec::new() } else { failing(expectation, schema, &rows) };
+    Judged { expectation: text, bound, measured, met, why: expectation.why.clone(), rows: rows.len(), failing }
 }
 
 fn in_words(expectation: &Expectation) -> (String, String) {
@@ -120,26 +133,9 @@ fn of_compare(how: Comparison, of: Result<f64, String>, to: Result<f64, String>,
         (Err(missing), _) => return Verdict::not(format!("of: {missing}")),
         (_, Err(missing)) => return Verdict::not(format!("to: {missing}")),
     };
-    let (x, sign) = match how {
-        Comparison::Ratio => (of / to, "/"),
-        Comparison::Difference => (of - to, "−"),
-    };
+    let (x, sign) = (compared(how, of, to), how.sign());
     let measured = format!("{} ({} {sign} {})", short(x), short(of), short(to));
     Verdict { measured, met: x.is_finite() && bounds.contain(x) }
-}
-
-/// A share, or the mean or quantile of a column.
-fn value(rows: &[&Cells], quantity: &Quantity, q: Option<f64>) -> Result<f64, String> {
-    if rows.is_empty() {
-        return Err("no row is selected".into());
-    }
-    match quantity {
-        Quantity::Fraction(of) => Ok(count(rows, of)? as f64 / rows.len() as f64),
-        Quantity::Column(column) => {
-            let values = numbers(rows, column)?;
-            Ok(q.map_or_else(|| mean(&values), |q| quantile(&values, q)))
-        }
-    }
 }
 
 fn of_trend(schema: &Schema, rows: &[&Cells], of: &Quantity, along: &str, rising: bool, p_max: f64) -> Verdict {
@@ -156,22 +152,6 @@ fn of_trend(schema: &Schema, rows: &[&Cells], of: &Quantity, along: &str, rising
         Err(missing) => Verdict::not(missing),
         Ok((p, shown)) => Verdict { measured: format!("p = {}: {shown}", short(p)), met: p <= p_max },
     }
-}
-
-/// Rows by their level along the axis (or the column), in its order: of numbers by size, else as the axis is written.
-fn levels<'a>(schema: &Schema, rows: &[&'a Cells], along: &str) -> Result<Vec<Vec<&'a Cells>>, String> {
-    let is_numeric = schema.axis(along).is_none_or(|values| values.iter().all(Value::is_number));
-    let column = Column { name: along.to_string(), divided_by: None };
-    let place = |row: &&Cells| match is_numeric {
-        true => column.value(|name| row.get(name)),
-        false => schema.level(along, row).map(|level| level as f64),
-    };
-    let missing = || format!("{along} is null in a row");
-    let mut placed =
-        rows.iter().map(|row| Ok((place(row).ok_or_else(missing)?, *row))).collect::<Result<Vec<_>, String>>()?;
-    placed.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let same_level = |a: &(f64, &Cells), b: &(f64, &Cells)| a.0 == b.0;
-    Ok(placed.chunk_by(same_level).map(|level| level.iter().map(|(_, row)| *row).collect()).collect())
 }
 
 fn trend_of_shares(levels: &[Vec<&Cells>], of: &Predicate, rising: bool) -> Result<(f64, String), String> {
@@ -214,9 +194,7 @@ fn arrows(levels: &[String]) -> String {
 }
 
 fn of_order(schema: &Schema, rows: &[&Cells], column: &Column, against: &str, bounds: &Bounds) -> Verdict {
-    // The step that was made, where rounding to a whole number of steps has changed it.
-    let x = Column::new(if against == "time.step_s" { "step_used_s" } else { against });
-    let others = if schema.axis(against).is_some() { schema.others(against) } else { Vec::new() };
+    let (x, others) = order_of(schema, against);
     let mut orders = Vec::new();
     for cell in strata(rows.iter().copied(), |row| row, &others) {
         let points = numbers(&cell, &x).and_then(|x| Ok(x.into_iter().zip(numbers(&cell, column)?)));
@@ -266,79 +244,14 @@ fn of_equal(schema: &Schema, rows: &[&Cells], column: &str, across: &str, within
     Verdict { measured, met: spread <= within_rel }
 }
 
-/// Largest difference of a component over the rows, relative to the largest norm of the vector; of texts 0 or infinite.
-fn spread(rows: &[&Cells], vector: &[&str]) -> Option<f64> {
-    let cells =
-        |name: &str| rows.iter().map(|row| row.get(name).filter(|cell| !cell.is_null())).collect::<Option<Vec<_>>>();
-    if let [name] = vector {
-        let cells = cells(name)?;
-        if !cells.iter().all(|cell| cell.is_number()) {
-            return Some(if cells.windows(2).all(|pair| pair[0] == pair[1]) { 0.0 } else { f64::INFINITY });
+/// At most this many cases that the expectations name, each in its turn.
+pub fn in_turn(judged: &[Judged], most: usize) -> Vec<String> {
+    let mut chosen: Vec<String> = Vec::new();
+    let longest = judged.iter().map(|judged| judged.failing.len()).max().unwrap_or_default();
+    for failing in (0..longest).flat_map(|i| judged.iter().filter_map(move |judged| judged.failing.get(i))) {
+        if chosen.len() < most && !chosen.contains(&failing.case) {
+            chosen.push(failing.case.clone());
         }
     }
-    let columns = vector.iter().map(|name| numbers(rows, &Column::new(name)).ok()).collect::<Option<Vec<_>>>()?;
-    let norm = |row: usize| columns.iter().map(|column| column[row] * column[row]).sum::<f64>().sqrt();
-    let scale = (0..rows.len()).map(norm).fold(0.0, f64::max);
-    let difference = |column: &Vec<f64>| {
-        let (low, high) = extremes(column);
-        high - low
-    };
-    let difference = columns.iter().map(difference).fold(0.0, f64::max);
-    Some(if difference == 0.0 { 0.0 } else { difference / scale })
-}
-
-fn count(rows: &[&Cells], of: &Predicate) -> Result<usize, String> {
-    let hold = rows.iter().map(|row| of.holds(|name| row.get(name)).ok_or_else(|| null(of, row)));
-    Ok(hold.collect::<Result<Vec<_>, _>>()?.into_iter().filter(|holds| *holds).count())
-}
-
-fn numbers(rows: &[&Cells], column: &Column) -> Result<Vec<f64>, String> {
-    rows.iter().map(|row| number(column, row)).collect()
-}
-
-fn number(column: &Column, row: &Cells) -> Result<f64, String> {
-    column.value(|name| row.get(name)).ok_or_else(|| null(column, row))
-}
-
-fn null(what: impl std::fmt::Display, row: &Cells) -> String {
-    let case = row.get("case").and_then(Value::as_str).unwrap_or("?");
-    format!("{what} is null in case {case}")
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
-/// The value that this share of the values does not exceed, interpolated linearly between neighbours.
-fn quantile(values: &[f64], q: f64) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let at = q * (sorted.len() - 1) as f64;
-    let (low, high) = (sorted[at.floor() as usize], sorted[at.ceil() as usize]);
-    low + (high - low) * at.fract()
-}
-
-fn extremes(values: &[f64]) -> (f64, f64) {
-    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)))
-}
-
-fn range(values: &[f64]) -> String {
-    match extremes(values) {
-        (low, high) if low == high => short(low),
-        (low, high) => format!("{} … {}", short(low), short(high)),
-    }
-}
-
-/// A number to four significant digits.
-fn short(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 || !x.is_finite() {
-        return format!("{x}");
-    }
-    if !(1e-3..1e5).contains(&size) {
-        return format!("{x:.3e}");
-    }
-    let digits = (3 - libm::log10(size).floor() as i32).max(0) as usize;
-    let text = format!("{x:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+    chosen
 }

@@ -1,6 +1,7 @@
 //! Flags that commands share.
 
 use super::error::CliError;
+use super::output::{ColorFlag, ProgressFlag};
 use crate::digest::sha256;
 use crate::experiment::types::RecordTo;
 use crate::experiment::{ExperimentFile, Given};
@@ -64,12 +65,22 @@ pub(super) struct OutputArgs {
     /// One JSON document on stdout and nothing else there
     #[arg(long)]
     pub(super) json: bool,
-    /// Nothing on stderr but warnings and errors
+    /// Nothing on stderr but warnings and errors; of `check`, nothing on stdout but what is not met
     #[arg(long)]
     pub(super) quiet: bool,
     /// More about what is done
     #[arg(short, long)]
     pub(super) verbose: bool,
+    /// When there is colour [default: on a terminal, unless NO_COLOR is set]
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t, hide_default_value = true)]
+    pub(super) color: ColorFlag,
+}
+
+impl OutputArgs {
+    /// Whether what is printed has colour.
+    pub(super) fn is_colored(self) -> bool {
+        !self.json && self.color.is_on(&std::io::stdout())
+    }
 }
 
 /// Flags of every command that runs cases.
@@ -84,6 +95,9 @@ pub(super) struct RunArgs {
     /// Cases at a time [default: all cores]
     #[arg(long, value_name = "N")]
     pub(super) jobs: Option<usize>,
+    /// How progress is told, on stderr [default: a bar on a terminal]
+    #[arg(long, value_enum, value_name = "HOW", default_value_t, hide_default_value = true)]
+    pub(super) progress: ProgressFlag,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

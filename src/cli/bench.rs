@@ -2,7 +2,7 @@
 
 use super::args::{ExperimentArgs, OutputArgs};
 use super::error::CliError;
-use super::output::{print, print_json};
+use super::output::{ProgressFlag, print, print_json};
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen};
 use super::sweeping::{Config, configs};
@@ -31,6 +31,9 @@ pub struct Command {
     out: Option<PathBuf>,
     #[command(flatten)]
     experiment: ExperimentArgs,
+    /// How progress is told, on stderr [default: a bar on a terminal]
+    #[arg(long, value_enum, value_name = "HOW", default_value_t, hide_default_value = true)]
+    progress: ProgressFlag,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -94,7 +97,7 @@ impl Command {
 
     fn make_references(&self, trials: &[Contender], dir: &Path) -> Result<(), CliError> {
         if trials.iter().any(|trial| trial.experiment.reference.is_some()) {
-            let bar = Bar::new(self.output.quiet);
+            let bar = Bar::new(&self.config, self.output, self.progress);
             bar.begin("references", 1);
             for Contender { experiment, model, start, .. } in trials {
                 reference::of(dir, experiment, model, start)?;
@@ -111,7 +114,7 @@ impl Command {
                 eprintln!("gotai: this system does not let a thread stay on one core: times may scatter more");
             }
             let scene = planned.config.path.with_extension("").display().to_string();
-            let bar = Bar::new(self.output.quiet);
+            let bar = Bar::new(&planned.config.path, self.output, self.progress);
             bar.begin("trials", planned.trials.len());
             let rows = planned.trials.iter().map(|trial| {
                 let ran = bench::run(trial, &planned.bench, &scene, Some(dir));

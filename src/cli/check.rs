@@ -1,16 +1,14 @@
 //! `gotai check`: runs experiments and judges their `expect:`. The command of a CI.
 
-use super::checked::Checked;
+use super::checked::{Checked, NamedCase, Report, Unchecked};
 use super::error::CliError;
 use super::junit;
-use super::output::{print, print_json};
+use super::output::{Hue, counted, print, print_json, width, wrapped};
 use super::remarks::Remarks;
-use super::sweeping::{Config, PlannedSweep, SweepArgs, Swept, configs};
+use super::sweeping::{Config, PlannedSweep, SweepArgs, Swept, configs_of_each};
 use super::table::table;
-use crate::check::{Schema, cells_of, judge, one_sided, refuse_unknown};
+use crate::check::{Failing, Judged, one_sided};
 use crate::experiment::types::RecordTo;
-use crate::measure::more;
-use crate::rows::columns::{self, SEARCH};
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -28,50 +26,66 @@ pub struct Command {
     sweep: SweepArgs,
 }
 
+/// Most cases that an expectation names on the screen; -v shows those that JSON has.
+const SHOWN: usize = 6;
+
 impl Command {
-    /// Runs the command; the exit code is that of the program.
+    /// Runs the command; the exit code is that of the program: of several files the largest.
     ///
     /// # Errors
-    /// The input is wrong, or the machine failed.
+    /// There is nothing to check, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         let pool = self.sweep.run.pool()?;
         // Every case and every expectation of every file is checked before the first run.
-        let planned = pool.install(|| self.planned())?;
-        let mut checked = Vec::with_capacity(planned.len());
-        for (planned, schema) in &planned {
-            let swept = pool.install(|| self.sweep.sweep(planned))?;
-            let rows = cells_of(&swept.rows);
-            let judged = planned.file.expect().iter().map(|expectation| judge(expectation, schema, &rows)).collect();
-            checked.push(Checked { swept, judged });
-            if !self.sweep.output.json {
-                print(checked.last().map(shown).unwrap_or_default());
+        let (planned, unchecked) = pool.install(|| self.planned());
+        let mut report = Report::default();
+        unchecked.into_iter().for_each(|unchecked| report.cannot_check(unchecked));
+        for planned in &planned {
+            if self.sweep.fail_fast && report.code() > 0 {
+                report.skipped.push(planned.config.path.display().to_string());
+                continue;
+            }
+            match pool.install(|| self.sweep.sweep(planned)) {
+                Err(error) => report.cannot_check(Unchecked { path: planned.config.path.clone(), error }),
+                Ok(swept) => {
+                    let checked = Checked::new(swept);
+                    self.show(&checked);
+                    report.checked.push(checked);
+                }
             }
         }
-        let remarks = remarks(&planned, &checked);
+        let remarks = remarks(&planned, &report.checked);
         match self.sweep.output.json {
-            true => print_json(&document(&checked, &remarks)),
-            false => print(summary(&checked)),
+            true => print_json(&document(&report, &remarks)),
+            false if planned.is_empty() || (self.sweep.output.quiet && report.code() == 0) => {}
+            false => print(summary(&report)),
         }
         remarks.say(self.sweep.output.quiet);
         if let Some(path) = &self.junit {
-            junit::write(path, &checked)?;
+            junit::write(path, &report)?;
         }
-        Ok(ExitCode::from(u8::from(!checked.iter().all(Checked::is_met))))
+        Ok(ExitCode::from(report.code()))
     }
 
-    fn planned(&self) -> Result<Vec<(PlannedSweep, Schema)>, CliError> {
-        let mut planned = Vec::new();
-        for config in configs(&self.configs)? {
-            planned.extend(self.plan_one(config)?);
+    /// Sweeps of all files with something to check, and the files that are wrong.
+    fn planned(&self) -> (Vec<PlannedSweep>, Vec<Unchecked>) {
+        let (mut planned, mut unchecked) = (Vec::new(), Vec::new());
+        for config in configs_of_each(&self.configs) {
+            let path = config.as_ref().map_or_else(|(path, _)| path.clone(), |config| config.path.clone());
+            match config.map_err(|(_, error)| error).and_then(|config| self.plan_one(config)) {
+                Ok(found) => planned.extend(found),
+                Err(error) => unchecked.push(Unchecked { path, error }),
+            }
         }
-        if planned.is_empty() {
+        if planned.is_empty() && unchecked.is_empty() {
             let given: Vec<_> = self.configs.iter().map(|path| path.display().to_string()).collect();
-            return Err(CliError::Input(format!("{}: no file in it has an `expect:`", given.join(", "))));
+            let error = CliError::Input(format!("{}: no file in it has an `expect:`", given.join(", ")));
+            unchecked.push(Unchecked { path: self.configs.first().cloned().unwrap_or_default(), error });
         }
-        Ok(planned)
+        (planned, unchecked)
     }
 
-    fn plan_one(&self, config: Config) -> Result<Option<(PlannedSweep, Schema)>, CliError> {
+    fn plan_one(&self, config: Config) -> Result<Option<PlannedSweep>, CliError> {
         let file = self.sweep.load(&config)?;
         if file.expect().is_empty() {
             let path = config.path.display();
@@ -81,31 +95,32 @@ impl Command {
             };
         }
         // Verdicts need rows alone; `--record` asks for more.
-        let planned = self.sweep.planned(config, file, Some(RecordTo::None))?;
-        let schema = schema(&planned);
-        let file = &planned.file;
-        refuse_unknown(&schema, file.expect(), file.search()).map_err(|error| file.placed(error))?;
-        Ok(Some((planned, schema)))
+        self.sweep.planned(config, file, Some(RecordTo::None))?.judging().map(Some)
     }
-}
 
-/// The columns that the rows of a plan have.
-fn schema(planned: &PlannedSweep) -> Schema {
-    let mut names: Vec<String> = Vec::new();
-    for name in planned.plan.cases.iter().flat_map(|planned| more::names(&planned.case.experiment)) {
-        if !names.contains(&name) {
-            names.push(name);
+    /// Prints a file's line, and what is not met.
+    fn show(&self, checked: &Checked) {
+        let output = self.sweep.output;
+        if output.json || (output.quiet && checked.is_met()) {
+            return;
+        }
+        let page = Page { width: width().into(), is_colored: output.is_colored(), most: SHOWN };
+        print(page.line(checked));
+        if output.verbose {
+            print(verdicts(checked));
+        }
+        let page = Page { most: if output.verbose { usize::MAX } else { SHOWN }, ..page };
+        checked.judged().iter().filter(|judged| !judged.met).for_each(|judged| print(page.unmet(checked, judged)));
+        if checked.swept.failed() > 0 {
+            print(page.broken(checked));
         }
     }
-    let search = planned.file.search();
-    names.extend(search.iter().flat_map(|_| columns::names(&SEARCH)));
-    Schema::new(planned.file.axes(), search.and_then(|search| search.over), &names)
 }
 
 /// Remarks about bounds that pass what they seem to guard against, and about the cases.
-fn remarks(planned: &[(PlannedSweep, Schema)], checked: &[Checked]) -> Remarks {
+fn remarks(planned: &[PlannedSweep], checked: &[Checked]) -> Remarks {
     let mut remarks = Swept::remarks(&checked.iter().map(|checked| &checked.swept).collect::<Vec<_>>());
-    let found = planned.iter().flat_map(|(PlannedSweep { file, .. }, _)| {
+    let found = planned.iter().flat_map(|PlannedSweep { file, .. }| {
         one_sided(file.expect()).into_iter().map(|found| {
             let place = file.place(found.at.clone());
             (found, place)
@@ -119,41 +134,112 @@ fn verdict(met: bool) -> &'static str {
     if met { "met" } else { "NOT MET" }
 }
 
-/// The table of one experiment.
-fn shown(checked: &Checked) -> String {
+/// The table of all verdicts of one experiment.
+fn verdicts(checked: &Checked) -> String {
     let mut table = table(&["verdict", "expectation", "bound", "measured", "why"]);
-    for judged in &checked.judged {
+    for judged in checked.judged() {
         let why = judged.why.clone().unwrap_or_default();
         let cells = [&judged.expectation, &judged.bound, &judged.measured, &why];
         table.add_row([verdict(judged.met)].into_iter().chain(cells.map(String::as_str)));
     }
-    let Swept { planned, ran, .. } = checked.swept;
-    let failed = match checked.swept.failed() {
-        0 => String::new(),
-        n => format!(", {n} FAILED (criterion in {})", checked.swept.dir.join("rows.csv").display()),
-    };
-    format!("{}: {planned} cases, {ran} run now{failed}\n{table}\n", checked.name())
+    format!("{table}\n")
 }
 
-fn summary(checked: &[Checked]) -> String {
-    let all = checked.iter().map(|checked| checked.judged.len()).sum::<usize>();
-    let met = checked.iter().flat_map(|checked| &checked.judged).filter(|judged| judged.met).count();
+/// Paper that lines are printed on.
+struct Page {
+    width: usize,
+    is_colored: bool,
+    /// Most cases of an expectation.
+    most: usize,
+}
+
+impl Page {
+    /// One line: the verdict, the file, how much was run.
+    fn line(&self, checked: &Checked) -> String {
+        let Swept { planned, ran, took, .. } = checked.swept;
+        let all = checked.judged().len();
+        let unmet = checked.judged().iter().filter(|judged| !judged.met).count();
+        let mut said = match unmet {
+            0 => format!("{all} met"),
+            n => format!("{n} of {all} not met"),
+        };
+        match checked.swept.failed() {
+            0 => {}
+            n => said += &format!(", {n} FAILED"),
+        }
+        let hue = if checked.is_met() { Hue::Good } else { Hue::Bad };
+        let verdict = hue.paint(&format!("{:7}", verdict(checked.is_met())), self.is_colored);
+        let took = took.as_secs_f64();
+        format!("{verdict}  {}: {}, {ran} run now, {took:.1} s: {said}", checked.name(), counted(planned, "case"))
+    }
+
+    fn unmet(&self, checked: &Checked, judged: &Judged) -> String {
+        let Judged { expectation, bound, measured, why, failing, .. } = judged;
+        let mut lines = vec![wrapped(expectation, self.width, "  ", "    ")];
+        lines.push(wrapped(&format!("expected {bound}, measured {measured}"), self.width, "    ", "    "));
+        if let Some(why) = why {
+            lines.push(wrapped(&format!("why: {why}"), self.width, "    ", "    "));
+        }
+        lines.extend(self.cases(checked, failing));
+        lines.join("\n")
+    }
+
+    fn broken(&self, checked: &Checked) -> String {
+        let said = format!("  {} FAILED: a fault of the program", counted(checked.swept.failed(), "case"));
+        let cases = self.cases(checked, &checked.swept.broken);
+        [vec![Hue::Bad.paint(&said, self.is_colored)], cases].concat().join("\n")
+    }
+
+    fn cases(&self, checked: &Checked, failing: &[Failing]) -> Vec<String> {
+        let shown = checked.cases(failing).into_iter().take(self.most);
+        let mut lines: Vec<String> = shown.map(|case| self.case(&case)).collect();
+        if failing.len() > lines.len() && !lines.is_empty() {
+            lines.push(format!("    … and {} more", failing.len() - lines.len()));
+        }
+        lines
+    }
+
+    fn case(&self, case: &NamedCase) -> String {
+        let NamedCase { id, place, measured, command, recordings, .. } = case;
+        let place = if place.is_empty() { String::new() } else { format!(", at {place}") };
+        let mut lines = vec![wrapped(&format!("{measured}{place}"), self.width, &format!("    {id}  "), "      ")];
+        // What is copied to a shell is in one line, however long.
+        lines.push(format!("      {}", Hue::Faint.paint(command, self.is_colored)));
+        lines.extend(recordings.iter().map(|file| format!("      {}", file.display())));
+        lines.join("\n")
+    }
+}
+
+fn summary(report: &Report) -> String {
+    let Report { checked, unchecked, skipped } = report;
+    let all = checked.iter().map(|checked| checked.judged().len()).sum::<usize>();
+    let met = checked.iter().flat_map(Checked::judged).filter(|judged| judged.met).count();
     let failed: usize = checked.iter().map(|checked| checked.swept.failed()).sum();
-    let mut text = format!("{met} of {all} expectations met in {} experiments", checked.len());
-    if failed > 0 {
-        text += &format!("; {failed} cases failed");
+    let mut text = format!("{met} of {all} expectations met in {}", counted(checked.len(), "experiment"));
+    for (count, thing, said) in [
+        (failed, "case", "failed"),
+        (unchecked.len(), "file", "could not be checked"),
+        (skipped.len(), "file", "left out (--fail-fast)"),
+    ] {
+        if count > 0 {
+            text += &format!("; {} {said}", counted(count, thing));
+        }
     }
     text
 }
 
-fn document(checked: &[Checked], remarks: &Remarks) -> Value {
-    let verdicts = checked.iter().flat_map(|checked| checked.judged.iter().map(move |judged| (checked, judged)));
+fn document(report: &Report, remarks: &Remarks) -> Value {
+    let Report { checked, unchecked, skipped } = report;
+    let verdicts = checked.iter().flat_map(|checked| checked.judged().iter().map(move |judged| (checked, judged)));
+    let cases =
+        |checked: &Checked, failing| -> Vec<Value> { checked.cases(failing).iter().map(NamedCase::document).collect() };
     let expectations: Vec<Value> = verdicts
         .map(|(checked, judged)| {
             json!({
                 "experiment": checked.name(), "expectation": judged.expectation, "bound": judged.bound,
                 "measured": judged.measured, "verdict": if judged.met { "met" } else { "not met" },
                 "met": judged.met, "why": judged.why, "rows": judged.rows,
+                "failing": cases(checked, &judged.failing), "failing_count": judged.failing.len(),
             })
         })
         .collect();
@@ -162,12 +248,19 @@ fn document(checked: &[Checked], remarks: &Remarks) -> Value {
         .map(|c| {
             json!({
                 "experiment": c.name(), "dir": c.swept.dir, "cases": c.swept.planned, "ran": c.swept.ran,
-                "failed": c.swept.failed(), "met": c.is_met(),
+                "failed": c.swept.failed(), "failed_cases": cases(c, &c.swept.broken), "met": c.is_met(),
+                "took_s": c.swept.took.as_secs_f64(),
             })
         })
         .collect();
-    let met = checked.iter().all(Checked::is_met);
-    let mut document = json!({ "met": met, "expectations": expectations, "experiments": experiments });
+    let errors: Vec<Value> = unchecked
+        .iter()
+        .map(|u| json!({ "experiment": u.path, "error": u.error.to_string(), "exit_code": u.error.code() }))
+        .collect();
+    let mut document = json!({
+        "met": report.code() == 0, "exit_code": report.code(), "expectations": expectations,
+        "experiments": experiments, "errors": errors, "left_out": skipped,
+    });
     remarks.put_into(&mut document);
     document
 }

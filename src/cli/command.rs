@@ -1,8 +1,11 @@
 //! The commands, one file each.
 
 use super::error::CliError;
-use super::{bench, check, clean, explain, export, list, repair, rows, run, status, sweep, view};
-use clap::{Parser, Subcommand};
+use super::{
+    bench, check, clean, compare, completions, doctor, explain, export, list, new, repair, rows, run, schema, status,
+    sweep, view,
+};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 
 /// Experiment harness for rigid-body simulation: sweep time step, friction and mesh resolution; record, judge and
@@ -29,6 +32,8 @@ enum Command {
     Check(check::Command),
     /// Run time against error: the methods, steps and tolerances of `bench:`, on one core
     Bench(bench::Command),
+    /// Two folders of results (versions, methods, machines): what got better, what worse, by how much
+    Compare(compare::Command),
     /// How much of a sweep is done, missing, failed
     Status(status::Command),
     /// The rows of a folder of results, chosen, sorted, as a table
@@ -45,6 +50,14 @@ enum Command {
     Explain(explain::Command),
     /// What can be written in an experiment file
     List(list::Command),
+    /// Write a commented experiment to start from
+    New(new::Command),
+    /// The JSON Schema of the experiment file, for editors
+    Schema(schema::Command),
+    /// What a shell completes
+    Completions(completions::Command),
+    /// What is there: the viewer and its version, Slurm, space
+    Doctor(doctor::Command),
 }
 
 impl Cli {
@@ -58,6 +71,7 @@ impl Cli {
             Command::Sweep(command) => command.run(),
             Command::Check(command) => command.run(),
             Command::Bench(command) => command.run(),
+            Command::Compare(command) => command.run(),
             Command::Status(command) => command.run(),
             Command::Rows(command) => command.run(),
             Command::View(command) => command.run(),
@@ -66,6 +80,10 @@ impl Cli {
             Command::Clean(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::List(command) => command.run(),
+            Command::New(command) => command.run(),
+            Command::Schema(command) => command.run(),
+            Command::Completions(command) => command.run(Cli::command()),
+            Command::Doctor(command) => command.run(),
         }
     }
 }

@@ -31,12 +31,17 @@ pub enum CliError {
 
 impl CliError {
     pub fn exit_code(&self) -> ExitCode {
+        ExitCode::from(self.code())
+    }
+
+    /// The exit code as a number: 2 of wrong input, 3 of a machine that failed.
+    pub(super) fn code(&self) -> u8 {
         let input_is_wrong = match self {
             CliError::Experiment(error) => !error.is_machine(),
             CliError::Input(_) | CliError::Store(StoreError::Foreign(_)) => true,
             CliError::Folder(error) => !matches!(error, FolderError::Experiment(error) if error.is_machine()),
             _ => false,
         };
-        ExitCode::from(if input_is_wrong { 2 } else { 3 })
+        if input_is_wrong { 2 } else { 3 }
     }
 }

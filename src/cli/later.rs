@@ -3,8 +3,8 @@
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
-const COMMANDS: [&str; 8] = ["merge", "submit", "report", "schema", "completions", "new", "compare", "doctor"];
-const FLAGS: [&str; 6] = ["--shard", "--progress", "--color", "--fail-fast", "--no-report", "--fail-on-regression"];
+const COMMANDS: [&str; 3] = ["merge", "submit", "report"];
+const FLAGS: [&str; 2] = ["--shard", "--no-report"];
 
 /// Prints a parser's message (or help) and gives the exit code.
 pub fn explain_usage(error: &clap::Error) -> ExitCode {

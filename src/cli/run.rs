@@ -96,7 +96,7 @@ impl Command {
             describe_plan(&Plan::new(&model, &case.experiment.method));
         }
         if case.experiment.reference.is_some() {
-            let bar = Bar::new(self.output.quiet);
+            let bar = Bar::new(&self.config, self.output, self.run.progress);
             bar.begin("references", 1);
             reference::of(&dir, &case.experiment, &model, &start)?;
             bar.end();

@@ -4,10 +4,13 @@ use super::args::{ExperimentArgs, OutputArgs, RunArgs, below_configs};
 use super::error::CliError;
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen, table_of};
+use crate::check::{self, Failing, Judged, Schema, broken, cells_of, in_turn, judge, refuse_unknown};
 use crate::experiment::ExperimentFile;
-use crate::experiment::types::RecordTo;
+use crate::experiment::types::{RecordCases, RecordTo};
+use crate::measure::more;
 use crate::outcome::Outcome;
 use crate::record::writer::Target;
+use crate::rows::columns::{self, SEARCH};
 use crate::rows::{Row, cells, count};
 use crate::sweep::folder::Folder;
 use crate::sweep::plan::SweepPlan;
@@ -21,6 +24,7 @@ use std::collections::HashMap;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant, SystemTime};
 
 #[derive(Args)]
 pub struct SweepArgs {
@@ -33,6 +37,9 @@ pub struct SweepArgs {
     /// Write rows.csv for more than 100,000 rows too
     #[arg(long)]
     csv: bool,
+    /// Begin no further case once one has failed, and no further file once an expectation is not met
+    #[arg(long)]
+    pub fail_fast: bool,
     #[command(flatten)]
     experiment: ExperimentArgs,
     #[command(flatten)]
@@ -55,6 +62,8 @@ pub struct PlannedSweep {
     pub file: ExperimentFile,
     pub plan: SweepPlan,
     targets: Vec<Target>,
+    /// Columns of its rows, where what it expects is judged.
+    judged_by: Option<Schema>,
 }
 
 /// Result of one file's sweep.
@@ -66,11 +75,23 @@ pub struct Swept {
     pub rows: Vec<Row>,
     /// What is seen of each row.
     seen: Vec<Seen>,
+    /// Verdicts on what the file expects, where they were asked for.
+    pub judged: Vec<Judged>,
+    /// Cases that have failed, where verdicts were asked for.
+    pub broken: Vec<Failing>,
+    /// When it was begun, and how long it took.
+    pub begun: SystemTime,
+    pub took: Duration,
 }
 
 impl Swept {
     pub fn failed(&self) -> usize {
         count(&self.rows, Outcome::Failed)
+    }
+
+    /// Whether rows are missing, because somebody has let no further case begin.
+    pub fn is_cut(&self) -> bool {
+        self.rows.len() < self.planned
     }
 
     /// Remarks about the cases of several files.
@@ -84,7 +105,7 @@ impl Swept {
 impl SweepArgs {
     /// Of a command that runs its few cases as a sweep does.
     pub(super) fn for_run(experiment: ExperimentArgs, run: RunArgs, output: OutputArgs) -> Self {
-        SweepArgs { keep: false, retry_failed: false, csv: false, experiment, run, output }
+        SweepArgs { keep: false, retry_failed: false, csv: false, fail_fast: false, experiment, run, output }
     }
 
     /// A file's sweep, recorded into this kind of file whatever the flags say.
@@ -99,7 +120,7 @@ impl SweepArgs {
     ) -> Result<PlannedSweep, CliError> {
         let config = Config { path, below: PathBuf::new(), is_of_folder: false };
         let plan = SweepPlan::new(&file)?;
-        Ok(PlannedSweep { config, file, plan, targets: targets(Some(to)) })
+        Ok(PlannedSweep { config, file, plan, targets: targets(Some(to)), judged_by: None })
     }
 
     /// The file with the flags' changes.
@@ -122,9 +143,13 @@ impl SweepArgs {
         instead: Option<RecordTo>,
     ) -> Result<PlannedSweep, CliError> {
         let plan = SweepPlan::new(&file)?;
-        let said = plan.cases.first().and_then(|first| first.case.experiment.record.to);
-        let targets = self.run.targets(instead.or(said))?;
-        Ok(PlannedSweep { config, file, plan, targets })
+        let record = plan.cases.first().map(|first| &first.case.experiment.record);
+        let said = record.and_then(|record| record.to);
+        let fails_alone = record.is_some_and(|record| record.cases == RecordCases::Failing);
+        // Who asks for files of what fails means this command.
+        let targets = self.run.targets(if fails_alone && said.is_some() { said } else { instead.or(said) })?;
+        let planned = PlannedSweep { config, file, plan, targets, judged_by: None };
+        if fails_alone { planned.judging() } else { Ok(planned) }
     }
 
     /// Runs what is missing of a file's sweep.
@@ -147,14 +172,57 @@ impl SweepArgs {
             eprintln!("{}: {} cases into {}", config.path.display(), plan.cases.len(), dir.display());
         }
         let work = |planned: &Planned, targets: &[Target]| build_and_run(planned, &dir, targets);
-        let bar = Bar::new(self.output.quiet);
+        let bar = Bar::new(&config.path, self.output, self.run.progress).stopping_at_failure(self.fail_fast);
+        let (begun, clock) = (SystemTime::now(), Instant::now());
         let job = Job { dir: &dir, targets, csv: self.csv, work: &work, progress: &bar };
         let ran = quietly(|| job.sweep(&plan.cases, &store))?;
-        let rows = lock(&store).rows();
+        let mut rows = lock(&store).rows();
+        let (judged, broken) = planned.judge(&rows);
+        let rule = plan.cases.first().map(|first| first.case.experiment.record.cases);
+        if rule == Some(RecordCases::Failing) {
+            quietly(|| job.record(&in_turn(&judged, check::MOST), &plan.cases, &store))?;
+            rows = lock(&store).rows();
+        }
+        let took = clock.elapsed();
         let cases: HashMap<&str, &Planned> = plan.cases.iter().map(|planned| (&*planned.case.id, planned)).collect();
         let seen = |row: &Row| Some(Seen::of(&cells(row), &cases.get(&*row.case)?.case.experiment));
         let seen = rows.iter().filter_map(seen).collect();
-        Ok(Swept { config: config.path.clone(), dir, ran, planned: plan.cases.len(), rows, seen })
+        let (config, planned) = (config.path.clone(), plan.cases.len());
+        Ok(Swept { config, dir, ran, planned, rows, seen, judged, broken, begun, took })
+    }
+}
+
+impl PlannedSweep {
+    /// The sweep, with verdicts on what its file expects.
+    ///
+    /// # Errors
+    /// An expectation names what no row has.
+    pub fn judging(self) -> Result<Self, CliError> {
+        let mut names: Vec<String> = Vec::new();
+        for name in self.plan.cases.iter().flat_map(|planned| more::names(&planned.case.experiment)) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        let search = self.file.search();
+        names.extend(search.iter().flat_map(|_| columns::names(&SEARCH)));
+        let schema = Schema::new(self.file.axes(), search.and_then(|search| search.over), &names);
+        refuse_unknown(&schema, self.file.expect(), search).map_err(|error| self.file.placed(error))?;
+        Ok(PlannedSweep { judged_by: Some(schema), ..self })
+    }
+
+    /// Verdicts, and the cases that have failed.
+    fn judge(&self, rows: &[Row]) -> (Vec<Judged>, Vec<Failing>) {
+        let Some(schema) = &self.judged_by else { return Default::default() };
+        let cells = cells_of(rows);
+        let verdict = |expectation| match rows.len() == self.plan.cases.len() {
+            true => judge(expectation, schema, &cells),
+            false => Judged::not_judged(
+                expectation,
+                &format!("not judged: {} of {} rows are there", rows.len(), self.plan.cases.len()),
+            ),
+        };
+        (self.file.expect().iter().map(verdict).collect(), broken(schema, &cells))
     }
 }
 
@@ -174,30 +242,37 @@ impl Config {
 /// # Errors
 /// A path that is not there or cannot be read, a folder without a .yaml, or a folder of results.
 pub fn configs(given: &[PathBuf]) -> Result<Vec<Config>, CliError> {
+    configs_of_each(given).into_iter().map(|config| config.map_err(|(_, error)| error)).collect()
+}
+
+/// The same, each on its own: what is wrong with a path that is given, beside the files of the others.
+pub(super) fn configs_of_each(given: &[PathBuf]) -> Vec<Result<Config, (PathBuf, CliError)>> {
     let mut all = Vec::new();
     for path in given {
-        let name = below_configs(path);
-        // A folder of its own only where there is another to tell it from.
-        let base = if given.len() > 1 { name } else { PathBuf::new() };
-        if Folder::is_one(path) {
-            let path = path.display();
-            return Err(CliError::Input(format!(
-                "{path}: expected experiment files, found a folder of results; go on in it with `gotai sweep \
-                 {path}/experiment.yaml --out {path}`"
-            )));
-        }
-        if path.is_dir() {
-            let below = |file: &Path| base.join(file.strip_prefix(path).unwrap_or(file).with_extension(""));
-            all.extend(files_of(path)?.into_iter().map(|file| Config {
-                below: below(&file),
-                path: file,
-                is_of_folder: true,
-            }));
-        } else {
-            all.push(Config { path: path.clone(), below: base, is_of_folder: false });
+        match configs_of(path, given.len() > 1) {
+            Ok(configs) => all.extend(configs.into_iter().map(Ok)),
+            Err(error) => all.push(Err((path.clone(), error))),
         }
     }
-    Ok(all)
+    all
+}
+
+fn configs_of(path: &Path, is_one_of_several: bool) -> Result<Vec<Config>, CliError> {
+    // A folder of its own only where there is another to tell it from.
+    let base = if is_one_of_several { below_configs(path) } else { PathBuf::new() };
+    if Folder::is_one(path) {
+        let path = path.display();
+        return Err(CliError::Input(format!(
+            "{path}: expected experiment files, found a folder of results; go on in it with `gotai sweep \
+             {path}/experiment.yaml --out {path}`"
+        )));
+    }
+    if !path.is_dir() {
+        return Ok(vec![Config { path: path.to_path_buf(), below: base, is_of_folder: false }]);
+    }
+    let below = |file: &Path| base.join(file.strip_prefix(path).unwrap_or(file).with_extension(""));
+    let files = files_of(path)?.into_iter();
+    Ok(files.map(|file| Config { below: below(&file), path: file, is_of_folder: true }).collect())
 }
 
 fn files_of(given: &Path) -> Result<Vec<PathBuf>, CliError> {

@@ -19,6 +19,13 @@ const MOMENT: Duration = Duration::from_millis(400);
 /// A viewer that can be started.
 pub(super) struct Viewer {
     program: PathBuf,
+    version: String,
+}
+
+impl std::fmt::Display for Viewer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Rerun Viewer {} ({})", self.version, self.program.display())
+    }
 }
 
 impl Viewer {
@@ -58,7 +65,7 @@ impl Viewer {
         if version[..2] > ours[..2] && !quiet {
             eprintln!("note: the Rerun Viewer {shown} is newer than these recordings ({RERUN_VERSION})");
         }
-        Ok(Viewer { program })
+        Ok(Viewer { program, version: shown })
     }
 
     /// Starts a viewer that listens at a port of this machine.

@@ -47,12 +47,19 @@ impl Comparison {
             Comparison::Difference => "difference",
         }
     }
+
+    pub fn sign(self) -> &'static str {
+        match self {
+            Comparison::Ratio => "/",
+            Comparison::Difference => "−",
+        }
+    }
 }
 
 /// The keys of an item as they are written.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Expect {
+pub(super) struct Expect {
     column: Option<String>,
     fraction: Option<PredicateText>,
     trend: Option<QuantityText>,

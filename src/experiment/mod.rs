@@ -31,6 +31,7 @@ pub mod positions;
 pub mod predicate;
 mod reading;
 mod scene;
+pub mod schema;
 pub mod search;
 mod solver;
 mod source;

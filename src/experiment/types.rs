@@ -138,6 +138,8 @@ pub enum RecordCases {
     Few,
     All,
     Diverged,
+    /// At most 24 cases that an unmet expectation names.
+    Failing,
     First,
     /// A number of cases, evenly through the plan.
     Sample(u32),

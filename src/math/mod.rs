@@ -5,6 +5,7 @@ pub mod broyden;
 pub mod dd;
 pub mod elliptic;
 pub mod full_pivot;
+pub mod interval;
 pub mod least_norm;
 pub mod newton;
 pub mod order;

@@ -2,7 +2,7 @@
 //! row are the fields of `Row`, `Measured` and `Work`; here are those that only some experiments have.
 
 use super::Row;
-use crate::heading::{CellKind, Heading, Headings};
+use crate::heading::{Aim, CellKind, Heading, Headings};
 
 /// Columns of every row, axes left out.
 pub fn of_every_row() -> Vec<Heading> {
@@ -109,6 +109,34 @@ pub fn names(headings: &[Heading]) -> Vec<String> {
 /// them: their kind is that of their values.
 pub fn kind(name: &str) -> Option<CellKind> {
     known(name).map(|heading| heading.kind)
+}
+
+/// What is better in a column of every row, if the smaller number is.
+pub fn aim(name: &str) -> Option<Aim> {
+    known(name)?.aim
+}
+
+/// Oldest format of which it is known what every column meant.
+pub const OLDEST: u32 = 2;
+
+/// Columns whose meaning has changed, by the format since which they have the one of today.
+const CHANGED: [(u32, &[&str]); 1] = [(
+    3,
+    &[
+        "energy_drift_rel",
+        "energy_growth_max",
+        "energy_rise_max_rel",
+        "energy_balance_rel",
+        "linear_momentum_drift_rel",
+        "angular_momentum_drift_rel",
+        "residual_max",
+    ],
+)];
+
+/// The format, of those after the older of two and up to the newer, in which the meaning of a column has changed.
+pub fn changed_between(name: &str, older: u32, newer: u32) -> Option<u32> {
+    let changes = CHANGED.iter().filter(|(format, _)| older < *format && *format <= newer);
+    changes.filter(|(_, columns)| columns.contains(&name)).map(|(format, _)| *format).next_back()
 }
 
 /// Whether a column of every row is relative and has a sign.

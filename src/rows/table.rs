@@ -6,10 +6,12 @@ use crate::digest::hex;
 use crate::heading::{CellKind, unit_of};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use parquet::arrow::ArrowWriter;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
+use prost::bytes::Bytes;
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
@@ -112,6 +114,39 @@ impl Table {
             CellKind::Count => Arc::new(cells.map(|cell| cell.and_then(Value::as_i64)).collect::<Int64Array>()),
             CellKind::Number => Arc::new(cells.map(|cell| cell.and_then(Value::as_f64)).collect::<Float64Array>()),
         }
+    }
+}
+
+/// Rows of a table that was written as Parquet, by the names of its columns in their order.
+///
+/// # Errors
+/// It is none, or has columns of kinds that no table of ours has.
+pub fn rows_of_parquet(file: Vec<u8>) -> Result<Vec<Map<String, Value>>, ParquetError> {
+    let reader = ParquetRecordBatchReaderBuilder::try_new(Bytes::from(file))?.build()?;
+    let mut rows = Vec::new();
+    for batch in reader {
+        let batch = batch?;
+        let schema = batch.schema();
+        let columns = schema.fields().iter().zip(batch.columns());
+        let columns = columns.map(|(field, column)| Ok((field.name().clone(), cells_of(column)?)));
+        let columns = columns.collect::<Result<Vec<_>, ParquetError>>()?;
+        let row = |i: usize| columns.iter().map(|(name, cells)| (name.clone(), cells[i].clone())).collect();
+        rows.extend((0..batch.num_rows()).map(row));
+    }
+    Ok(rows)
+}
+
+fn cells_of(column: &ArrayRef) -> Result<Vec<Value>, ParquetError> {
+    let column = column.as_any();
+    if let Some(texts) = column.downcast_ref::<StringArray>() {
+        return Ok(texts.iter().map(Value::from).collect());
+    }
+    if let Some(counts) = column.downcast_ref::<Int64Array>() {
+        return Ok(counts.iter().map(Value::from).collect());
+    }
+    match column.downcast_ref::<Float64Array>() {
+        Some(numbers) => Ok(numbers.iter().map(Value::from).collect()),
+        None => Err(ParquetError::General("expected columns of texts, counts and numbers".into())),
     }
 }
 

@@ -21,6 +21,7 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, HashSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard};
 
 /// Failure of the machine during a sweep; rows of cases that had ended are kept.
@@ -39,6 +40,14 @@ pub enum SweepError {
 pub trait Progress: Sync {
     fn begin(&self, what: &str, total: usize);
     fn one_done(&self);
+    /// One case of those that were begun has ended.
+    fn case_ended(&self, _id: &str, _outcome: Outcome) {
+        self.one_done();
+    }
+    /// Whether no further case is begun, though some are missing.
+    fn is_stopped(&self) -> bool {
+        false
+    }
     fn end(&self);
 }
 
@@ -79,20 +88,41 @@ impl Job<'_> {
         };
         self.make_references(&missing, cases)?;
         self.progress.begin("cases", missing.len());
-        let ran = missing.par_iter().try_for_each(|&i| {
+        let done = AtomicUsize::new(0);
+        let ran = missing.par_iter().filter(|_| !self.progress.is_stopped()).try_for_each(|&i| {
             let targets = if at_once.contains(&i) { self.targets } else { &[] };
             let (measured, written) = self.caught(&cases[i], targets);
-            lock(store).add(&cases[i].case.id, measured)?;
-            self.progress.one_done();
+            let (id, outcome) = (&cases[i].case.id, measured.outcome);
+            lock(store).add(id, measured)?;
+            done.fetch_add(1, Ordering::Relaxed);
+            self.progress.case_ended(id, outcome);
             keep(written, &mut lock(store))
         });
         self.progress.end();
-        let recorded = ran.and_then(|()| self.record_chosen(rule, cases, store));
+        // What tells most is chosen of all rows.
+        let record = || if self.progress.is_stopped() { Ok(()) } else { self.record_chosen(rule, cases, store) };
+        let recorded = ran.and_then(|()| record());
         lock(store).write_tables(self.csv)?;
         recorded?;
         // Of cases that have panicked.
         remove(leftovers::partial(self.dir)?)?;
-        Ok(missing.len())
+        Ok(done.into_inner())
+    }
+
+    /// Records cases that somebody has chosen by what all rows say, and writes the tables anew.
+    ///
+    /// # Errors
+    /// The machine failed.
+    pub fn record(&self, ids: &[String], cases: &[Planned], store: &Mutex<Store>) -> Result<(), SweepError> {
+        let of = |id: &String| cases.iter().find(|planned| planned.case.id == *id && planned.search.is_none());
+        let ended = |planned: &Planned| lock(store).measured(&planned.case.id).map(|measured| measured.outcome);
+        let with_outcome = ids.iter().filter_map(of).filter_map(|planned| Some((planned, ended(planned)?)));
+        // A case that panics leaves no recording.
+        let chosen = with_outcome.filter(|(_, outcome)| *outcome != Outcome::Failed);
+        let recorded = |planned: &Planned| lock(store).recorded(&planned.case.id).cloned();
+        let recorded = self.record_all(chosen.map(|(p, outcome)| (p, recorded(p), outcome)).collect(), store);
+        lock(store).write_tables(self.csv)?;
+        recorded
     }
 
     /// Those that no earlier sweep has left here, each once. A search makes its own.
@@ -122,10 +152,15 @@ impl Job<'_> {
 
     /// Records the chosen cases that have no recording yet, or another one than theirs would be now.
     fn record_chosen(&self, rule: RecordCases, cases: &[Planned], store: &Mutex<Store>) -> Result<(), SweepError> {
+        let chosen = chosen(rule, cases, &lock(store));
+        self.record_all(chosen, store)
+    }
+
+    fn record_all(&self, chosen: Vec<Chosen>, store: &Mutex<Store>) -> Result<(), SweepError> {
         if self.targets.is_empty() {
             return Ok(());
         }
-        let missing: Vec<_> = chosen(rule, cases, &lock(store))
+        let missing: Vec<_> = chosen
             .into_par_iter()
             .filter_map(|(planned, recorded, outcome)| {
                 let lacking = self.lacking(planned, recorded.as_ref(), outcome);
@@ -169,9 +204,11 @@ impl Job<'_> {
     }
 }
 
-/// The cases that a rule chooses, each with its recording, if there is one, and how it ended. A case that panics leaves
-/// no recording.
-fn chosen<'a>(rule: RecordCases, cases: &'a [Planned], store: &Store) -> Vec<(&'a Planned, Option<Recorded>, Outcome)> {
+/// A case that is recorded, its recording, if there is one, and how it ended.
+type Chosen<'a> = (&'a Planned, Option<Recorded>, Outcome);
+
+/// The cases that a rule chooses. A case that panics leaves no recording.
+fn chosen<'a>(rule: RecordCases, cases: &'a [Planned], store: &Store) -> Vec<Chosen<'a>> {
     let measured: Vec<_> = cases.iter().map(|planned| store.measured(&planned.case.id)).collect();
     let chosen = known_after(rule, &measured).into_iter().filter_map(|i| Some((&cases[i], measured[i]?.outcome)));
     // The first of equal cases stands for all of them.

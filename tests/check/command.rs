@@ -31,11 +31,17 @@ fn all_met_is_exit_code_0_and_a_table() {
     let out = folder.path().join("out");
     let (code, text, err) = run(&["check", &config, "--out", out.to_str().unwrap()]);
     assert_eq!(code, 0, "{text}{err}");
-    for part in
-        ["fall.yaml: 6 cases, 6 run now", "met", "≤ -4.9", "Galilei", "2 of 2 expectations met in 1 experiments"]
-    {
+    // A line an experiment, and the sum.
+    assert_eq!(text.lines().count(), 2, "{text}");
+    assert!(text.starts_with("met      ") && text.contains("fall.yaml: 6 cases, 6 run now, "), "{text}");
+    assert!(text.ends_with(" s: 2 met\n2 of 2 expectations met in 1 experiment\n"), "{text}");
+    // All verdicts, if one wants to see them; nothing where all is well and nobody does.
+    let (_, text, _) = run(&["check", &config, "--out", out.to_str().unwrap(), "-v"]);
+    for part in ["met", "≤ -4.9", "Galilei"] {
         assert!(text.contains(part), "{part}: {text}");
     }
+    let (code, text, err) = run(&["check", &config, "--out", out.to_str().unwrap(), "--quiet"]);
+    assert_eq!((code, text.as_str(), err.as_str()), (0, "", ""));
     // Rows are kept, nothing is recorded, and nothing is done twice.
     assert!(out.join("rows.csv").exists());
     let recorded = std::fs::read_dir(&out).unwrap().any(|e| e.unwrap().path().extension().is_some_and(|e| e == "mcap"));
@@ -96,13 +102,161 @@ fn several_files_do_not_share_a_folder_of_results() {
 #[test]
 fn an_unknown_name_is_exit_code_2_before_anything_runs() {
     let folder = scratch::folder();
-    write(folder.path(), "a.yaml", FALL);
     let config = write(folder.path(), "b.yaml", &FALL.replace("across: scene.bodies.ball.mass_kg", "across: mass"));
-    let out = folder.path().join("out");
-    let (code, text, err) = run(&["check", folder.path().to_str().unwrap(), "--out", out.to_str().unwrap()]);
+    let (out, junit) = (folder.path().join("out"), folder.path().join("junit.xml"));
+    let args = ["check", &config, "--out", out.to_str().unwrap(), "--junit", junit.to_str().unwrap()];
+    let (code, text, err) = run(&args);
     assert_eq!((code, text.as_str()), (2, ""), "{err}");
     assert!(err.contains(&format!("{config}:11: expect.1.across: expected one of time.step_s")), "{err}");
     assert!(!out.exists());
+    // A CI sees why, too.
+    let junit = std::fs::read_to_string(junit).unwrap();
+    assert!(junit.contains("errors=\"1\"") && junit.contains("expect.1.across: expected one of"), "{junit}");
+}
+
+/// The exit code is that of the file that went worst.
+#[test]
+fn one_bad_file_does_not_stop_the_others() {
+    let folder = scratch::folder();
+    write(folder.path(), "a.yaml", FALL);
+    write(folder.path(), "b.yaml", &FALL.replace("across: scene.bodies.ball.mass_kg", "across: mass"));
+    write(folder.path(), "c.yaml", &FALL.replace("max: -4.9", "max: -5.3"));
+    let (out, junit) = (folder.path().join("out"), folder.path().join("junit.xml"));
+    let of = |more: &[&str]| {
+        let args = ["check", folder.path().to_str().unwrap(), "--out", out.to_str().unwrap()];
+        run(&[&args[..], more].concat())
+    };
+    let (code, text, err) = of(&["--junit", junit.to_str().unwrap()]);
+    assert_eq!(code, 2, "{err}");
+    assert!(text.contains("3 of 4 expectations met in 2 experiments; 1 file could not be checked"), "{text}");
+    assert!(err.contains("b.yaml:11: expect.1.across") && !err.contains("c.yaml"), "{err}");
+    let junit = std::fs::read_to_string(junit).unwrap();
+    assert_eq!(junit.matches("<testsuite ").count(), 3, "{junit}");
+    assert!(junit.contains("tests=\"5\"") && junit.contains("failures=\"1\" errors=\"1\""), "{junit}");
+    let (_, text, _) = of(&["--json"]);
+    let document: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!((&document["met"], &document["exit_code"]), (&Value::from(false), &Value::from(2)));
+    assert!(document["errors"][0]["error"].as_str().unwrap().contains("expect.1.across"), "{document}");
+    // A machine that fails is worse still, and a path that is not there is wrong input.
+    let lock = std::fs::File::open(out.join("a/journal.jsonl")).unwrap();
+    lock.lock().unwrap();
+    let (code, text, err) = of(&[]);
+    assert_eq!(code, 3, "{err}");
+    assert!(err.contains("another gotai is at work here") && text.contains("c.yaml: 6 cases"), "{text}{err}");
+    drop(lock);
+    let a = folder.path().join("a.yaml");
+    let (code, text, _) = run(&["check", a.to_str().unwrap(), "no/such.yaml", "--out", out.to_str().unwrap()]);
+    assert!(code == 2 && text.contains("a.yaml: 6 cases"), "{text}");
+    // One after the other, no file after one that went wrong.
+    let (code, text, _) = of(&["--fail-fast", "--json"]);
+    let document: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!((code, document["left_out"].as_array().unwrap().len()), (2, 2), "{document}");
+}
+
+/// What is not met says of which cases, what was measured there, and how to see it.
+#[test]
+fn what_is_not_met_points_at_its_cases() {
+    let folder = scratch::folder();
+    let unmet = "  - { column: ball.position_m.y, min: -5.2, where: { scene.bodies.ball.mass_kg: 2 } }\n";
+    let config = write(folder.path(), "fall.yaml", &format!("{FALL}{unmet}record: {{ cases: failing }}\n"));
+    let (out, junit) = (folder.path().join("out dir"), folder.path().join("junit.xml"));
+    let dir = out.to_str().unwrap();
+    let args = ["check", &config, "--out", dir, "--junit", junit.to_str().unwrap()];
+    let document = |more: &[&str]| -> Value {
+        let (code, text, err) = run(&[&args[..], &["--json"], more].concat());
+        assert_eq!(code, 1, "{err}");
+        serde_json::from_str(&text).unwrap()
+    };
+    let recordings = || {
+        let names = std::fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        names.filter(|name| name.ends_with(".mcap")).collect::<Vec<_>>()
+    };
+    let found = document(&[]);
+    let named = &found["expectations"][2];
+    // −½ g (t² + Δt t): −5.39, −5.145, −5.0225
+    assert_eq!((named["failing_count"].as_u64(), recordings().len()), (Some(1), 0), "{named}");
+    let case = &named["failing"][0];
+    assert_eq!((case["axes"]["time.step_s"].as_f64(), case["column"].as_str()), (Some(0.1), Some("ball.position_m.y")));
+    assert!((case["value"].as_f64().unwrap() + 5.39).abs() < 1e-12, "{case}");
+    assert!(found["expectations"][0]["failing"].as_array().unwrap().is_empty());
+    // The command that is said runs it again, bit for bit.
+    let id = case["case"].as_str().unwrap();
+    assert_eq!(case["command"], format!("gotai run '{dir}' --case {}", &id[..8]), "{case}");
+    let (code, _, err) = run(&["run", dir, "--case", &id[..8], "--record", "none"]);
+    assert!(code == 0 && err.contains("the same as the row, bit for bit"), "{err}");
+    // It alone is recorded, after all rows are there, and the words on the screen and in JUnit say where.
+    let kept = document(&["--record", "mcap"]);
+    let files = recordings();
+    assert!(files.len() == 1 && files[0].contains(&id[..8]), "{files:?}");
+    let said = kept["expectations"][2]["failing"][0]["recordings"][0].as_str().unwrap().to_string();
+    assert!(said.ends_with(&files[0]), "{said}: {files:?}");
+    assert_eq!(kept["experiments"][0]["ran"], 0);
+    let (_, text, _) = run(&args);
+    let place = format!("{}  ball.position_m.y = -5.39, at time.step_s = 0.1, ", &id[..8]);
+    for part in ["expected ≥ -5.2, measured -5.39", &place, &format!("gotai run '{dir}' --case"), &files[0]] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    let junit = std::fs::read_to_string(junit).unwrap();
+    for part in ["ball.position_m.y = -5.39, at time.step_s = 0.1", &files[0], "timestamp=\"20", "time=\""] {
+        assert!(junit.contains(part), "{part}: {junit}");
+    }
+    assert_eq!(junit.matches("<testcase ").count(), 3);
+}
+
+/// 24 cases of an expectation are named, the worst first, and as many recorded.
+#[test]
+fn of_many_failing_cases_the_worst_are_named() {
+    let folder = scratch::folder();
+    let config = write(
+        folder.path(),
+        "fall.yaml",
+        &FALL
+            .replace("time.step_s: [0.1, 0.05, 0.025]", "seed: { range: { from: 0, to: 39 } }")
+            .replace("max: -4.9", "max: -9, quantile: 0.5"),
+    );
+    let out = folder.path().join("out");
+    let sets = ["--set", "record.cases=failing", "--record", "mcap", "--jobs", "2"];
+    let args = ["check", &config, "--out", out.to_str().unwrap(), "--json", "--progress", "json"];
+    let (code, text, err) = run(&[&args[..], &sets].concat());
+    assert_eq!(code, 1, "{err}");
+    let document: Value = serde_json::from_str(&text).unwrap();
+    let unmet = &document["expectations"][0];
+    assert_eq!((unmet["failing_count"].as_u64(), unmet["failing"].as_array().unwrap().len()), (Some(80), 24));
+    let recordings = std::fs::read_dir(&out)
+        .unwrap()
+        .filter(|e| e.as_ref().unwrap().path().extension().is_some_and(|e| e == "mcap"));
+    assert_eq!(recordings.count(), 24);
+    // What a program reads of the progress.
+    let events: Vec<Value> = err.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    let of = |event: &str| events.iter().filter(|e| e["event"] == event).count();
+    assert_eq!((of("begin"), of("case"), of("end")), (2, 80, 2), "{err}");
+    let last = events.iter().rfind(|e| e["event"] == "case").unwrap();
+    assert_eq!((&last["total"], &last["finished"], &last["failed"]), (&80.into(), &80.into(), &0.into()), "{last}");
+    // On the screen six, and how many more.
+    let (_, text, _) = run(&["check", &config, "--out", out.to_str().unwrap(), "--set", "record.cases=failing"]);
+    assert!(text.contains("… and 74 more"), "{text}");
+}
+
+/// Colour where it is asked for, and no letter more or less.
+#[test]
+fn colour_is_asked_for_and_lines_fit_80_columns() {
+    let folder = scratch::folder();
+    let config = write(folder.path(), "fall.yaml", &FALL.replace("max: -4.9", "max: -5.2"));
+    let out = folder.path().join("out");
+    let of = |more: &[&str], columns: &str| {
+        let mut command = crate::cli::gotai(&["check", "fall.yaml", "--out", "out", "-v"]);
+        let output = command.args(more).current_dir(folder.path()).env("COLUMNS", columns).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{config} {out:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert!(of(&["--color", "always"], "80").contains("\u{1b}[1;31mNOT MET\u{1b}[0m"));
+    for never in [&["--color", "never"][..], &["--color", "auto"], &[]] {
+        let text = of(never, "80");
+        assert!(!text.contains('\u{1b}'), "{text}");
+        let widest = text.lines().map(|line| line.chars().count()).max();
+        assert!(widest <= Some(80), "{text}");
+    }
+    assert!(of(&[], "120").lines().any(|line| line.chars().count() > 80));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod bad;
 mod command;
+mod compare;
 mod search;
 mod trend;
 mod verdicts;

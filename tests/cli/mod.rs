@@ -1,5 +1,6 @@
 //! The program as a user meets it: output, files, exit codes.
 
+mod helpers;
 mod remarks;
 mod results;
 

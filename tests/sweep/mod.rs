@@ -2,6 +2,7 @@
 
 mod names;
 mod recordings;
+mod stopped;
 mod store;
 mod threads;
 

@@ -1,0 +1,180 @@
+//! `gotai compare`: two folders of results, of two versions, methods or machines: what changed, by how much.
+
+use super::args::OutputArgs;
+use super::checked::quoted;
+use super::compare_page::page;
+use super::compared::{at, brief, cell, changed, described, factor, finding, interval, joined, others, outcomes};
+use super::error::CliError;
+use super::output::{Hue, counted, print, print_json, width, wrapped};
+use crate::check::{Change, CompareBy, Compared, Regression, Side, TOLERATED, compare};
+use crate::files::{FileError, read, write_whole};
+use crate::rows::columns::OLDEST;
+use crate::rows::plan_file::{FORMAT, PlanAxis};
+use crate::rows::table::rows_of_parquet;
+use crate::sweep::build::build;
+use crate::sweep::folder::{Folder, FolderError};
+use crate::sweep::kept::PLAN;
+use clap::Args;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+#[derive(Args)]
+pub struct Command {
+    /// A folder of results (it has plan.json): how it was
+    a: PathBuf,
+    /// Another one: how it is
+    b: PathBuf,
+    /// Columns to compare, with commas between them [default: all that say what is better]
+    #[arg(long, value_delimiter = ',')]
+    columns: Vec<String>,
+    /// Exit code 1 if B is worse: by more than 10 % and above rounding, or finished in A and not in B
+    #[arg(long)]
+    fail_on_regression: bool,
+    /// What costs more is worse too: wall time, steps, counters of work
+    #[arg(long)]
+    time: bool,
+    /// Write the comparison as a page too
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// Most regressions on the screen; JSON and -v have more.
+const SHOWN: usize = 6;
+
+impl Command {
+    /// Runs the command; the exit code is that of the program.
+    ///
+    /// # Errors
+    /// A folder is none, or the two cannot be compared.
+    pub fn run(self) -> Result<ExitCode, CliError> {
+        let (a, b) = (side(&self.a)?, side(&self.b)?);
+        let asked = CompareBy { columns: self.columns, with_cost: self.time };
+        let compared = compare(&a, &b, &asked).map_err(|error| CliError::Input(error.to_string()))?;
+        if let Some(path) = &self.html {
+            write_whole(path, page(&a, &b, &compared).as_bytes())?;
+        }
+        if self.output.json {
+            print_json(&document(&a, &b, &compared));
+        } else {
+            let most = if self.output.verbose { usize::MAX } else { SHOWN };
+            print(shown(&a, &b, &compared, self.output.is_colored(), most));
+        }
+        Ok(ExitCode::from(u8::from(self.fail_on_regression && compared.regression_count > 0)))
+    }
+}
+
+/// A folder as it was written, by whatever gotai that it can be known of.
+fn side(dir: &Path) -> Result<Side, CliError> {
+    let name = dir.display().to_string();
+    if !Folder::is_one(dir) {
+        return Err(FolderError::NoResults(name).into());
+    }
+    let path = dir.join(PLAN);
+    let wrong = |what: &str| CliError::Input(format!("{}: {what}", path.display()));
+    let plan: Value = serde_json::from_slice(&read(&path)?).map_err(|error| wrong(&error.to_string()))?;
+    let format = plan["format"].as_u64().and_then(|format| u32::try_from(format).ok());
+    let format = format.filter(|format| (OLDEST..=FORMAT).contains(format)).ok_or_else(|| {
+        let found = plan.get("format").map_or("none, as of an older gotai".to_string(), Value::to_string);
+        wrong(&format!("expected format {OLDEST} to {FORMAT}, found {found}; run its sweep again"))
+    })?;
+    let axes: Vec<PlanAxis> =
+        serde_json::from_value(plan["axes"].clone()).map_err(|error| wrong(&error.to_string()))?;
+    let table = dir.join("rows.parquet");
+    if !table.is_file() {
+        return Err(CliError::Input(format!("{}: found no rows yet; run its sweep to the end", table.display())));
+    }
+    let rows = rows_of_parquet(read(&table)?);
+    let rows = rows.map_err(|error| FileError::new(&table, error))?;
+    let text = |key: &str| plan[key].as_str().unwrap_or("?").to_string();
+    let planned = plan["rows"].as_u64().map_or(rows.len(), |rows| rows as usize);
+    Ok(Side { name, program: text("program"), build: text("build"), format, planned, axes, rows, size_m: size_m(dir) })
+}
+
+/// Size of the bodies of a folder's first case; None where this program cannot build it.
+fn size_m(dir: &Path) -> Option<f64> {
+    let folder = Folder::read(dir).ok()?;
+    let first = folder.cases.first()?;
+    let (model, _) = build(&folder.file, &first.point, &first.case.experiment).ok()?;
+    Some(model.largest_radius_m())
+}
+
+fn document(a: &Side, b: &Side, compared: &Compared) -> Value {
+    let side = |side: &Side| {
+        json!({
+            "dir": side.name, "program": side.program, "build": side.build, "format": side.format,
+            "planned": side.planned, "rows": side.rows.len(),
+        })
+    };
+    let mut document = json!({ "a": side(a), "b": side(b), "tolerated": TOLERATED });
+    if let (Value::Object(document), Ok(Value::Object(compared))) = (&mut document, serde_json::to_value(compared)) {
+        document.extend(compared);
+    }
+    for regression in document["regressions"].as_array_mut().into_iter().flatten() {
+        for (case, side, command) in [("case_a", a, "command_a"), ("case_b", b, "command_b")] {
+            regression[command] = json!(regression[case].as_str().map(|case| replay(side, case)));
+        }
+    }
+    document
+}
+
+fn replay(side: &Side, case: &str) -> String {
+    format!("gotai run {} --case {}", quoted(&side.name), case.get(..8).unwrap_or(case))
+}
+
+/// The columns that differ. What does not fit beside its column stands below it.
+fn table(compared: &Compared, width: usize) -> Vec<String> {
+    let (column, a, b) = ("column", "A", "B");
+    let mut lines = vec![format!("  {column:28} better worse {a:>8} {b:>8}  B / A (95 %)")];
+    for change in changed(compared) {
+        let Change { column, better, worse, cells, .. } = change;
+        let (a, b) = (brief(change.median_a), brief(change.median_b));
+        let line = format!("  {column:28} {better:6} {worse:5} {a:>8} {b:>8}  {}", factor(change));
+        let of = if *cells == compared.finished { String::new() } else { format!(" of {}", counted(*cells, "case")) };
+        let more = interval(change) + &of;
+        if line.chars().count() + 1 + more.chars().count() <= width {
+            lines.push(format!("{line} {more}").trim_end().to_string());
+        } else {
+            let indent = width.saturating_sub(more.chars().count());
+            lines.extend([line, format!("{:indent$}{more}", "")]);
+        }
+    }
+    lines
+}
+
+fn shown(a: &Side, b: &Side, compared: &Compared, is_colored: bool, most: usize) -> String {
+    let width = usize::from(width());
+    let mut text = vec![wrapped(&described(a), width, "A  ", "   "), wrapped(&described(b), width, "B  ", "   ")];
+    text.extend(joined(compared).iter().map(|line| wrapped(line, width, "", "  ")));
+    text.push(String::new());
+    for line in outcomes(compared) {
+        text.push(line);
+    }
+    if !changed(compared).is_empty() {
+        text.push(format!(
+            "\nin {} that finished in both (A, B: medians of sizes):",
+            counted(compared.finished, "case")
+        ));
+        text.extend(table(compared, width));
+        text.push(String::new());
+    }
+    text.extend(others(compared).iter().map(|line| wrapped(line, width, "", "  ")));
+    let hue = if compared.regression_count > 0 { Hue::Bad } else { Hue::Good };
+    text.push(format!("\n{}", hue.paint(&finding(compared), is_colored)));
+    for Regression { axes, column, a: was, b: is, case_a, case_b, .. } in compared.regressions.iter().take(most) {
+        let place = if axes.is_empty() { String::new() } else { format!(" at {}", at(axes)) };
+        text.push(wrapped(&format!("{column}: {} → {}{place}", cell(was), cell(is)), width, "  ", "    "));
+        for (side, case) in [(a, case_a), (b, case_b)] {
+            if let Some(case) = case {
+                text.push(format!("    {}", Hue::Faint.paint(&replay(side, case), is_colored)));
+            }
+        }
+    }
+    let more = compared.regression_count - compared.regressions.len().min(most);
+    if more > 0 {
+        text.push(format!("  … and {more} more"));
+    }
+    text.join("\n")
+}

@@ -1,0 +1,102 @@
+//! What a method did at one step or tolerance: rows of a bench as they are, of a sweep the medians over its other axes.
+
+use super::stats::median;
+use super::subject::{Ground, Levels};
+use crate::rows::trials::Trial;
+
+/// A trial, and where it is from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tried {
+    pub trial: Trial,
+    /// The row, where it is one.
+    pub row: Option<usize>,
+    /// Number of rows that it is the median of.
+    pub rows: usize,
+}
+
+/// Errors that a sweep's rows are compared by, the first of which there is one.
+const ERRORS: [&str; 4] =
+    ["error_position_m", "error_orientation_rad", "error_velocity_m_s", "error_angular_velocity_rad_s"];
+
+/// Most series of a figure.
+const MOST_SERIES: usize = 10;
+
+/// Trials of a subject: those that it has, else those that its rows make.
+pub fn trials(ground: &Ground) -> Vec<Tried> {
+    let known = &ground.subject.trials;
+    if !known.is_empty() {
+        let ours = known.iter().filter(|trial| trial.engine == "gotai").count();
+        let tried = |(row, trial): (usize, &Trial)| {
+            let row = (row < ours && ground.frame().rows() == ours).then_some(row);
+            Tried { trial: labelled(trial.clone()), row, rows: 1 }
+        };
+        return known.iter().enumerate().map(tried).collect();
+    }
+    of_rows(ground).unwrap_or_default()
+}
+
+/// A trial whose method says which program it is of, if it is not ours.
+fn labelled(mut trial: Trial) -> Trial {
+    if trial.engine != "gotai" {
+        trial.method = format!("{} {}", trial.engine, trial.method).trim().to_string();
+    }
+    trial
+}
+
+fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
+    let frame = ground.frame();
+    let has_sizes = |name: &&&str| frame.numbers(name).is_some_and(|x| x.iter().any(|x| x.is_finite() && *x != 0.0));
+    let error = *ERRORS.iter().find(has_sizes)?;
+    let errors = frame.numbers(error)?;
+    let accuracy: Vec<&Levels> = ground.axes.iter().filter(|axis| axis.is_step() || axis.is_tolerance()).collect();
+    if accuracy.is_empty() {
+        return None;
+    }
+    // One series for what the other axes are, where these are few.
+    let mut by: Vec<&Levels> = ground.chosen().filter(|axis| !axis.is_step() && !axis.is_tolerance()).collect();
+    while by.iter().map(|axis| axis.len()).product::<usize>() > MOST_SERIES {
+        by.pop();
+    }
+    let (wall, steps) = (frame.numbers("wall_s"), frame.numbers("steps"));
+    let used = frame.numbers("step_used_s");
+    let finished = ground.ended("finished");
+    let mut groups: std::collections::BTreeMap<Vec<u32>, Vec<usize>> = std::collections::BTreeMap::new();
+    for row in 0..frame.rows() {
+        let key: Option<Vec<u32>> = by.iter().chain(&accuracy).map(|axis| axis.of_row[row]).collect();
+        if let Some(key) = key {
+            groups.entry(key).or_default().push(row);
+        }
+    }
+    let tried = |(key, rows): (Vec<u32>, Vec<usize>)| {
+        let of = |numbers: Option<&[f64]>| {
+            let finite = |row: &usize| Some(numbers?[*row].abs()).filter(|x| x.is_finite() && finished[*row]);
+            median(&rows.iter().filter_map(finite).collect::<Vec<_>>())
+        };
+        let names: Vec<String> = by.iter().zip(&key).map(|(axis, level)| axis.names[*level as usize].clone()).collect();
+        let value = |of: fn(&Levels) -> bool| {
+            let at = accuracy.iter().position(|axis| of(axis))?;
+            accuracy[at].numbers.as_ref().map(|numbers| numbers[key[by.len() + at] as usize])
+        };
+        let method = if names.is_empty() { ground.subject.methods.join(", ") } else { names.join(", ") };
+        let step_s = value(Levels::is_step).map(|step_s| of(used).unwrap_or(step_s));
+        Tried {
+            trial: Trial {
+                scene: String::new(),
+                engine: "gotai".to_string(),
+                method,
+                step_s: step_s.filter(|_| value(Levels::is_tolerance).is_none()),
+                tolerance: value(Levels::is_tolerance),
+                steps: of(steps).unwrap_or_default() as u64,
+                error: of(Some(errors)),
+                error_kind: error.to_string(),
+                wall_s: of(wall),
+                wall_median_s: None,
+                outcome: (if rows.iter().any(|row| finished[*row]) { "finished" } else { "diverged" }).to_string(),
+                criterion: None,
+            },
+            row: (rows.len() == 1).then(|| rows[0]),
+            rows: rows.len(),
+        }
+    };
+    Some(groups.into_iter().map(tried).collect())
+}

@@ -1,6 +1,7 @@
 //! Flags that commands share.
 
 use super::error::CliError;
+use super::output::ColorFlag;
 use crate::digest::sha256;
 use crate::experiment::types::RecordTo;
 use crate::experiment::{ExperimentFile, Given};
@@ -70,6 +71,16 @@ pub(super) struct OutputArgs {
     /// More about what is done
     #[arg(short, long)]
     pub(super) verbose: bool,
+    /// When there is colour [default: on a terminal, unless NO_COLOR is set]
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t, hide_default_value = true)]
+    pub(super) color: ColorFlag,
+}
+
+impl OutputArgs {
+    /// Whether what is printed has colour.
+    pub(super) fn is_colored(self) -> bool {
+        !self.json && self.color.is_on(&std::io::stdout())
+    }
 }
 
 /// Flags of every command that runs cases.

@@ -4,8 +4,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
 const COMMANDS: [&str; 8] = ["merge", "submit", "report", "schema", "completions", "new", "compare", "doctor"];
-const FLAGS: [&str; 7] =
-    ["--shard", "--live", "--progress", "--color", "--fail-fast", "--no-report", "--fail-on-regression"];
+const FLAGS: [&str; 6] = ["--shard", "--live", "--progress", "--fail-fast", "--no-report", "--fail-on-regression"];
 
 /// Prints a parser's message (or help) and gives the exit code.
 pub fn explain_usage(error: &clap::Error) -> ExitCode {

@@ -1,7 +1,7 @@
 //! The commands, one file each.
 
 use super::error::CliError;
-use super::{bench, check, clean, explain, export, list, repair, rows, run, status, sweep, view};
+use super::{bench, check, clean, explain, export, list, repair, report, rows, run, status, sweep, view};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -29,6 +29,8 @@ enum Command {
     Check(check::Command),
     /// Run time against error: the methods, steps and tolerances of `bench:`, on one core
     Bench(bench::Command),
+    /// Results as one page (report.html), and its figures as SVG and PNG
+    Report(report::Command),
     /// How much of a sweep is done, missing, failed
     Status(status::Command),
     /// The rows of a folder of results, chosen, sorted, as a table
@@ -58,6 +60,7 @@ impl Cli {
             Command::Sweep(command) => command.run(),
             Command::Check(command) => command.run(),
             Command::Bench(command) => command.run(),
+            Command::Report(command) => command.run(),
             Command::Status(command) => command.run(),
             Command::Rows(command) => command.run(),
             Command::View(command) => command.run(),

@@ -3,8 +3,8 @@
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
-const COMMANDS: [&str; 8] = ["merge", "submit", "report", "schema", "completions", "new", "compare", "doctor"];
-const FLAGS: [&str; 6] = ["--shard", "--live", "--progress", "--fail-fast", "--no-report", "--fail-on-regression"];
+const COMMANDS: [&str; 7] = ["merge", "submit", "schema", "completions", "new", "compare", "doctor"];
+const FLAGS: [&str; 5] = ["--shard", "--live", "--progress", "--fail-fast", "--fail-on-regression"];
 
 /// Prints a parser's message (or help) and gives the exit code.
 pub fn explain_usage(error: &clap::Error) -> ExitCode {

@@ -19,6 +19,8 @@ mod progress;
 mod remarks;
 mod repair;
 mod replay;
+mod report;
+mod reporting;
 mod rows;
 mod run;
 mod shown;

@@ -13,11 +13,12 @@ pub const MOST_IN_CHARACTERS: usize = 12;
 pub fn figures(subject: &Subject) -> Vec<Figure> {
     let ground = Ground::of(subject);
     let tried = tried::trials(&ground);
-    let is_grid = ground.chosen().count() > 1 && subject.trials.is_empty();
+    let is_grid = ground.chosen().count() > 1 && !subject.is_bench;
     let title = "Run time against error";
     let all = [
         is_grid.then(|| map::map(&ground, MOST)).flatten(),
-        pareto::figure(title, &tried),
+        Some(pareto::figure(title, &tried))
+            .filter(|figure| figure.marks.iter().any(|mark| figure.shown(mark).next().is_some())),
         convergence::figure(&tried),
         critical::figure(&ground),
         share::figure(&ground),

@@ -40,7 +40,10 @@ pub fn figure(tried: &[Tried]) -> Option<Figure> {
     };
     let triangles = triangles(&marks, &orders);
     marks.extend(triangles);
-    let mut notes = vec![format!("n = {}", counted(rows, "row")), "order: slope of log error in log step, least squares, rounding left out".to_string()];
+    let mut notes = vec![
+        format!("n = {}", counted(rows, "row")),
+        "order: slope of log error in log step, least squares, rounding left out".to_string(),
+    ];
     if rows > tried.len() {
         notes.push("a point is the median of its runs".to_string());
     }

@@ -23,29 +23,39 @@ struct Critically<'a> {
 
 /// The figure of a ground. None where nothing critical is known at two places of an axis.
 pub fn figure(ground: &Ground) -> Option<Figure> {
-    let Critically { key, along, is_family, series, notes: more, how } = of_search(ground).or_else(|| of_map(ground))?;
+    let Critically { key, along, is_family, series, notes: more, how } =
+        of_search(ground).or_else(|| of_map(ground))?;
     let unit = unit_of(&key);
     let (mut marks, mut laws) = (Vec::new(), Vec::new());
     for (colour, (name, dots)) in series.into_iter().enumerate() {
-        let points: Vec<(f64, f64)> = dots.iter().map(|dot| (dot.x, dot.y)).filter(|(x, y)| *x > 0.0 && *y > 0.0).collect();
+        let points: Vec<(f64, f64)> =
+            dots.iter().map(|dot| (dot.x, dot.y)).filter(|(x, y)| *x > 0.0 && *y > 0.0).collect();
         let law = PowerLaw::fit(&points).filter(|_| points.len() > 2);
         let mut label = if name.is_empty() { how.clone() } else { name.clone() };
         if let Some(law) = law {
             let margin = law.margin.map(|margin| format!(" ± {margin:.2}")).unwrap_or_default();
-            let said = format!("∝ x^{:.2}{margin}", law.exponent);
+            // No minus before a zero.
+            let exponent = format!("{:.2}", law.exponent).replace("-0.00", "0.00");
+            let said = format!("∝ x^{exponent}{margin}");
             label += &format!(" {said}");
             let of = if name.is_empty() { String::new() } else { format!("{name}: ") };
-            laws.push(format!("{of}exponent {:.2}{margin} ({} places)", law.exponent, points.len()));
+            laws.push(format!("{of}exponent {exponent}{margin} ({} places)", points.len()));
             let mut ends: Vec<f64> = points.iter().map(|point| point.0).collect();
             ends.sort_by(f64::total_cmp);
             let line = ends.iter().map(|x| Dot::at(*x, law.at(*x))).collect();
-            marks.push(Mark { label: format!("law of {}", if name.is_empty() { "all" } else { &name }), drawn: Drawn::Dashed, colour, dots: line });
+            marks.push(Mark {
+                label: format!("law of {}", if name.is_empty() { "all" } else { &name }),
+                drawn: Drawn::Dashed,
+                colour,
+                dots: line,
+            });
         }
         marks.push(Mark { label, drawn: if law.is_some() { Drawn::Points } else { Drawn::Line }, colour, dots });
     }
     let dots = || marks.iter().filter(|mark| mark.drawn != Drawn::Dashed).flat_map(|mark| &mark.dots);
     let (low, high) = dots().fold((f64::INFINITY, 0.0f64), |(low, high), dot| (low.min(dot.y), high.max(dot.y)));
     let range = format!("{how} goes from {} to {}", short(low), with_unit(&short(high), unit));
+    let range = range.replacen("the critical", "The critical", 1);
     let finding = match laws.is_empty() {
         true => format!("{range}."),
         false => format!("{range}; as a power of {}, {}.", along.path, laws.join("; ")),
@@ -123,7 +133,13 @@ fn of_map<'a>(ground: &'a Ground) -> Option<Critically<'a>> {
         match critical(&shares, x) {
             None => open += 1,
             Some(found) => {
-                let said = format!("{}: half {} at {} = {}", along.says(level), verb(outcome), x.path, interval(&found, x.unit));
+                let said = format!(
+                    "{}: half {} at {} = {}",
+                    along.says(level),
+                    verb(outcome),
+                    x.path,
+                    interval(&found, x.unit)
+                );
                 let ends = x.numbers.as_ref().and_then(|numbers| Some((*numbers.first()?, *numbers.last()?)));
                 let (first, last) = ends.unwrap_or((found.value, found.value));
                 let (low, high) = (found.low.unwrap_or(first), found.high.unwrap_or(last));
@@ -131,9 +147,14 @@ fn of_map<'a>(ground: &'a Ground) -> Option<Critically<'a>> {
             }
         }
     }
-    let mut notes = vec![format!("critical: half of the runs {}; bars: 95 %, to the end of the axis where open", verb(outcome))];
+    let mut notes =
+        vec![format!("critical: half of the runs {}; bars: 95 %, to the end of the axis where open", verb(outcome))];
     if open > 0 {
-        notes.push(format!("{} of {} on which the share does not cross a half not shown", counted(open, "value"), along.path));
+        notes.push(format!(
+            "{} of {} on which the share does not cross a half not shown",
+            counted(open, "value"),
+            along.path
+        ));
     }
     let key = x.path.clone();
     finished(series, along, key.clone(), notes, format!("the critical {key}"))
@@ -157,7 +178,13 @@ fn push(series: &mut Vec<Found>, name: String, dot: Dot) {
     }
 }
 
-fn finished<'a>(mut series: Vec<Found>, along: &'a Levels, key: String, notes: Vec<String>, how: String) -> Option<Critically<'a>> {
+fn finished<'a>(
+    mut series: Vec<Found>,
+    along: &'a Levels,
+    key: String,
+    notes: Vec<String>,
+    how: String,
+) -> Option<Critically<'a>> {
     series.iter_mut().for_each(|(_, dots)| dots.sort_by(|a, b| a.x.total_cmp(&b.x)));
     series.truncate(8);
     series.iter().any(|(_, dots)| dots.len() > 1).then_some(())?;

@@ -8,8 +8,9 @@ use super::subject::{Ground, Levels};
 
 /// Fewest seeds that make an ensemble.
 const LEAST: usize = 5;
-/// Most bands that can be told apart.
+/// Most lines that can be told apart, and most bands.
 const MOST: usize = 7;
+const BANDS: usize = 3;
 
 /// The figure of a ground with seeds. None without them, or without an axis beside them.
 pub fn figure(ground: &Ground) -> Option<Figure> {
@@ -59,12 +60,23 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
             let low = if low > 0.0 { low } else { sizes.iter().copied().find(|x| *x > 0.0).unwrap_or(middle) };
             dots.push(Dot::at(place(level), middle).with_bar(low, high).saying(said));
         }
-        marks.push(Mark { label: format!("{name}, 5 to 95 %"), drawn: Drawn::Band, colour: series, dots: dots.clone() });
-        let line = dots.into_iter().map(|dot| Dot { low: None, high: None, ..dot }).collect();
-        marks.push(Mark { label: name, drawn: Drawn::Line, colour: series, dots: line });
+        marks.push(Mark { label: name, drawn: Drawn::Line, colour: series, dots });
     }
+    let banded = banded(&marks);
+    let of = banded.iter().map(|series| marks[*series].label.clone()).collect::<Vec<_>>().join(", ");
+    let band = |series: &usize| {
+        let Mark { label, dots, .. } = &marks[*series];
+        Mark { label: format!("{label}, 5 to 95 %"), drawn: Drawn::Band, colour: *series, dots: dots.clone() }
+    };
+    let mut bands: Vec<Mark> = banded.iter().map(band).collect();
+    marks.iter_mut().flat_map(|mark| &mut mark.dots).for_each(|dot| (dot.low, dot.high) = (None, None));
+    bands.append(&mut marks);
     let (_, said) = largest?;
     let mut notes = ground.notes();
+    notes.push(format!(
+        "lines: medians; areas: 5 to 95 % of the seeds{}",
+        if of == "all" { String::new() } else { format!(", of {of}") }
+    ));
     notes.push(format!("{} of {}; of what diverged too", counted(n, "number"), counted(ground.frame().rows(), "row")));
     if zeros > 0 {
         notes.push(format!("{} with a median of 0 not shown", counted(zeros, "point")));
@@ -76,9 +88,23 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
         x: along(x, is_log),
         y: FigureAxis { label: format!("|{column}|"), unit: "1".to_string(), scale: FigureScale::Logarithmic },
         field: None,
-        marks,
+        marks: bands,
         notes,
     })
+}
+
+/// The series that have a band: all of a few, else those with the smallest and the largest numbers.
+fn banded(marks: &[Mark]) -> Vec<usize> {
+    if marks.len() <= BANDS {
+        return (0..marks.len()).collect();
+    }
+    let last = |series: &usize| marks[*series].dots.last().map(|dot| dot.y);
+    let mut series: Vec<usize> = (0..marks.len()).filter(|series| last(series).is_some()).collect();
+    series.sort_by(|a, b| last(a).unwrap_or_default().total_cmp(&last(b).unwrap_or_default()));
+    match series[..] {
+        [first, .., last] => vec![first, last],
+        _ => series,
+    }
 }
 
 /// The axis of a figure along the levels of one of the sweep's.

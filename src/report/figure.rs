@@ -90,6 +90,8 @@ pub enum Drawn {
     Front,
     /// Outline of a triangle whose slope is named.
     Triangle,
+    /// Boundary in a grid: across the line of every point, open where its cells have their letters.
+    Boundary,
 }
 
 /// Point of a series.
@@ -169,6 +171,22 @@ impl Figure {
         let bars = dots().flat_map(|dot| [dot.low, dot.high]).flatten().filter(|y| self.y.shows(*y));
         let x = ends(&self.x, dots().map(|dot| dot.x));
         [x, ends(&self.y, dots().map(|dot| dot.y).chain(bars))]
+    }
+
+    /// Pieces of a boundary: from half a line below each point to half a line above it, but for the middle, and along the
+    /// border to the next line where that has a point too.
+    pub fn pieces(mark: &Mark) -> Vec<[(f64, f64); 2]> {
+        /// Half of what is left open.
+        const OPEN: f64 = 0.24;
+        let mut pieces = Vec::new();
+        for dot in &mark.dots {
+            pieces.push([(dot.x, dot.y - 0.5), (dot.x, dot.y - OPEN)]);
+            pieces.push([(dot.x, dot.y + OPEN), (dot.x, dot.y + 0.5)]);
+            if let Some(next) = mark.dots.iter().find(|next| next.y == dot.y + 1.0) {
+                pieces.push([(dot.x, dot.y + 0.5), (next.x, dot.y + 0.5)]);
+            }
+        }
+        pieces
     }
 
     /// Rows that its cells and dots show.

@@ -2,6 +2,9 @@
 
 use super::number::shown;
 use crate::rows::table::text;
+use arrow_array::{Array, Float64Array, Int64Array, StringArray};
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::file::reader::ChunkReader;
 use serde_json::{Map, Value};
 use std::collections::HashMap;
 
@@ -46,7 +49,9 @@ impl Framing {
     /// Frame with these columns, so far without a row.
     pub fn of(names: impl IntoIterator<Item = String>) -> Self {
         let mut framing = Framing::default();
-        names.into_iter().for_each(|name| drop(framing.place(&name)));
+        for name in names {
+            framing.place(&name);
+        }
         framing
     }
 
@@ -130,9 +135,26 @@ impl Framing {
         }
     }
 
-    /// Ends the row that is under way.
-    pub fn end_row(&mut self) {
-        self.rows += 1;
+    /// Adds a batch of a column below the rows that there are.
+    fn batch(&mut self, place: usize, column: &dyn Array) -> Result<(), String> {
+        if column.null_count() == column.len() {
+            return Ok(());
+        }
+        let any = column.as_any();
+        let before = self.rows;
+        for i in (0..column.len()).filter(|i| column.is_valid(*i)) {
+            self.rows = before + i;
+            if let Some(numbers) = any.downcast_ref::<Float64Array>() {
+                self.number(place, numbers.value(i));
+            } else if let Some(counts) = any.downcast_ref::<Int64Array>() {
+                self.number(place, counts.value(i) as f64);
+            } else if let Some(words) = any.downcast_ref::<StringArray>() {
+                self.word(place, words.value(i));
+            } else {
+                return Err(format!("a column of {}", column.data_type()));
+            }
+        }
+        Ok(())
     }
 
     /// The frame, whole.
@@ -160,7 +182,7 @@ fn coded(known: &mut HashMap<String, u32>, words: &mut Vec<String>, word: &str) 
 
 impl Frame {
     /// The frame of rows by name.
-    pub fn of_rows<'a>(names: impl IntoIterator<Item = String>, rows: impl Iterator<Item = Map<String, Value>>) -> Self {
+    pub fn of_rows(names: impl IntoIterator<Item = String>, rows: impl Iterator<Item = Map<String, Value>>) -> Self {
         let mut framing = Framing::of(names);
         rows.for_each(|row| framing.row(&row));
         framing.framed()
@@ -172,13 +194,34 @@ impl Frame {
     /// The text is no such table: why, in words.
     pub fn of_csv(content: &[u8]) -> Result<Self, String> {
         let mut reader = csv::Reader::from_reader(content);
-        let names: Vec<String> = reader.headers().map_err(|error| error.to_string())?.iter().map(str::to_string).collect();
+        let names: Vec<String> =
+            reader.headers().map_err(|error| error.to_string())?.iter().map(str::to_string).collect();
         let mut framing = Framing::of(names.iter().cloned());
         if framing.columns.len() != names.len() {
             return Err("two columns of one name".to_string());
         }
         for row in reader.records() {
             framing.texts(row.map_err(|error| error.to_string())?.iter());
+        }
+        Ok(framing.framed())
+    }
+
+    /// The frame of a Parquet file of numbers and texts.
+    ///
+    /// # Errors
+    /// The file is no such table: why, in words.
+    pub fn of_parquet(file: impl ChunkReader + 'static) -> Result<Self, String> {
+        let said = |error: &dyn std::fmt::Display| error.to_string();
+        let reader = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| said(&error))?;
+        let mut framing = Framing::of(reader.schema().fields().iter().map(|field| field.name().clone()));
+        for batch in reader.build().map_err(|error| said(&error))? {
+            let batch = batch.map_err(|error| said(&error))?;
+            let before = framing.rows;
+            for (place, column) in batch.columns().iter().enumerate() {
+                framing.rows = before;
+                framing.batch(place, column.as_ref())?;
+            }
+            framing.rows = before + batch.num_rows();
         }
         Ok(framing.framed())
     }

@@ -131,11 +131,21 @@ pub fn map(ground: &Ground, most: usize) -> Option<Figure> {
         y_names.reverse();
         y_group.iter_mut().for_each(|group| *group = y_names.len() - 1 - *group);
     }
-    let counts = counts(ground, &painted, (x, &x_group), y.map(|y| (y, y_group.as_slice())), (x_names.len(), y_names.len()));
-    let cells = cells(ground, &painted, (x, &x_names, &x_group), y.map(|y| (y, y_names.as_slice(), y_group.as_slice())), &counts);
+    let counts =
+        counts(ground, &painted, (x, &x_group), y.map(|y| (y, y_group.as_slice())), (x_names.len(), y_names.len()));
+    let cells = cells(
+        ground,
+        &painted,
+        (x, &x_names, &x_group),
+        y.map(|y| (y, y_names.as_slice(), y_group.as_slice())),
+        &counts,
+    );
     let (label, unit, is_share) = match &painted {
         Painted::Share(outcome) => (format!("share {outcome}"), "", true),
-        Painted::Median(column) => (format!("median |{column}|"), unit_of(column), false),
+        Painted::Median(column) => {
+            let (name, unit) = named(ground, column);
+            (format!("median {name}"), unit, false)
+        }
     };
     let mut notes = ground.notes();
     let beside: Vec<String> = ground
@@ -157,8 +167,8 @@ pub fn map(ground: &Ground, most: usize) -> Option<Figure> {
         let dots: Vec<Dot> = curve.iter().map(|(y_place, critical)| dot(*y_place, critical, x, &y_names)).collect();
         finding += &half(&curve, outcome, x, &y_names);
         if !dots.is_empty() {
-            let label = format!("half of the runs {}", verb(outcome));
-            marks.push(Mark { label, drawn: Drawn::Line, colour: 0, dots });
+            let label = format!("half of the runs {} at {}", verb(outcome), x.path);
+            marks.push(Mark { label, drawn: Drawn::Boundary, colour: 0, dots });
         }
     }
     let values = || cells.iter().filter_map(|cell| cell.value).filter(|value| *value > 0.0);
@@ -172,10 +182,16 @@ pub fn map(ground: &Ground, most: usize) -> Option<Figure> {
         name: "map".to_string(),
         title: match &painted {
             Painted::Share(outcome) => format!("Where runs {}", verb(outcome)),
-            Painted::Median(column) => format!("Size of {column}"),
+            Painted::Median(column) => capital(&named(ground, column).0),
         },
         finding,
-        field: Some(Shading { label, unit: unit.to_string(), is_share, is_logarithmic: !is_share && high / low > 30.0, cells }),
+        field: Some(Shading {
+            label,
+            unit: unit.to_string(),
+            is_share,
+            is_logarithmic: !is_share && high / low > 30.0,
+            cells,
+        }),
         x: axis(Some(x), x_names),
         y: axis(y, y_names),
         marks,
@@ -275,11 +291,14 @@ fn cells(
                 }
                 Painted::Median(column) => {
                     let middle = median(&count.values).unwrap_or_default();
-                    said += &format!(": median |{column}| {} of {n}", with_unit(&short(middle), unit_of(column)));
+                    let (name, unit) = named(ground, column);
+                    said += &format!(": median {name} {} of {n}", with_unit(&short(middle), unit));
                     (Some(middle), format!("{middle:.0e}"))
                 }
             };
-            for (n, what) in [(count.failed, "failed"), (missing, "missing"), (count.rows - count.failed - n, "without a number")] {
+            for (n, what) in
+                [(count.failed, "failed"), (missing, "missing"), (count.rows - count.failed - n, "without a number")]
+            {
                 if n > 0 {
                     said += &format!("; {n} {what}");
                 }
@@ -293,6 +312,19 @@ fn cells(
         }
     }
     cells
+}
+
+/// What a column is called, and its unit; of a search it is of the key that is searched.
+fn named(ground: &Ground, column: &str) -> (String, &'static str) {
+    match &ground.subject.search {
+        Some(key) if column.starts_with("search_") => (format!("critical {key}"), unit_of(key)),
+        _ => (format!("|{column}|"), unit_of(column)),
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn with_unit(number: &str, unit: &str) -> String {
@@ -319,7 +351,8 @@ pub fn critical(levels: &[(f64, usize, usize)], x: &Levels) -> Option<Critical> 
 }
 
 fn dot(y: usize, critical: &Critical, x: &Levels, y_names: &[String]) -> Dot {
-    let said = format!("{}: half at {} = {}", y_names[y], x.path, interval(critical, x.unit));
+    let name = if y_names.len() > 1 { format!("{}: ", y_names[y]) } else { String::new() };
+    let said = format!("{name}{}", interval(critical, x.unit));
     Dot::at(critical.place, y as f64).saying(plain(&said))
 }
 
@@ -341,11 +374,11 @@ fn half(curve: &[(usize, Critical)], outcome: &str, x: &Levels, y_names: &[Strin
             format!(" Half of the runs {} at {} = {}.", verb(outcome), x.path, interval(critical, x.unit))
         }
         (Some((y, critical)), _) => format!(
-            " Half {} at {} = {} of {}, and nowhere earlier.",
+            " Half of the runs {} first for {}: at {} = {}.",
             verb(outcome),
+            y_names[*y],
             x.path,
-            interval(critical, x.unit),
-            y_names[*y]
+            interval(critical, x.unit)
         ),
     }
 }
@@ -365,7 +398,12 @@ fn finding(ground: &Ground, painted: &Painted, cells: &[Cell]) -> String {
             }
             if k == 0 {
                 let (_, high) = wilson(0, n);
-                return format!("None of {} {} (95 % interval up to {:.2} %).", counted(n, "run"), verb(outcome), 100.0 * high);
+                return format!(
+                    "None of {} {} (95 % interval up to {:.2} %).",
+                    counted(n, "run"),
+                    verb(outcome),
+                    100.0 * high
+                );
             }
             let (low, high) = wilson(k, n);
             let most = largest.map(|cell| cell.said.split(" (95").next().unwrap_or_default().to_string());
@@ -382,12 +420,13 @@ fn finding(ground: &Ground, painted: &Painted, cells: &[Cell]) -> String {
         Painted::Median(column) => {
             let smallest = cells.iter().filter_map(|cell| cell.value).reduce(f64::min);
             match (largest, smallest) {
-                (Some(cell), Some(smallest)) => format!(
-                    "The median of |{column}| goes from {} to {}, which it is where {}.",
-                    with_unit(&short(smallest), unit_of(column)),
-                    with_unit(&short(cell.value.unwrap_or_default()), unit_of(column)),
-                    cell.said.split(':').next().unwrap_or_default()
-                ),
+                (Some(cell), Some(smallest)) => {
+                    let (name, unit) = named(ground, column);
+                    let [smallest, largest] =
+                        [smallest, cell.value.unwrap_or_default()].map(|x| with_unit(&short(x), unit));
+                    let place = cell.said.split(": median").next().unwrap_or_default();
+                    format!("The median {name} of a cell goes from {smallest} to {largest}, where {place}.")
+                }
                 _ => format!("No row has a number in {column}."),
             }
         }

@@ -30,7 +30,12 @@ pub fn percent(share: f64) -> String {
 
 /// `n cases`, `1 case`.
 pub fn counted(n: usize, what: &str) -> String {
-    format!("{}{}{}", thousands(n), if what.is_empty() { "" } else { " " }, if n == 1 { what.to_string() } else { plural(what) })
+    format!(
+        "{}{}{}",
+        thousands(n),
+        if what.is_empty() { "" } else { " " },
+        if n == 1 { what.to_string() } else { plural(what) }
+    )
 }
 
 fn plural(what: &str) -> String {
@@ -61,7 +66,9 @@ pub fn power_of_ten(decade: i32) -> String {
 
 /// Letters that a terminal, a page or a drawing can show: no control, nothing that turns the line around.
 pub fn plain(text: &str) -> String {
-    let is_shown = |c: &char| !c.is_control() && !matches!(*c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let is_shown = |c: &char| {
+        !c.is_control() && !matches!(*c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
     text.chars().map(|c| if c == '\n' || c == '\t' { ' ' } else { c }).filter(is_shown).collect()
 }
 
@@ -117,7 +124,10 @@ pub fn log_ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     const MOST: i32 = 9;
     let (from, to) = (libm::floor(libm::log10(low) + 1e-9) as i32, libm::ceil(libm::log10(high) - 1e-9) as i32);
     let inside = |x: f64| x >= low * (1.0 - 1e-9) && x <= high * (1.0 + 1e-9);
-    if to - from <= 2 {
+    if libm::log10(high / low) < 0.6 {
+        return linear_ticks(low, high).into_iter().filter(|(x, _)| *x > 0.0).collect();
+    }
+    if libm::log10(high / low) < 2.3 {
         let all = (from..=to).flat_map(|d| [1.0, 2.0, 5.0].map(|m| m * libm::exp10(f64::from(d))));
         return all.filter(|x| inside(*x)).map(|x| (x, short(x))).collect();
     }

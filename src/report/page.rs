@@ -157,8 +157,10 @@ fn verdicts(out: &mut String, subject: &Subject) {
     let met = subject.verdicts.iter().filter(|judged| judged.met).count();
     let _ = write!(
         out,
-        "<section aria-labelledby=\"verdicts\">\n<h2 id=\"verdicts\">What was expected: {met} of {} met</h2>\n<ul class=\"verdicts\">\n",
-        subject.verdicts.len()
+        "<section aria-labelledby=\"verdicts\">\n<h2 id=\"verdicts\">What was expected: {met} of {} met</h2>\n<details{}><summary>the \
+         verdicts</summary>\n<ul class=\"verdicts\">\n",
+        subject.verdicts.len(),
+        if met < subject.verdicts.len() { " open" } else { "" }
     );
     for judged in &subject.verdicts {
         let (class, word) = if judged.met { ("met", "met") } else { ("unmet", "NOT MET") };
@@ -170,7 +172,7 @@ fn verdicts(out: &mut String, subject: &Subject) {
             escaped(&plain(&format!("measured: {}; {}", judged.measured, counted(judged.rows, "row"))))
         );
     }
-    *out += "</ul>\n</section>\n";
+    *out += "</ul>\n</details>\n</section>\n";
 }
 
 fn shown(out: &mut String, figure: &Figure) {
@@ -205,7 +207,8 @@ fn shown(out: &mut String, figure: &Figure) {
 }
 
 fn conditions(out: &mut String, subject: &Subject) {
-    *out += "<section aria-labelledby=\"conditions\">\n<h2 id=\"conditions\">Conditions</h2>\n<dl class=\"conditions\">\n";
+    *out +=
+        "<section aria-labelledby=\"conditions\">\n<h2 id=\"conditions\">Conditions</h2>\n<dl class=\"conditions\">\n";
     for (name, value) in &subject.conditions {
         let _ = writeln!(out, "<dt>{}</dt><dd>{}</dd>", escaped(&plain(name)), escaped(&plain(value)));
     }

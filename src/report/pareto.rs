@@ -6,12 +6,11 @@ use super::tried::Tried;
 use crate::heading::unit_of;
 use crate::rows::trials::{Trial, methods, order, pareto};
 
-/// The figure of trials. None where no trial has both an error and a time.
-pub fn figure(title: &str, tried: &[Tried]) -> Option<Figure> {
+/// The figure of trials.
+pub fn figure(title: &str, tried: &[Tried]) -> Figure {
     let trials: Vec<Trial> = tried.iter().map(|tried| tried.trial.clone()).collect();
     let column = trials.first().map_or("error", |row| row.error_kind.as_str());
     let on_front = pareto(&trials);
-    trials.iter().find(|trial| trial.point().is_some_and(|(error, _)| error > 0.0))?;
     let mut front: Vec<Dot> =
         trials.iter().zip(&on_front).filter(|(_, on_it)| **on_it).filter_map(|(row, _)| dot(row, None)).collect();
     front.sort_by(|a, b| a.x.total_cmp(&b.x));
@@ -42,7 +41,7 @@ pub fn figure(title: &str, tried: &[Tried]) -> Option<Figure> {
     if without > 0 {
         notes.push(format!("{} without an end or a number", counted(without, "point")));
     }
-    Some(Figure {
+    Figure {
         name: "pareto".to_string(),
         title: plain(title),
         finding: finding(&trials, &on_front, column),
@@ -51,7 +50,7 @@ pub fn figure(title: &str, tried: &[Tried]) -> Option<Figure> {
         field: None,
         marks,
         notes,
-    })
+    }
 }
 
 fn dot(trial: &Trial, row: Option<usize>) -> Option<Dot> {
@@ -80,13 +79,7 @@ fn finding(trials: &[Trial], on_front: &[bool], column: &str) -> String {
     });
     let accurate = accurate.min_by(|a, b| a.0.total_cmp(&b.0));
     let most = accurate.map(|(error, wall_s, trial)| {
-        format!(
-            "; the smallest error, {} {}, is {}'s in {} s",
-            short(error),
-            unit(column),
-            trial.method,
-            short(wall_s)
-        )
+        format!("; the smallest error, {} {}, is {}'s in {} s", short(error), unit(column), trial.method, short(wall_s))
     });
     plain(&format!(
         "{} of {} on the Pareto front: {}{}.",

@@ -56,8 +56,12 @@ impl Figure {
         let part = |cell: &super::figure::Cell| json!(cell.value.map(|value| field.part(scale, value)));
         json!({
             "type": "heatmap", "z": grid(&part), "zmin": 0, "zmax": 1, "colorscale": colours, "xgap": 2, "ygap": 2,
-            "text": grid(&|cell| json!(letters(&cell.said))), "hoverinfo": "text", "showscale": false,
-            "hoverongaps": true,
+            "text": grid(&|cell| json!(letters(&cell.said))), "hoverinfo": "text", "hoverongaps": true,
+            "colorbar": {
+                "thickness": 12, "outlinewidth": 0, "title": { "text": letters(&field.titled()), "side": "right" },
+                "tickvals": field.ticks(scale).iter().map(|(part, _)| *part).collect::<Vec<_>>(),
+                "ticktext": field.ticks(scale).iter().map(|(_, text)| letters(text)).collect::<Vec<_>>(),
+            },
             "customdata": grid(&|cell| json!({ "value": cell.value, "row": cell.row, "pick": cell.pick })),
         })
     }
@@ -70,7 +74,8 @@ impl Figure {
         }
         let scale = field.scale();
         let text = |cell: &super::figure::Cell| {
-            let colour = cell.value.map(|value| if is_dark(field.colour(scale, value)) { "#ffffff" } else { "#1e1e1e" });
+            let colour =
+                cell.value.map(|value| if is_dark(field.colour(scale, value)) { "#ffffff" } else { "#1e1e1e" });
             let doubt = if cell.is_doubtful { " !" } else { "" };
             let mut text = json!({
                 "x": cell.x, "y": cell.y, "text": letters(&format!("{}{doubt}", cell.text)), "showarrow": false,
@@ -99,6 +104,7 @@ impl Figure {
             Drawn::Dashed => ("lines", json!({ "color": colour, "width": 1.5, "dash": "dash" })),
             Drawn::Front => ("lines", json!({ "color": "rgba(128,128,128,0.25)", "width": 12 })),
             Drawn::Triangle => ("lines", json!({ "color": "#888888", "width": 1.4 })),
+            Drawn::Boundary => ("lines", json!({ "color": colour, "width": 3 })),
             Drawn::Band => ("lines", json!({ "width": 0 })),
         };
         trace["mode"] = json!(mode);
@@ -127,6 +133,17 @@ impl Figure {
                     "type": "data", "symmetric": false, "array": high, "arrayminus": low, "thickness": 1.2, "width": 3,
                 });
             }
+            Drawn::Boundary => {
+                let pieces = Figure::pieces(mark);
+                // A null ends a piece.
+                let all = |of: fn(&(f64, f64)) -> f64| -> Vec<Value> {
+                    pieces.iter().flat_map(|piece| [json!(of(&piece[0])), json!(of(&piece[1])), Value::Null]).collect()
+                };
+                trace["meta"] = json!({ "x": trace["x"], "y": trace["y"] });
+                (trace["x"], trace["y"]) = (json!(all(|point| point.0)), json!(all(|point| point.1)));
+                trace["hoverinfo"] = json!("skip");
+                trace["customdata"] = Value::Null;
+            }
             Drawn::Front | Drawn::Triangle => trace["hoverinfo"] = json!("skip"),
             _ => {}
         }
@@ -141,18 +158,13 @@ fn axis(axis: &FigureAxis, (low, high): (f64, f64)) -> Value {
     let mut out = json!({
         "title": { "text": letters(&axis.titled()) }, "range": [axis.place(low), axis.place(high)], "automargin": true,
     });
+    let ticks = axis.ticks(low, high);
+    out["tickvals"] = json!(ticks.iter().map(|(value, _)| *value).collect::<Vec<_>>());
+    out["ticktext"] = json!(ticks.iter().map(|(_, text)| letters(text)).collect::<Vec<_>>());
     match &axis.scale {
         FigureScale::Linear => {}
-        FigureScale::Logarithmic => {
-            out["type"] = json!("log");
-            out["exponentformat"] = json!("power");
-            if high / low > 100.0 {
-                out["dtick"] = json!(((libm::log10(high / low) / 8.0).ceil()).max(1.0));
-            }
-        }
-        FigureScale::Named(names) => {
-            out["tickvals"] = json!((0..names.len()).collect::<Vec<_>>());
-            out["ticktext"] = json!(names.iter().map(|name| letters(name)).collect::<Vec<_>>());
+        FigureScale::Logarithmic => out["type"] = json!("log"),
+        FigureScale::Named(_) => {
             out["showgrid"] = json!(false);
             out["zeroline"] = json!(false);
         }

@@ -29,7 +29,8 @@ impl Figure {
         let mut pixels = vec![255; (3 * fine_width * fine_height) as usize];
         {
             let area = BitMapBackend::with_buffer(&mut pixels, (fine_width, fine_height)).into_drawing_area();
-            for (style, font) in [(FontStyle::Normal, dejavu::sans::regular()), (FontStyle::Bold, dejavu::sans::bold())] {
+            for (style, font) in [(FontStyle::Normal, dejavu::sans::regular()), (FontStyle::Bold, dejavu::sans::bold())]
+            {
                 register_font(FONT, style, font).map_err(|_| "the font cannot be read")?;
             }
             for stroke in &Sheet::of(self).strokes {
@@ -78,7 +79,8 @@ fn draw(area: &Area, stroke: &Stroke) -> Result<(), Failure> {
             let turned = if *up { FontTransform::Rotate270 } else { FontTransform::None };
             // The library's sizes are of the whole line, an SVG's of the letters: of this font 1.164 (ascent and descent).
             let font = FontDesc::new(FontFamily::Name(FONT), 1.164 * size * scale, style).transform(turned);
-            let style = TextStyle::from(font).color(&colour(*ink)).pos(Pos::new(across, VPos::Center));
+            let ink = colour(*ink);
+            let style = TextStyle::from(font).color(&ink).pos(Pos::new(across, VPos::Center));
             area.draw(&Text::new(text.clone(), pixel(&(*x, *y)), style))?;
         }
     }
@@ -103,7 +105,9 @@ fn halved(fine: &[u8], width: usize, height: usize) -> Vec<u8> {
     for y in 0..height {
         for x in 0..width {
             for channel in 0..3 {
-                let of = |i: usize| u32::from(fine[(y * finer + i / finer) * stride + 3 * (x * finer + i % finer) + channel]);
+                let of = |i: usize| {
+                    u32::from(fine[(y * finer + i / finer) * stride + 3 * (x * finer + i % finer) + channel])
+                };
                 let sum: u32 = (0..finer * finer).map(of).sum();
                 pixels.push(((sum + FINER * FINER / 2) / (FINER * FINER)) as u8);
             }

@@ -72,7 +72,11 @@ impl<'a> Listing<'a> {
             ));
         }
         if self.names.len() < self.all_names {
-            said.push(format!("{} of {} are left out.", counted(self.all_names - self.names.len(), "column"), self.all_names));
+            said.push(format!(
+                "{} of {} are left out.",
+                counted(self.all_names - self.names.len(), "column"),
+                self.all_names
+            ));
         }
         (!said.is_empty()).then(|| said.join(" "))
     }
@@ -116,7 +120,7 @@ impl<'a> Listing<'a> {
 
 fn is_telling(subject: &Subject, name: &str) -> bool {
     let is_axis = subject.axes.iter().any(|axis| axis.path == name && axis.values.len() > 1);
-    name == "case" || is_axis || TELLING.contains(&name) || (!subject.trials.is_empty() && OF_A_BENCH.contains(&name))
+    name == "case" || is_axis || TELLING.contains(&name) || (subject.is_bench && OF_A_BENCH.contains(&name))
 }
 
 /// A column of words, each once.

@@ -10,7 +10,8 @@ fn number(x: f64) -> Value {
 
 /// All numbers of a figure as JSON.
 pub fn numbers(figure: &Figure) -> String {
-    let cells: Vec<Value> = figure.field.iter().flat_map(|field| &field.cells).map(|cell| json!([cell.x, cell.y, cell.value])).collect();
+    let cells: Vec<Value> =
+        figure.field.iter().flat_map(|field| &field.cells).map(|cell| json!([cell.x, cell.y, cell.value])).collect();
     let marks: Vec<Value> = figure
         .marks
         .iter()

@@ -2,7 +2,7 @@
 
 use super::ensemble::along;
 use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, Mark};
-use super::map::{Painted, map, sides, telling, verb};
+use super::map::{Painted, sides, telling, verb};
 use super::number::percent;
 use super::stats::wilson;
 use super::subject::{Ground, Levels};
@@ -49,16 +49,45 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
         let dots = counts.iter().enumerate().filter_map(dot).collect();
         Mark { label: name.clone(), drawn: Drawn::Line, colour: series, dots }
     };
+    let marks: Vec<Mark> = counts.iter().enumerate().map(mark).collect();
     let mut notes = ground.notes();
     notes.push("bars: Wilson's interval, 95 %".to_string());
     Some(Figure {
         name: "share".to_string(),
         title: format!("Share of runs that {}", verb(outcome)),
-        finding: map(ground, 60)?.finding,
+        finding: finding(&marks, x, outcome)?,
         x: along(x, x.is_logarithmic()),
         y: FigureAxis { label: format!("share {outcome}"), unit: "1".to_string(), scale: FigureScale::Linear },
         field: None,
-        marks: counts.iter().enumerate().map(mark).collect(),
+        marks,
         notes,
+    })
+}
+
+/// What there is where the lines are farthest apart, or where a single one is highest.
+fn finding(marks: &[Mark], x: &Levels, outcome: &str) -> Option<String> {
+    let place = |level: usize| x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
+    let at = |level: usize| {
+        let here =
+            marks.iter().filter_map(move |mark| Some((mark, mark.dots.iter().find(|dot| dot.x == place(level))?.y)));
+        let low = here.clone().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let high = here.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some((low, high))
+    };
+    let spread =
+        |level: usize| at(level).map_or(-1.0, |(low, high)| if marks.len() > 1 { high.1 - low.1 } else { high.1 });
+    let level = (0..x.len()).max_by(|a, b| spread(*a).total_cmp(&spread(*b)))?;
+    let (low, high) = at(level)?;
+    let verb = verb(outcome);
+    Some(match marks.len() {
+        1 => format!("At {} {} of the runs {verb}, the most anywhere.", x.says(level), percent(high.1)),
+        _ => format!(
+            "At {} it is from {} ({}) to {} ({}) of the runs that {verb}.",
+            x.says(level),
+            percent(low.1),
+            low.0.label,
+            percent(high.1),
+            high.0.label
+        ),
     })
 }

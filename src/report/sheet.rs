@@ -27,10 +27,29 @@ pub enum Anchor {
 /// One thing that is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stroke {
-    Area { points: Vec<(f64, f64)>, ink: Ink, opacity: f64, said: String },
-    Path { points: Vec<(f64, f64)>, ink: Ink, width: f64, opacity: f64 },
+    Area {
+        points: Vec<(f64, f64)>,
+        ink: Ink,
+        opacity: f64,
+        said: String,
+    },
+    Path {
+        points: Vec<(f64, f64)>,
+        ink: Ink,
+        width: f64,
+        opacity: f64,
+    },
     /// Letters around a point: `y` is the middle of their height. `up`: turned to be read from the right.
-    Letters { x: f64, y: f64, size: f64, anchor: Anchor, ink: Ink, bold: bool, up: bool, text: String },
+    Letters {
+        x: f64,
+        y: f64,
+        size: f64,
+        anchor: Anchor,
+        ink: Ink,
+        bold: bool,
+        up: bool,
+        text: String,
+    },
 }
 
 /// A figure laid out.
@@ -125,7 +144,14 @@ impl Sheet {
             }
             if i % every == 0 {
                 let lower = if longest > room && (i / every) % 2 == 1 { 14.0 } else { 0.0 };
-                self.strokes.push(letters(at, bottom + 14.0 + lower, SMALL, Anchor::Middle, Ink::Letters, &cut(text, 24)));
+                self.strokes.push(letters(
+                    at,
+                    bottom + 14.0 + lower,
+                    SMALL,
+                    Anchor::Middle,
+                    Ink::Letters,
+                    &cut(text, 24),
+                ));
             }
         }
         for (value, text) in y_ticks {
@@ -139,8 +165,22 @@ impl Sheet {
             self.path(&[(left, top), (left, bottom), (right, bottom)], Ink::Muted, 1.2);
         }
         let middle = 0.5 * (left + right);
-        self.strokes.push(letters(middle, bottom + 42.0, 13.0, Anchor::Middle, Ink::Letters, &cut(&figure.x.titled(), 80)));
-        let mut up = letters(MARGIN + 6.0, 0.5 * (top + bottom), 13.0, Anchor::Middle, Ink::Letters, &cut(&figure.y.titled(), 52));
+        self.strokes.push(letters(
+            middle,
+            bottom + 42.0,
+            13.0,
+            Anchor::Middle,
+            Ink::Letters,
+            &cut(&figure.x.titled(), 80),
+        ));
+        let mut up = letters(
+            MARGIN + 6.0,
+            0.5 * (top + bottom),
+            13.0,
+            Anchor::Middle,
+            Ink::Letters,
+            &cut(&figure.y.titled(), 52),
+        );
         if let Stroke::Letters { up, .. } = &mut up {
             *up = true;
         }
@@ -158,19 +198,34 @@ impl Sheet {
             let ink = match cell.value {
                 Some(value) => {
                     let colour = field.colour(scale, value);
-                    self.strokes.push(Stroke::Area { points: corners, ink: Ink::Fixed(colour), opacity: 1.0, said: cell.said.clone() });
+                    self.strokes.push(Stroke::Area {
+                        points: corners,
+                        ink: Ink::Fixed(colour),
+                        opacity: 1.0,
+                        said: cell.said.clone(),
+                    });
                     Ink::Fixed(if is_dark(colour) { (255, 255, 255) } else { (30, 30, 30) })
                 }
                 None => {
                     // Nothing is known: an empty frame, crossed.
-                    self.strokes.push(Stroke::Area { points: corners, ink: Ink::Paper, opacity: 1.0, said: cell.said.clone() });
+                    self.strokes.push(Stroke::Area {
+                        points: corners,
+                        ink: Ink::Paper,
+                        opacity: 1.0,
+                        said: cell.said.clone(),
+                    });
                     self.path(&[(left, bottom), (right, top)], Ink::Grid, 1.0);
                     Ink::Muted
                 }
             };
             if cell.is_doubtful {
                 let corner = vec![(right, top), (right - 9.0, top), (right, top + 9.0)];
-                self.strokes.push(Stroke::Area { points: corner, ink: Ink::Fixed((0, 114, 178)), opacity: 1.0, said: cell.said.clone() });
+                self.strokes.push(Stroke::Area {
+                    points: corner,
+                    ink: Ink::Fixed((0, 114, 178)),
+                    opacity: 1.0,
+                    said: cell.said.clone(),
+                });
             }
             let size = SMALL.min((right - left) / (0.62 * cell.text.chars().count().max(3) as f64));
             if size > 6.0 && bottom - top > size {
@@ -186,6 +241,13 @@ impl Sheet {
         match mark.drawn {
             Drawn::Front => self.strokes.push(Stroke::Path { points, ink: Ink::Muted, width: 11.0, opacity: 0.22 }),
             Drawn::Dashed => self.dashed(&points, ink),
+            Drawn::Boundary => {
+                for (ink, width) in [(Ink::Paper, 6.0), (ink, 2.6)] {
+                    for piece in Figure::pieces(mark) {
+                        self.path(&piece.map(|(x, y)| self.at(figure, x, y)), ink, width);
+                    }
+                }
+            }
             Drawn::Triangle => {
                 self.path(&points, Ink::Muted, 1.4);
                 if let [_, low, high, ..] = points[..] {
@@ -205,9 +267,6 @@ impl Sheet {
             }
             Drawn::Line | Drawn::Points => {
                 if mark.drawn == Drawn::Line {
-                    if figure.field.is_some() {
-                        self.path(&points, Ink::Paper, 6.0);
-                    }
                     self.path(&points, ink, 2.0);
                 }
                 for (dot, at) in dots.iter().zip(&points) {
@@ -226,9 +285,9 @@ impl Sheet {
             return;
         }
         let (a, b) = (self.at(figure, low.0, low.1), self.at(figure, high.0, high.1));
-        self.path(&[a, b], ink, 1.2);
-        for (x, y) in [a, b] {
-            self.path(&[(x - 3.5, y), (x + 3.5, y)], ink, 1.2);
+        let caps = [a, b].map(|(x, y)| [(x - 3.5, y), (x + 3.5, y)]);
+        for points in [[a, b], caps[0], caps[1]] {
+            self.strokes.push(Stroke::Path { points: points.to_vec(), ink, width: 1.2, opacity: 0.6 });
         }
     }
 
@@ -263,14 +322,18 @@ impl Sheet {
             y = self.bar_of_colours(field, left, y) + 26.0;
         }
         for mark in &figure.marks {
-            if mark.drawn == Drawn::Triangle || y > self.frame.bottom {
+            if matches!(mark.drawn, Drawn::Triangle | Drawn::Band) || y > self.frame.bottom {
                 continue;
             }
             let ink = Ink::Fixed(COLOURS[mark.colour % COLOURS.len()]);
             let line = [(left, y), (left + 24.0, y)];
             match mark.drawn {
-                Drawn::Front => self.strokes.push(Stroke::Path { points: line.to_vec(), ink: Ink::Muted, width: 9.0, opacity: 0.22 }),
-                Drawn::Band => self.strokes.push(Stroke::Path { points: line.to_vec(), ink, width: 9.0, opacity: 0.16 }),
+                Drawn::Front => self.strokes.push(Stroke::Path {
+                    points: line.to_vec(),
+                    ink: Ink::Muted,
+                    width: 9.0,
+                    opacity: 0.22,
+                }),
                 Drawn::Dashed => self.dashed(&line, ink),
                 Drawn::Line | Drawn::Points => {
                     if mark.drawn == Drawn::Line {
@@ -278,7 +341,8 @@ impl Sheet {
                     }
                     self.marker(mark.colour, (left + 12.0, y), "");
                 }
-                Drawn::Triangle => {}
+                Drawn::Boundary => self.path(&line, ink, 2.6),
+                Drawn::Triangle | Drawn::Band => {}
             }
             for line in wrapped(&mark.label, 26).into_iter().take(3) {
                 self.strokes.push(letters(left + 32.0, y, 11.0, Anchor::Start, Ink::Letters, &line));
@@ -302,12 +366,20 @@ impl Sheet {
         for i in 0..STEPS {
             let part = (i as f64 + 0.5) / STEPS as f64;
             let colour = shade(field.shades(), part);
-            let (high, low) = (top + HIGH * (1.0 - (i + 1) as f64 / STEPS as f64), top + HIGH * (1.0 - i as f64 / STEPS as f64));
+            let (high, low) =
+                (top + HIGH * (1.0 - (i + 1) as f64 / STEPS as f64), top + HIGH * (1.0 - i as f64 / STEPS as f64));
             let points = vec![(left, high), (left + 18.0, high), (left + 18.0, low + 0.4), (left, low + 0.4)];
             self.strokes.push(Stroke::Area { points, ink: Ink::Fixed(colour), opacity: 1.0, said: String::new() });
         }
         for (part, text) in field.ticks(scale) {
-            self.strokes.push(letters(left + 24.0, top + HIGH * (1.0 - part), 11.0, Anchor::Start, Ink::Letters, &text));
+            self.strokes.push(letters(
+                left + 24.0,
+                top + HIGH * (1.0 - part),
+                11.0,
+                Anchor::Start,
+                Ink::Letters,
+                &text,
+            ));
         }
         top + HIGH
     }
@@ -360,9 +432,12 @@ impl Shading {
         shade(self.shades(), self.part(scale, value))
     }
 
-    fn ticks(&self, scale: (f64, f64)) -> Vec<(f64, String)> {
+    /// Places among the shades, from 0 to 1, with what stands at them.
+    pub fn ticks(&self, scale: (f64, f64)) -> Vec<(f64, String)> {
         if self.is_share {
-            return [(0.0, "0%"), (0.25, "25%"), (0.5, "50%"), (0.75, "75%"), (1.0, "100%")].map(|(at, t)| (at, t.into())).to_vec();
+            return [(0.0, "0%"), (0.25, "25%"), (0.5, "50%"), (0.75, "75%"), (1.0, "100%")]
+                .map(|(at, t)| (at, t.into()))
+                .to_vec();
         }
         let values = if self.is_logarithmic {
             let (from, to) = (libm::ceil(libm::log10(scale.0)) as i32, libm::floor(libm::log10(scale.1)) as i32);

@@ -26,6 +26,8 @@ pub struct Subject {
     pub methods: Vec<String>,
     /// Rows of a bench; those of other programs come after ours.
     pub trials: Vec<Trial>,
+    /// Whether the frame's rows are the first of the trials.
+    pub is_bench: bool,
     pub verdicts: Vec<Judged>,
     /// What is in doubt, or has to be said before anything is believed.
     pub warnings: Vec<String>,
@@ -73,7 +75,8 @@ impl Levels {
         if is_numeric {
             values.sort_by(|a, b| a.0.unwrap_or_default().total_cmp(&b.0.unwrap_or_default()));
         }
-        let places: HashMap<&str, u32> = values.iter().enumerate().map(|(i, (_, name))| (name.as_str(), i as u32)).collect();
+        let places: HashMap<&str, u32> =
+            values.iter().enumerate().map(|(i, (_, name))| (name.as_str(), i as u32)).collect();
         let mut of_row = vec![None; frame.rows()];
         if let Some(numbers) = frame.numbers(&axis.path) {
             // Every number is written once.

@@ -13,7 +13,8 @@ const DOWN: usize = 16;
 impl Figure {
     /// The figure in lines of at most 80 letters; `colour` shades cells and letters for a terminal.
     pub fn characters(&self, colour: bool) -> String {
-        let mut lines = wrapped(&plain(&format!("{}. {}", self.title.trim_end_matches(['.', '?']), self.finding)), LINE);
+        let mut lines =
+            wrapped(&plain(&format!("{}. {}", self.title.trim_end_matches(['.', '?']), self.finding)), LINE);
         lines.push(String::new());
         match &self.field {
             Some(field) => lines.extend(self.grid(field, colour)),
@@ -34,7 +35,10 @@ impl Figure {
         // Heads that have no room stand on two lines in turn, and are cut where that is not enough.
         let wide = longest.max(widest).saturating_add(1).min(room).max((widest + 1).min(room));
         let is_staggered = longest + 1 > wide;
-        let mut lines = wrapped(&plain(&format!("{} by {} (across) and {} (down)", field.titled(), self.x.titled(), self.y.titled())), LINE);
+        let mut lines = wrapped(
+            &plain(&format!("{} by {} (across) and {} (down)", field.titled(), self.x.titled(), self.y.titled())),
+            LINE,
+        );
         if rows.len() == 1 {
             lines = wrapped(&plain(&format!("{} by {}", field.titled(), self.x.titled())), LINE);
         }
@@ -65,6 +69,10 @@ impl Figure {
                 }
             }
             lines.push(line);
+        }
+        for mark in self.marks.iter().filter(|mark| mark.drawn == Drawn::Boundary) {
+            let said: Vec<&str> = mark.dots.iter().map(|dot| dot.said.as_str()).collect();
+            lines.extend(wrapped(&plain(&format!("{}: {}", mark.label, said.join("; "))), LINE));
         }
         if field.cells.iter().any(|cell| cell.is_doubtful) {
             lines.push("!: a case has failed or is missing".to_string());

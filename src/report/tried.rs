@@ -1,5 +1,6 @@
 //! What a method did at one step or tolerance: rows of a bench as they are, of a sweep the medians over its other axes.
 
+use super::frame::Frame;
 use super::stats::median;
 use super::subject::{Ground, Levels};
 use crate::rows::trials::Trial;
@@ -25,9 +26,8 @@ const MOST_SERIES: usize = 10;
 pub fn trials(ground: &Ground) -> Vec<Tried> {
     let known = &ground.subject.trials;
     if !known.is_empty() {
-        let ours = known.iter().filter(|trial| trial.engine == "gotai").count();
         let tried = |(row, trial): (usize, &Trial)| {
-            let row = (row < ours && ground.frame().rows() == ours).then_some(row);
+            let row = (ground.subject.is_bench && row < ground.frame().rows()).then_some(row);
             Tried { trial: labelled(trial.clone()), row, rows: 1 }
         };
         return known.iter().enumerate().map(tried).collect();
@@ -99,4 +99,35 @@ fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
         }
     };
     Some(groups.into_iter().map(tried).collect())
+}
+
+/// Trials of a table of a bench, ours or another program's: `step_s` may be called `dt`, and an error may be a word.
+/// None where it has no columns of methods, errors and times.
+pub fn trials_of(frame: &Frame) -> Option<Vec<Trial>> {
+    if !["method", "error", "wall_s"].iter().all(|name| frame.has(name)) {
+        return None;
+    }
+    let number = |name: &str, row: usize| {
+        let written = || frame.word(name, row).and_then(|word| word.parse::<f64>().ok());
+        frame.number(name, row).or_else(written).filter(|x| x.is_finite())
+    };
+    let trial = |row: usize| {
+        let error = number("error", row);
+        let outcome = frame.word("outcome", row).unwrap_or(if error.is_some() { "finished" } else { "diverged" });
+        Trial {
+            scene: frame.text("scene", row),
+            engine: frame.text("engine", row),
+            method: frame.text("method", row),
+            step_s: number("step_s", row).or_else(|| number("dt", row)),
+            tolerance: number("tolerance", row),
+            steps: number("steps", row).unwrap_or_default() as u64,
+            error: error.map(f64::abs),
+            error_kind: frame.text("error_kind", row),
+            wall_s: number("wall_s", row),
+            wall_median_s: number("wall_median_s", row),
+            outcome: outcome.to_string(),
+            criterion: frame.word("criterion", row).map(str::to_string),
+        }
+    };
+    Some((0..frame.rows()).map(trial).collect())
 }

@@ -32,7 +32,8 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
         let dot = |(level, values): (usize, &Vec<f64>)| {
             let middle = median(values).filter(|middle| *middle > 0.0)?;
             let place = x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
-            let said = format!("{name}, {}: median {} of {}", x.says(level), short(middle), counted(values.len(), "run"));
+            let said =
+                format!("{name}, {}: median {} of {}", x.says(level), short(middle), counted(values.len(), "run"));
             Some(Dot::at(place, middle).saying(said))
         };
         let dots: Vec<Dot> = ground.grouped(x, None, name)[0].iter().enumerate().filter_map(dot).collect();
@@ -50,7 +51,11 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
         title: "Work".to_string(),
         finding: format!("Medians from {} to {}: {}.", x.says(0), x.says(x.len() - 1), said.join(", ")),
         x: along(x, x.is_logarithmic()),
-        y: FigureAxis { label: "count in a run, median".to_string(), unit: "1".to_string(), scale: FigureScale::Logarithmic },
+        y: FigureAxis {
+            label: "count in a run, median".to_string(),
+            unit: "1".to_string(),
+            scale: FigureScale::Logarithmic,
+        },
         field: None,
         marks,
         notes,

@@ -34,5 +34,8 @@ pub fn figures(subject: &Subject) -> Vec<Figure> {
 
 /// The map of a subject as a terminal shows it. None without an axis.
 pub fn map_in_characters(subject: &Subject) -> Option<Figure> {
-    map::map(&Ground::of(subject), MOST_IN_CHARACTERS)
+    let ground = Ground::of(subject);
+    // Fewer columns where their numbers have no room.
+    let maps = (4..=MOST_IN_CHARACTERS).rev().map(|most| map::map(&ground, most));
+    maps.flatten().find(Figure::has_room).or_else(|| map::map(&ground, 4))
 }

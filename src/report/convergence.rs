@@ -20,7 +20,8 @@ pub fn figure(tried: &[Tried]) -> Option<Figure> {
         }
         rows += of_method().map(|tried| tried.rows).sum::<usize>();
         let mut label = plain(method);
-        if let Some(order) = order(&trials, method) {
+        // An error that does not fall with the step is rounding, or of another origin.
+        if let Some(order) = order(&trials, method).filter(|order| order.slope > 0.2) {
             label += &format!(", order {:.2}", order.slope);
             let floor = if order.left_out > 0 { format!(" ({} in rounding)", order.left_out) } else { String::new() };
             orders.push((order.slope, format!("{} {:.2}{floor}", plain(method), order.slope)));

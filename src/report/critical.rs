@@ -65,6 +65,9 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     let label = if is_family { format!("number in {}", along.path) } else { along.path.clone() };
     let mut notes = ground.notes();
     notes.extend(more);
+    if !laws.is_empty() {
+        notes.push("dashed: least squares in logarithms, ± 95 %".to_string());
+    }
     Some(Figure {
         name: "critical".to_string(),
         title: format!("Critical {key}"),

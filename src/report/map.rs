@@ -293,7 +293,15 @@ fn cells(
                     let middle = median(&count.values).unwrap_or_default();
                     let (name, unit) = named(ground, column);
                     said += &format!(": median {name} {} of {n}", with_unit(&short(middle), unit));
-                    (Some(middle), format!("{middle:.0e}"))
+                    // Two digits where there is room for them.
+                    let text = if middle == 0.0 {
+                        "0".to_string()
+                    } else if x_names.len() <= 8 {
+                        format!("{middle:.1e}")
+                    } else {
+                        format!("{middle:.0e}")
+                    };
+                    (Some(middle), text)
                 }
             };
             for (n, what) in

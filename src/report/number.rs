@@ -64,12 +64,15 @@ pub fn power_of_ten(decade: i32) -> String {
     format!("10{}", decade.to_string().chars().map(superscript).collect::<String>())
 }
 
-/// Letters that a terminal, a page or a drawing can show: no control, nothing that turns the line around.
+/// Letters that a terminal, a page or a drawing can show, in one line.
 pub fn plain(text: &str) -> String {
-    let is_shown = |c: &char| {
-        !c.is_control() && !matches!(*c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-    };
-    text.chars().map(|c| if c == '\n' || c == '\t' { ' ' } else { c }).filter(is_shown).collect()
+    text.chars().map(|c| if c == '\n' || c == '\t' { ' ' } else { c }).filter(|c| is_shown(*c)).collect()
+}
+
+/// Whether a letter is one: no control, nothing that turns the line around.
+pub fn is_shown(c: char) -> bool {
+    let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    !c.is_control() && !turns
 }
 
 /// A text cut to so many letters, with a sign that it is.

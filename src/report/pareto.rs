@@ -38,6 +38,11 @@ pub fn figure(title: &str, tried: &[Tried]) -> Figure {
     if rows > tried.len() {
         notes.push(format!("a point is the median of up to {} runs", tried.iter().map(|t| t.rows).max().unwrap_or(1)));
     }
+    let is_repeated = trials.iter().any(|trial| trial.wall_median_s.is_some());
+    notes.push(
+        (if is_repeated { "bars: from the best of the repeats to their median" } else { "times of steps in a sweep" })
+            .to_string(),
+    );
     if without > 0 {
         notes.push(format!("{} without an end or a number", counted(without, "point")));
     }

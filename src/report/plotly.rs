@@ -147,7 +147,7 @@ impl Figure {
             Drawn::Front | Drawn::Triangle => trace["hoverinfo"] = json!("skip"),
             _ => {}
         }
-        if mark.drawn == Drawn::Triangle {
+        if matches!(mark.drawn, Drawn::Triangle | Drawn::Dashed) {
             trace["showlegend"] = json!(false);
         }
         trace

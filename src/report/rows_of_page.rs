@@ -199,8 +199,7 @@ fn most_telling(frame: &Frame, named: &[usize], doubts: &[Option<String>], most:
     chosen.extend(rest.iter().take(bad).map(|(_, row)| *row));
     let left = most - chosen.len();
     let others: Vec<usize> = rest.iter().skip(bad).map(|(_, row)| *row).collect();
-    let every = others.len().div_ceil(left.max(1)).max(1);
-    chosen.extend(others.iter().step_by(every).take(left));
+    chosen.extend((0..left).map(|i| others[i * others.len() / left]));
     let mut rows: Vec<usize> = chosen.into_iter().collect();
     rows.sort_unstable();
     rows

@@ -1,7 +1,7 @@
 //! A figure laid out once, in strokes, areas and letters, for SVG and PNG alike. Lengths are pixels of the SVG.
 
 use super::figure::{Dot, Drawn, Figure, FigureScale, Mark, Shading};
-use super::number::{cut, power_of_ten, short, wrapped};
+use super::number::{cut, log_ticks, short, wrapped};
 use super::palette::{COLOURS, MARKERS, NUMBERS, Rgb, SHARES, is_dark, shade};
 
 pub const WIDTH: f64 = 960.0;
@@ -322,7 +322,7 @@ impl Sheet {
             y = self.bar_of_colours(field, left, y) + 26.0;
         }
         for mark in &figure.marks {
-            if matches!(mark.drawn, Drawn::Triangle | Drawn::Band) || y > self.frame.bottom {
+            if matches!(mark.drawn, Drawn::Triangle | Drawn::Band | Drawn::Dashed) || y > self.frame.bottom {
                 continue;
             }
             let ink = Ink::Fixed(COLOURS[mark.colour % COLOURS.len()]);
@@ -334,7 +334,6 @@ impl Sheet {
                     width: 9.0,
                     opacity: 0.22,
                 }),
-                Drawn::Dashed => self.dashed(&line, ink),
                 Drawn::Line | Drawn::Points => {
                     if mark.drawn == Drawn::Line {
                         self.path(&line, ink, 2.0);
@@ -342,7 +341,7 @@ impl Sheet {
                     self.marker(mark.colour, (left + 12.0, y), "");
                 }
                 Drawn::Boundary => self.path(&line, ink, 2.6),
-                Drawn::Triangle | Drawn::Band => {}
+                Drawn::Triangle | Drawn::Band | Drawn::Dashed => {}
             }
             for line in wrapped(&mark.label, 26).into_iter().take(3) {
                 self.strokes.push(letters(left + 32.0, y, 11.0, Anchor::Start, Ink::Letters, &line));
@@ -439,13 +438,9 @@ impl Shading {
                 .map(|(at, t)| (at, t.into()))
                 .to_vec();
         }
-        let values = if self.is_logarithmic {
-            let (from, to) = (libm::ceil(libm::log10(scale.0)) as i32, libm::floor(libm::log10(scale.1)) as i32);
-            let every = (to - from + 6) / 6;
-            let decades = (from..=to).step_by(every.max(1) as usize);
-            decades.map(|d| (libm::exp10(f64::from(d)), power_of_ten(d))).collect()
-        } else {
-            [0.0, 0.5, 1.0].map(|part| scale.0 + part * (scale.1 - scale.0)).map(|x| (x, short(x))).to_vec()
+        let values = match self.is_logarithmic {
+            true => log_ticks(scale.0, scale.1),
+            false => [0.0, 0.5, 1.0].map(|part| scale.0 + part * (scale.1 - scale.0)).map(|x| (x, short(x))).to_vec(),
         };
         values.into_iter().map(|(x, text)| (self.part(scale, x), text)).collect()
     }

@@ -2,6 +2,7 @@
 //! with a program.
 
 use super::figure::Figure;
+use super::number::is_shown;
 use super::palette::hex;
 use super::said::numbers;
 use super::sheet::{Anchor, HEIGHT, Ink, Sheet, Stroke, WIDTH};
@@ -17,8 +18,8 @@ pub fn escaped(text: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            c if c.is_control() && c != '\n' && c != '\t' => {}
-            c => out.push(c),
+            c if is_shown(c) || c == '\n' || c == '\t' => out.push(c),
+            _ => {}
         }
     }
     out

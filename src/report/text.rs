@@ -1,6 +1,6 @@
 //! A figure in characters, for a terminal.
 
-use super::figure::{Drawn, Figure, Shading};
+use super::figure::{Cell, Drawn, Figure, Shading};
 use super::number::{cut, plain, short, wrapped};
 use super::palette::{COLOURS, ansi, is_dark};
 
@@ -9,6 +9,11 @@ pub const LINE: usize = 80;
 /// Size of the area of a plot.
 const ACROSS: usize = 60;
 const DOWN: usize = 16;
+
+/// What stands in a cell, with a sign of doubt.
+fn in_cell(cell: &Cell) -> String {
+    format!("{}{}", cell.text, if cell.is_doubtful { "!" } else { "" })
+}
 
 impl Figure {
     /// The figure in lines of at most 80 letters; `colour` shades cells and letters for a terminal.
@@ -24,12 +29,23 @@ impl Figure {
         lines.iter().map(|line| line.trim_end()).collect::<Vec<_>>().join("\n")
     }
 
+    /// Whether a line has room for the numbers of all columns.
+    pub fn has_room(&self) -> bool {
+        let Some(field) = &self.field else { return true };
+        let widest = field.cells.iter().map(|cell| in_cell(cell).chars().count()).max().unwrap_or(1);
+        self.label_width() + self.x.names().map_or(0, <[String]>::len) * (widest + 1) < LINE
+    }
+
+    fn label_width(&self) -> usize {
+        let names = self.y.names().unwrap_or_default().iter();
+        names.map(|name| name.chars().count()).max().unwrap_or(0).clamp(3, 18)
+    }
+
     fn grid(&self, field: &Shading, colour: bool) -> Vec<String> {
         let (columns, rows) = (self.x.names().unwrap_or_default(), self.y.names().unwrap_or_default());
         let heads: Vec<String> = columns.iter().map(|name| plain(name)).collect();
-        let text = |cell: &super::figure::Cell| format!("{}{}", cell.text, if cell.is_doubtful { "!" } else { "" });
-        let label = rows.iter().map(|name| name.chars().count()).max().unwrap_or(0).clamp(3, 18);
-        let widest = field.cells.iter().map(|cell| text(cell).chars().count()).max().unwrap_or(1);
+        let label = self.label_width();
+        let widest = field.cells.iter().map(|cell| in_cell(cell).chars().count()).max().unwrap_or(1);
         let longest = heads.iter().map(|head| head.chars().count()).max().unwrap_or(1);
         let room = (LINE - label - 1) / columns.len().max(1);
         // Heads that have no room stand on two lines in turn, and are cut where that is not enough.
@@ -58,7 +74,7 @@ impl Figure {
             let mut line = format!("{:<label$}", cut(&plain(&rows[y]), label));
             for x in 0..columns.len() {
                 let cell = field.cells.iter().find(|cell| (cell.x, cell.y) == (x, y));
-                let shown = format!("{:>wide$}", cut(&cell.map(text).unwrap_or_default(), wide - 1));
+                let shown = format!("{:>wide$}", cut(&cell.map(in_cell).unwrap_or_default(), wide - 1));
                 match cell.and_then(|cell| cell.value).filter(|_| colour) {
                     Some(value) => {
                         let shade = field.colour(scale, value);

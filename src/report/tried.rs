@@ -1,7 +1,7 @@
 //! What a method did at one step or tolerance: rows of a bench as they are, of a sweep the medians over its other axes.
 
 use super::frame::Frame;
-use super::stats::median;
+use super::stats::{explained, median};
 use super::subject::{Ground, Levels};
 use crate::rows::trials::Trial;
 
@@ -46,12 +46,21 @@ fn labelled(mut trial: Trial) -> Trial {
 fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
     let frame = ground.frame();
     let has_sizes = |name: &&&str| frame.numbers(name).is_some_and(|x| x.iter().any(|x| x.is_finite() && *x != 0.0));
-    let error = *ERRORS.iter().find(has_sizes)?;
-    let errors = frame.numbers(error)?;
     let accuracy: Vec<&Levels> = ground.axes.iter().filter(|axis| axis.is_step() || axis.is_tolerance()).collect();
     if accuracy.is_empty() {
         return None;
     }
+    // The error that follows the step, not one that is rounding alone.
+    let follows = |name: &&&str| {
+        let log =
+            |row: usize| frame.number(name, row).map(f64::abs).filter(|x| *x > 0.0 && x.is_finite()).map(libm::log10);
+        let of = accuracy[0].of_row.iter().enumerate();
+        explained(accuracy[0].len(), of.filter_map(|(row, level)| Some(((*level)? as usize, log(row)?))))
+    };
+    let known: Vec<&&str> = ERRORS.iter().filter(has_sizes).collect();
+    let best = known.iter().map(follows).fold(0.0, f64::max);
+    let error = **known.iter().find(|name| follows(name) >= 0.5 * best)?;
+    let errors = frame.numbers(error)?;
     // One series for what the other axes are, where these are few.
     let mut by: Vec<&Levels> = ground.chosen().filter(|axis| !axis.is_step() && !axis.is_tolerance()).collect();
     while by.iter().map(|axis| axis.len()).product::<usize>() > MOST_SERIES {

@@ -37,7 +37,7 @@ fn a_report_works_in_a_browser() {
     // Every figure is drawn, with its marks.
     assert_eq!(browser.run("return document.querySelectorAll('.js-plotly-plot').length"), json!(7));
     let drawn = browser.run("return [...document.querySelectorAll('.live')].map(d => d.querySelectorAll('.point, .hm image, .annotation').length)");
-    assert!(drawn.as_array().unwrap().iter().all(|n| n.as_u64().unwrap() > 2), "{drawn}");
+    assert!(drawn.as_array().unwrap().iter().all(|n| n.as_u64().unwrap() > 1), "{drawn}");
     assert_eq!(browser.run("return document.querySelectorAll('#body tr').length"), json!(100));
 
     // A cell of the map: its rows, and its most telling case.

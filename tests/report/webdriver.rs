@@ -25,7 +25,10 @@ impl Browser {
         let mut driver =
             Command::new(driver).args(["--port=0"]).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
         let mut lines = BufReader::new(driver.stdout.take().unwrap()).lines().map_while(Result::ok);
-        let port = lines.find_map(|line| line.split("on port ").nth(1)?.trim_end_matches('.').parse().ok()).unwrap();
+        // The first line that names one names the 0 that was asked for.
+        let port =
+            |line: String| line.split("on port ").nth(1)?.trim_end_matches('.').parse().ok().filter(|port| *port > 0);
+        let port = lines.find_map(port).unwrap();
         std::thread::spawn(move || lines.for_each(drop));
         let mut it = Browser { driver, port, session: String::new(), _profile: profile };
         let profile = format!("--user-data-dir={}", it._profile.path().display());

@@ -91,7 +91,7 @@
     head.replaceChildren();
     for (const column of visible()) {
       const sorted = state.sort === column.name;
-      const th = make("th", null, { scope: "col" });
+      const th = make("th", null, { scope: "col", className: column.words ? "word" : "" });
       th.setAttribute("aria-sort", sorted ? (state.falls ? "descending" : "ascending") : "none");
       const button = make("button", titled(column) + (sorted ? (state.falls ? " ▼" : " ▲") : ""), { type: "button" });
       button.onclick = () => {

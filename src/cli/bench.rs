@@ -5,7 +5,7 @@ use super::error::CliError;
 use super::output::{print, print_json};
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen};
-use super::reporting::{Known, Reported, write_beside};
+use super::reporting::{Known, OF_BENCH, Reported, write_beside};
 use super::sweeping::{Config, configs};
 use super::table::table;
 use crate::bench::{self, Contender, Ran, timing};
@@ -63,7 +63,7 @@ impl Command {
             self.make_references(&planned.trials, &dir)?;
             let (rows, seen_here): (Vec<Trial>, Vec<Seen>) = self.on_one_core(planned, &dir)?.into_iter().unzip();
             let documents: Vec<Value> = rows.iter().zip(&seen_here).map(document).collect();
-            write(&dir, &title(planned), &rows, &documents)?;
+            write(&dir, &title(planned), planned.file.written(), &rows, &documents)?;
             let page = if self.no_report { None } else { write_report(&dir) };
             if !self.output.json {
                 print(shown(&planned.config.path, &rows, &dir, page.as_deref()));
@@ -153,14 +153,15 @@ fn title(planned: &PlannedBench) -> String {
     question.unwrap_or_else(|| planned.file.path().display().to_string())
 }
 
-/// Writes `bench.json`, which has the remarks too, `.csv`, `.svg` and `.png`.
-fn write(dir: &Path, title: &str, rows: &[Trial], documents: &[Value]) -> Result<(), CliError> {
+/// Writes `bench.json`, which has the remarks too, `.csv`, `.svg` and `.png`, and what they are of.
+fn write(dir: &Path, title: &str, experiment: String, rows: &[Trial], documents: &[Value]) -> Result<(), CliError> {
     let subject = Subject { trials: rows.to_vec(), ..Subject::default() };
     let figure = pareto::figure(title, &tried::trials(&Ground::of(&subject)));
     let failed = |error: &dyn std::fmt::Display| CliError::Machine(format!("{}: {error}", dir.display()));
     let mut json = serde_json::to_vec(documents).map_err(|error| failed(&error))?;
     json.push(b'\n');
     let files = [
+        (OF_BENCH, experiment.into_bytes()),
         ("bench.json", json),
         ("bench.csv", to_csv(rows).map_err(|error| failed(&error))?),
         ("bench.svg", figure.svg().into_bytes()),

@@ -16,7 +16,7 @@ pub struct Command {
     /// Folders of results, or files of rows (rows.csv, rows.parquet, bench.json, or a bench's table of any program)
     #[arg(required = true)]
     paths: Vec<PathBuf>,
-    /// What the map is of: finished, diverged or stalled (the share that ends so), or a column (the median of its sizes)
+    /// What the map is of: finished, diverged or stalled (the share that ends so), or a column (the median of sizes)
     #[arg(long, value_name = "COLUMN")]
     map: Option<String>,
     /// Rows of other programs, drawn into run time against error: a table with engine, method, dt or step_s, error,
@@ -90,7 +90,8 @@ impl Command {
         }
         let figure = |figure: &Figure| json!({ "name": figure.name, "title": figure.title, "finding": figure.finding });
         Ok(json!({
-            "report": reported.page, "rows": reported.subject.frame.rows(), "figures": figures.iter().map(figure).collect::<Vec<_>>(),
+            "report": reported.page, "rows": reported.subject.frame.rows(),
+            "figures": figures.iter().map(figure).collect::<Vec<_>>(),
             "plots": plots, "left_out": left_out, "warnings": reported.subject.warnings,
         }))
     }

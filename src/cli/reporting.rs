@@ -5,13 +5,14 @@ use crate::build_info::{BUILD, PROGRAM};
 use crate::check::{Cells, Judged, Schema, judge};
 use crate::experiment::ExperimentFile;
 use crate::experiment::filter::shown_cell;
+use crate::experiment::types::Experiment;
 use crate::files::{self, FileError, write_whole};
 use crate::report::choose::figures;
 use crate::report::figure::Figure;
-use crate::report::frame::Frame;
+use crate::report::frame::RowFrame;
 use crate::report::page::Page;
-use crate::report::subject::Subject;
-use crate::report::tried::trials_of;
+use crate::report::subject::{Ground, Subject};
+use crate::report::tried::{self, trials_of};
 use crate::rows::plan_file::{FORMAT, PlanAxis, PlanFile};
 use crate::rows::trials::Trial;
 use crate::rows::{Row, cells};
@@ -25,8 +26,10 @@ use std::path::{Component, Path, PathBuf};
 pub(super) const REPORT: &str = "report.html";
 /// Folder of its pictures.
 const PLOTS: &str = "plots";
-/// Rows of a bench in a folder of results.
+/// Rows of a bench in a folder of results, and the experiment that they are of. (No ending of an experiment file: a
+/// folder of experiments may hold this one.)
 const BENCH: &str = "bench.json";
+pub(super) const OF_BENCH: &str = "bench.txt";
 
 /// What a report is of, and where it goes.
 pub(super) struct Reported {
@@ -86,8 +89,8 @@ impl Reported {
 
     fn of_file(path: &Path) -> Result<Self, CliError> {
         let wrong = |why: &str| {
-            let expected = "expected rows of gotai (.csv or .parquet with a column `outcome`), or of a bench (.csv or .json with \
-                            the columns method, error, wall_s)";
+            let expected = "expected rows of gotai (.csv or .parquet with a column `outcome`), or of a bench (.csv or \
+                            .json with the columns method, error, wall_s)";
             CliError::Input(format!("{}: {expected}; {why}", path.display()))
         };
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
@@ -95,10 +98,10 @@ impl Reported {
         let mut subject = Subject { name: name_of(path), ..Subject::default() };
         match ending {
             "json" => subject.trials = read_trials(path)?,
-            "parquet" => subject.frame = Frame::of_parquet(open()?).map_err(|why| wrong(&why))?,
+            "parquet" => subject.frame = RowFrame::of_parquet(open()?).map_err(|why| wrong(&why))?,
             _ => {
                 open()?;
-                subject.frame = Frame::of_csv(&files::read(path)?).map_err(|why| wrong(&why))?;
+                subject.frame = RowFrame::of_csv(&files::read(path)?).map_err(|why| wrong(&why))?;
             }
         }
         if subject.frame.has("outcome") && subject.frame.has("case") {
@@ -133,9 +136,9 @@ impl Reported {
         };
         let wrong = |why: &str| CliError::Input(format!("--with {}: {why}", path.display()));
         let content = files::read(path).map_err(|error| wrong(&error.reason))?;
-        let frame = Frame::of_csv(&content).map_err(|why| wrong(&why))?;
+        let frame = RowFrame::of_csv(&content).map_err(|why| wrong(&why))?;
         let mut others = trials_of(&frame).ok_or_else(|| {
-            wrong("expected rows of a bench: a table with the columns engine, method, dt or step_s, error, error_kind, wall_s")
+            wrong("expected rows of a bench: engine, method, dt or step_s, error, error_kind, wall_s as columns")
         })?;
         if let Some(scene) = scene {
             others.retain(|trial| trial.scene == scene);
@@ -150,9 +153,14 @@ impl Reported {
             let found = if scenes.is_empty() { "none of it".to_string() } else { scenes.join(", ") };
             return Err(wrong(&format!("expected rows of one scene (FILE:SCENE chooses one), found {found}")));
         }
+        if self.subject.trials.is_empty() {
+            // Of a sweep the medians are what is compared.
+            let ours = tried::trials(&Ground::of(&self.subject));
+            self.subject.trials = ours.into_iter().map(|tried| tried.trial).collect();
+        }
         let kind = self.subject.trials.first().map(|trial| trial.error_kind.clone());
         let Some(kind) = kind else {
-            return Err(wrong("there is no bench here that it could be compared with"));
+            return Err(wrong("there are no errors and times here that it could be compared with"));
         };
         let before = others.len();
         others.retain(|trial| trial.error_kind == kind || trial.error_kind.is_empty());
@@ -226,12 +234,12 @@ fn read_trials(path: &Path) -> Result<Vec<Trial>, CliError> {
     })
 }
 
-fn frame_of(trials: &[Trial]) -> Frame {
-    Frame::of_rows(Vec::new(), trials.iter().map(cells))
+fn frame_of(trials: &[Trial]) -> RowFrame {
+    RowFrame::of_rows(Vec::new(), trials.iter().map(cells))
 }
 
 /// Axes of rows that come without their plan: what stands between the id and the outcome.
-fn axes_of(frame: &Frame) -> Vec<PlanAxis> {
+fn axes_of(frame: &RowFrame) -> Vec<PlanAxis> {
     let names = frame.names().skip_while(|name| *name != "case").skip(1).take_while(|name| *name != "outcome");
     let axis = |name: &str| {
         let mut values: Vec<Value> = Vec::new();
@@ -257,16 +265,16 @@ fn add_rows(subject: &mut Subject, dir: &Path, known: Known) -> Result<(), CliEr
         CliError::Input(format!("{}: expected rows, found something else ({why})", path.display()))
     };
     subject.frame = if let Some(rows) = known.rows {
-        Frame::of_rows(Vec::new(), rows.iter().map(cells))
+        RowFrame::of_rows(Vec::new(), rows.iter().map(cells))
     } else if is_current(&parquet) {
         let file = File::open(&parquet).map_err(|error| FileError::new(&parquet, error))?;
-        Frame::of_parquet(file).map_err(|why| unreadable(&parquet, why))?
+        RowFrame::of_parquet(file).map_err(|why| unreadable(&parquet, why))?
     } else if is_current(&csv) {
-        Frame::of_csv(&files::read(&csv)?).map_err(|why| unreadable(&csv, why))?
+        RowFrame::of_csv(&files::read(&csv)?).map_err(|why| unreadable(&csv, why))?
     } else {
         // A sweep that was killed: its rows are in its journal.
         let folder = Folder::read(dir)?;
-        Frame::of_rows(Vec::new(), folder.rows().iter().map(cells))
+        RowFrame::of_rows(Vec::new(), folder.rows().iter().map(cells))
     };
     if subject.frame.rows() > 0 && !subject.frame.has("outcome") {
         return Err(unreadable(&parquet, "no column `outcome`".to_string()));
@@ -293,8 +301,8 @@ fn read_plan(subject: &mut Subject, dir: &Path) -> Result<Option<PlanFile>, CliE
     if format != Some(u64::from(FORMAT)) {
         let found = format.map_or("none".to_string(), |format| format.to_string());
         subject.warnings.push(format!(
-            "These rows are of format {found}, this program writes format {FORMAT}: a column may mean something else than \
-             docs/columns.md says."
+            "These rows are of format {found}, this program writes format {FORMAT}: a column may mean something else \
+             than docs/columns.md says."
         ));
     }
     for (name, key) in [("program", "program"), ("build", "build"), ("plan", "hash")] {
@@ -311,32 +319,40 @@ fn read_plan(subject: &mut Subject, dir: &Path) -> Result<Option<PlanFile>, CliE
 
 /// Adds what the experiment file says: its text, its methods, the verdicts on what it expects.
 fn add_experiment(subject: &mut Subject, dir: &Path) {
-    let path = dir.join(EXPERIMENT);
-    if let Ok(text) = files::read(&path) {
-        subject.configuration = Some(String::from_utf8_lossy(&text).into_owned());
-        let here = place_of(dir);
-        subject.replay = (!subject.is_bench).then(|| format!("gotai run {here} --case"));
-        subject.commands = vec![
+    let path = dir.join(if subject.is_bench { OF_BENCH } else { EXPERIMENT });
+    let Ok(text) = files::read(&path) else { return };
+    let text = String::from_utf8_lossy(&text).into_owned();
+    let here = place_of(dir);
+    subject.commands = match subject.is_bench {
+        true => vec![format!("gotai bench CONFIG --out {here}    # CONFIG: a file with the configuration below")],
+        false => vec![
             format!("gotai sweep {here}/{EXPERIMENT} --out {here}"),
             format!("gotai rows {here} --where outcome=diverged"),
-        ];
-        if subject.replay.is_some() {
-            subject.commands.push(format!("gotai run {here} --case ID"));
+            format!("gotai run {here} --case ID"),
+        ],
+    };
+    subject.replay = (!subject.is_bench).then(|| format!("gotai run {here} --case"));
+    let file = ExperimentFile::from_text(&path, &text, &[]);
+    subject.configuration = Some(text);
+    // Of another version it may be no experiment any more.
+    let Ok(file) = file else { return };
+    let cases = of_methods(&file);
+    for experiment in &cases {
+        let word = experiment.method.word().to_string();
+        subject.claims_to_solve |= experiment.method.facts().solves_contacts;
+        if !subject.methods.contains(&word) {
+            subject.methods.push(word);
         }
     }
-    let Ok(file) = ExperimentFile::load(&path, &[]) else { return };
-    subject.methods = methods(&file);
-    if let Ok(first) = file.case(&vec![0; file.axes().axes.len()]) {
+    if let Some(first) = cases.first() {
+        subject.question = subject.question.take().or_else(|| first.question.clone());
         let clock = first.clock();
-        subject
-            .conditions
-            .push(("time".to_string(), format!("{} s, the first case in steps of {} s", clock.end_s, clock.step_s)));
-        for (name, of) in
-            [("method", serde_json::to_value(&first.method)), ("divergence", serde_json::to_value(&first.diverge))]
-        {
-            if let Ok(of) = of {
-                subject.conditions.push((format!("{name} of the first case"), of.to_string()));
-            }
+        let time = format!("{} s, the first case in steps of {} s", clock.end_s, clock.step_s);
+        subject.conditions.push(("time".to_string(), time));
+        let parts =
+            [("method", serde_json::to_value(&first.method)), ("divergence", serde_json::to_value(&first.diverge))];
+        for (name, part) in parts.into_iter().filter_map(|(name, part)| Some((name, part.ok()?))) {
+            subject.conditions.push((format!("{name} of the first case"), part.to_string()));
         }
     }
     if !subject.is_bench {
@@ -344,8 +360,8 @@ fn add_experiment(subject: &mut Subject, dir: &Path) {
     }
 }
 
-/// Words of all methods that are on the axes, else of the one there is.
-fn methods(file: &ExperimentFile) -> Vec<String> {
+/// The first case of every method on the axes, or in the bench.
+fn of_methods(file: &ExperimentFile) -> Vec<Experiment> {
     let axes = &file.axes().axes;
     let mut points = vec![vec![0; axes.len()]];
     for (at, axis) in axes.iter().enumerate().filter(|(_, axis)| axis.path.starts_with("method")) {
@@ -355,14 +371,7 @@ fn methods(file: &ExperimentFile) -> Vec<String> {
             points.push(point);
         }
     }
-    let mut words: Vec<String> = Vec::new();
-    for point in &points {
-        let word = file.case(point).map(|experiment| experiment.method.word().to_string());
-        if let Some(word) = word.ok().filter(|word| !words.contains(word)) {
-            words.push(word);
-        }
-    }
-    words
+    points.iter().filter_map(|point| file.case(point).ok()).collect()
 }
 
 /// Verdicts on what a file expects, by the rows that there are.

@@ -44,12 +44,12 @@ pub struct Shading {
     pub is_share: bool,
     /// Whether the shade follows the logarithm.
     pub is_logarithmic: bool,
-    pub cells: Vec<Cell>,
+    pub cells: Vec<GridCell>,
 }
 
-/// Cell of a grid.
+/// GridCell of a grid.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cell {
+pub struct GridCell {
     pub x: usize,
     pub y: usize,
     /// None where there is nothing to say: no row, or none that counts.
@@ -173,8 +173,8 @@ impl Figure {
         [x, ends(&self.y, dots().map(|dot| dot.y).chain(bars))]
     }
 
-    /// Pieces of a boundary: from half a line below each point to half a line above it, but for the middle, and along the
-    /// border to the next line where that has a point too.
+    /// Pieces of a boundary: from half a line below each point to half a line above it, but for the middle, and along
+    /// the border to the next line where that has a point too.
     pub fn pieces(mark: &Mark) -> Vec<[(f64, f64); 2]> {
         /// Half of what is left open.
         const OPEN: f64 = 0.24;

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 /// Table of a report, column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Frame {
+pub struct RowFrame {
     columns: Vec<FrameColumn>,
     rows: usize,
 }
@@ -46,7 +46,7 @@ pub struct Framing {
 }
 
 impl Framing {
-    /// Frame with these columns, so far without a row.
+    /// RowFrame with these columns, so far without a row.
     pub fn of(names: impl IntoIterator<Item = String>) -> Self {
         let mut framing = Framing::default();
         for name in names {
@@ -158,7 +158,7 @@ impl Framing {
     }
 
     /// The frame, whole.
-    pub fn framed(mut self) -> Frame {
+    pub fn framed(mut self) -> RowFrame {
         for column in &mut self.columns {
             match &mut column.cells {
                 FrameCells::Nothing => {}
@@ -166,7 +166,7 @@ impl Framing {
                 FrameCells::Words { codes, .. } => codes.resize(self.rows, NULL),
             }
         }
-        Frame { columns: self.columns, rows: self.rows }
+        RowFrame { columns: self.columns, rows: self.rows }
     }
 }
 
@@ -180,7 +180,7 @@ fn coded(known: &mut HashMap<String, u32>, words: &mut Vec<String>, word: &str) 
     code
 }
 
-impl Frame {
+impl RowFrame {
     /// The frame of rows by name.
     pub fn of_rows(names: impl IntoIterator<Item = String>, rows: impl Iterator<Item = Map<String, Value>>) -> Self {
         let mut framing = Framing::of(names);
@@ -270,7 +270,7 @@ impl Frame {
         words.get(*codes.get(row)? as usize).map(String::as_str)
     }
 
-    /// Cell of a row as text; nothing where it is null.
+    /// GridCell of a row as text; nothing where it is null.
     pub fn text(&self, name: &str, row: usize) -> String {
         self.number(name, row).map(shown).or(self.word(name, row).map(str::to_string)).unwrap_or_default()
     }

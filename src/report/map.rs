@@ -1,7 +1,7 @@
-//! The map: over the two axes that tell most, the share of runs that end in one way, or the median of a column, with the
-//! curve on which half of the runs do.
+//! The map: over the two axes that tell most, the share of runs that end in one way, or the median of a column, with
+//! the curve on which half of the runs do.
 
-use super::figure::{Cell, Dot, Drawn, Figure, FigureAxis, FigureScale, Mark, Shading};
+use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, GridCell, Mark, Shading};
 use super::number::{counted, percent, plain, short};
 use super::stats::{crossing, explained, median, wilson};
 use super::subject::{Ground, Levels};
@@ -259,7 +259,7 @@ fn cells(
     (x, x_names, x_group): (&Levels, &Vec<String>, &Vec<usize>),
     y: Option<Named>,
     counts: &[Vec<Count>],
-) -> Vec<Cell> {
+) -> Vec<GridCell> {
     let product: usize = ground.subject.axes.iter().map(|axis| axis.values.len()).product();
     let is_whole_grid = ground.subject.planned == product && ground.subject.together.is_empty();
     let in_group = |levels: &Levels, group: &[usize], g: usize| {
@@ -316,7 +316,7 @@ fn cells(
             }
             let is_doubtful = count.failed > 0 || missing > 0;
             let row = count.telling.map(|(_, row)| row);
-            cells.push(Cell { x: x_at, y: y_at, value, text, said: plain(&said), is_doubtful, row, pick });
+            cells.push(GridCell { x: x_at, y: y_at, value, text, said: plain(&said), is_doubtful, row, pick });
         }
     }
     cells
@@ -391,10 +391,10 @@ fn half(curve: &[(usize, Critical)], outcome: &str, x: &Levels, y_names: &[Strin
     }
 }
 
-fn finding(ground: &Ground, painted: &Painted, cells: &[Cell]) -> String {
+fn finding(ground: &Ground, painted: &Painted, cells: &[GridCell]) -> String {
     let frame = ground.frame();
     let largest = cells.iter().filter(|cell| cell.value.is_some()).max_by(|a, b| {
-        let value = |cell: &Cell| cell.value.unwrap_or(f64::NEG_INFINITY);
+        let value = |cell: &GridCell| cell.value.unwrap_or(f64::NEG_INFINITY);
         // Of equals the first.
         value(a).total_cmp(&value(b)).then(std::cmp::Ordering::Greater)
     });

@@ -47,7 +47,7 @@ pub fn thousands(n: usize) -> String {
     let digits = n.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i) % 3 == 0 {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
             text.push(',');
         }
         text.push(digit);
@@ -132,7 +132,8 @@ pub fn log_ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     }
     if libm::log10(high / low) < 2.3 {
         let all = (from..=to).flat_map(|d| [1.0, 2.0, 5.0].map(|m| m * libm::exp10(f64::from(d))));
-        return all.filter(|x| inside(*x)).map(|x| (x, short(x))).collect();
+        let tidy = |x: f64| shown(format!("{x:.1e}").parse().unwrap_or(x));
+        return all.filter(|x| inside(*x)).map(|x| (x, tidy(x))).collect();
     }
     let every = (to - from + MOST - 1) / MOST;
     let decades = (from..=to).filter(|d| d % every == 0).map(|d| (libm::exp10(f64::from(d)), power_of_ten(d)));

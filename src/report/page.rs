@@ -1,9 +1,9 @@
-//! A report as one page of HTML that needs nothing else: no network, no other file. Rows and plots are data, compressed;
-//! without scripts the figures stand as drawings, and their numbers as tables.
+//! A report as one page of HTML that needs nothing else: no network, no other file. Rows and plots are data,
+//! compressed; without scripts the figures stand as drawings, and their numbers as tables.
 
 use super::figure::Figure;
 use super::number::{counted, plain, thousands};
-use super::rows_of_page::{Chosen, Listing};
+use super::rows_of_page::{Extent, Listing};
 use super::said::table;
 use super::subject::Subject;
 use super::svg::escaped;
@@ -22,6 +22,7 @@ pub struct Page {
 
 const STYLE: &str = include_str!("../../assets/report.css");
 const SCRIPT: &str = include_str!("../../assets/report.js");
+const ROWS: &str = include_str!("../../assets/rows.html");
 /// The library of the plots, gzipped: assets/README.md.
 const PLOTLY: &[u8] = include_bytes!("../../assets/plotly-cartesian.min.js.gz");
 
@@ -40,7 +41,7 @@ impl Page {
     pub fn of(subject: &Subject, figures: &[Figure]) -> Self {
         let rows = subject.frame.rows();
         let most_bytes = if rows <= FEW { SMALL } else { LARGE };
-        let mut chosen = Chosen { rows: if rows > MANY { TELLING } else { rows }, columns: usize::MAX };
+        let mut chosen = Extent { rows: if rows > MANY { TELLING } else { rows }, columns: usize::MAX };
         let named: Vec<usize> = figures.iter().flat_map(Figure::rows).collect();
         loop {
             let listing = Listing::of(subject, &named, chosen);
@@ -51,8 +52,8 @@ impl Page {
             }
             // Columns that few ask for go before rows do.
             chosen = match listing.columns() {
-                columns if columns > 80 => Chosen { columns: (columns / 2).max(80), ..chosen },
-                columns => Chosen { rows: (chosen.rows / 2).max(100), columns: columns.min(chosen.columns) },
+                columns if columns > 80 => Extent { columns: (columns / 2).max(80), ..chosen },
+                columns => Extent { rows: (chosen.rows / 2).max(100), columns: columns.min(chosen.columns) },
             };
         }
     }
@@ -85,14 +86,18 @@ fn html(subject: &Subject, figures: &[Figure], listing: &Listing) -> String {
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
          content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" \
          content=\"default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:\">\n\
-         <link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n",
+         <link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+         <h1>{}</h1>\n",
         escaped(&question),
         escaped(&question)
     );
     // Writing into memory cannot fail.
     let _ = writeln!(out, "<p class=\"lead\">{}</p>", escaped(&lead(subject)));
-    for warning in subject.warnings.iter().cloned().chain(listing.doubt()) {
-        let _ = writeln!(out, "<p class=\"warning\" role=\"note\">{}</p>", escaped(&plain(&warning)));
+    let warnings = subject.warnings.iter().map(|warning| ("warning", warning.clone()));
+    // What a method that does not claim to solve the law has missed is no surprise.
+    let doubt = listing.doubt().map(|doubt| (if subject.claims_to_solve { "warning" } else { "remark" }, doubt));
+    for (class, said) in warnings.chain(doubt) {
+        let _ = writeln!(out, "<p class=\"{class}\" role=\"note\">{}</p>", escaped(&plain(&said)));
     }
     verdicts(&mut out, subject);
     for figure in figures {
@@ -103,15 +108,7 @@ fn html(subject: &Subject, figures: &[Figure], listing: &Listing) -> String {
         out += "<p>There is no row.</p>\n";
     }
     let off = if listing.columns() == 0 { " class=\"off\"" } else { "" };
-    let _ = write!(
-        out,
-        "<div{off}><div class=\"tools\"><input type=\"search\" id=\"filter\" aria-label=\"Filter rows\" placeholder=\"outcome=diverged \
-         time.step_s&gt;0.01\"><button type=\"button\" id=\"all\" aria-pressed=\"false\">all columns</button><span id=\"picks\" \
-         class=\"tools\"></span></div>\n<p class=\"count\" id=\"count\" role=\"status\">The rows need scripts; rows.csv has \
-         all of them.</p>\n<div id=\"chosen\" aria-live=\"polite\" hidden></div>\n<div class=\"scroll\" tabindex=\"0\" \
-         role=\"region\" aria-label=\"Rows\"><table><thead><tr id=\"head\"></tr></thead><tbody id=\"body\"></tbody></table></div>\
-         <button type=\"button\" class=\"more\" id=\"more\" hidden>more rows</button>\n"
-    );
+    let _ = writeln!(out, "<div{off}>\n{ROWS}");
     let mut about = "Numbers are rounded to six digits here; the tables beside this page have all digits.".to_string();
     if let Some(left_out) = listing.left_out() {
         about += &format!(" {left_out}");
@@ -157,8 +154,8 @@ fn verdicts(out: &mut String, subject: &Subject) {
     let met = subject.verdicts.iter().filter(|judged| judged.met).count();
     let _ = write!(
         out,
-        "<section aria-labelledby=\"verdicts\">\n<h2 id=\"verdicts\">What was expected: {met} of {} met</h2>\n<details{}><summary>the \
-         verdicts</summary>\n<ul class=\"verdicts\">\n",
+        "<section aria-labelledby=\"verdicts\">\n<h2 id=\"verdicts\">What was expected: {met} of {} met</h2>\n\
+         <details{}><summary>the verdicts</summary>\n<ul class=\"verdicts\">\n",
         subject.verdicts.len(),
         if met < subject.verdicts.len() { " open" } else { "" }
     );
@@ -181,10 +178,11 @@ fn shown(out: &mut String, figure: &Figure) {
     let high = if figure.field.is_some() { (28 * lines + 130).clamp(220, 900) } else { 440 };
     let _ = write!(
         out,
-        "<section aria-labelledby=\"{0}\">\n<figure>\n<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>\n<div class=\"live\" data-figure=\"{0}\" \
-         data-height=\"{high}\" role=\"img\" aria-label=\"{2}\" hidden></div>\n<div class=\"static\">{3}</div>\n<figcaption><p class=\"notes\">{4}</p>\n\
-         <details><summary>the numbers</summary><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Numbers of this figure\">\
-         <table class=\"numbers\"><thead><tr>",
+        "<section aria-labelledby=\"{0}\">\n<figure>\n<h2 id=\"{0}\">{1}</h2>\n<p>{2}</p>\n<div class=\"live\" \
+         data-figure=\"{0}\" data-height=\"{high}\" role=\"img\" aria-label=\"{2}\" hidden></div>\n<div \
+         class=\"static\">{3}</div>\n<figcaption><p class=\"notes\">{4}</p>\n<details><summary>the numbers</summary>\
+         <div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Numbers of this figure\"><table \
+         class=\"numbers\"><thead><tr>",
         figure.name,
         escaped(&figure.title),
         escaped(&figure.finding),

@@ -1,11 +1,11 @@
 //! Colours and markers.
 
 /// Red, green, blue.
-pub type Rgb = (u8, u8, u8);
+pub type Shade = (u8, u8, u8);
 
 /// Okabe & Ito's, which the colour-blind can tell apart, with a darker yellow; with 7 markers 56 combinations. The
 /// fifth, theirs the black, is a grey that stands out on dark pages too.
-pub const COLOURS: [Rgb; 8] = [
+pub const COLOURS: [Shade; 8] = [
     (0, 114, 178),
     (213, 94, 0),
     (0, 158, 115),
@@ -56,15 +56,15 @@ pub const MARKERS: [Outlines; 7] = [
 ];
 
 /// Shades of a share, from none to all: lightness falls all the way, so that grey print tells them apart.
-pub const SHARES: [Rgb; 6] =
+pub const SHARES: [Shade; 6] =
     [(250, 246, 238), (253, 224, 180), (253, 178, 110), (236, 110, 62), (190, 42, 40), (110, 8, 30)];
 
 /// Shades of a number, from small to large, likewise.
-pub const NUMBERS: [Rgb; 6] =
+pub const NUMBERS: [Shade; 6] =
     [(242, 247, 250), (197, 222, 236), (134, 188, 218), (72, 143, 192), (30, 92, 150), (10, 44, 92)];
 
 /// Shade at a place from 0 to 1.
-pub fn shade(of: &[Rgb], at: f64) -> Rgb {
+pub fn shade(of: &[Shade], at: f64) -> Shade {
     let at = at.clamp(0.0, 1.0) * (of.len() - 1) as f64;
     let i = (at.floor() as usize).min(of.len() - 2);
     let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * (at - i as f64)).round() as u8;
@@ -73,16 +73,16 @@ pub fn shade(of: &[Rgb], at: f64) -> Rgb {
 }
 
 /// Whether letters on this colour are to be light.
-pub fn is_dark((r, g, b): Rgb) -> bool {
+pub fn is_dark((r, g, b): Shade) -> bool {
     0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b) < 140.0
 }
 
-pub fn hex((r, g, b): Rgb) -> String {
+pub fn hex((r, g, b): Shade) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// The nearest colour of a terminal's cube of 216, as its number.
-pub fn ansi((r, g, b): Rgb) -> u8 {
+pub fn ansi((r, g, b): Shade) -> u8 {
     let level = |x: u8| ((f64::from(x) / 255.0) * 5.0).round() as u8;
     16 + 36 * level(r) + 6 * level(g) + level(b)
 }

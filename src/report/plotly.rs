@@ -1,5 +1,5 @@
-//! A figure for a page: traces and layout of plotly.js, with the numbers of the figure. Colours of paper and letters are
-//! the page's own, which puts them in.
+//! A figure for a page: traces and layout of plotly.js, with the numbers of the figure. Colours of paper and letters
+//! are the page's own, which puts them in.
 
 use super::figure::{Drawn, Figure, FigureAxis, FigureScale, Mark};
 use super::palette::{COLOURS, MARKER_NAMES, hex, is_dark};
@@ -38,7 +38,7 @@ impl Figure {
 
     fn heat(&self, field: &super::figure::Shading) -> Value {
         let (columns, rows) = (self.x.names().map_or(0, <[String]>::len), self.y.names().map_or(0, <[String]>::len));
-        let grid = |of: &dyn Fn(&super::figure::Cell) -> Value| -> Value {
+        let grid = |of: &dyn Fn(&super::figure::GridCell) -> Value| -> Value {
             let mut grid = vec![vec![Value::Null; columns]; rows];
             for cell in &field.cells {
                 grid[cell.y][cell.x] = of(cell);
@@ -53,7 +53,7 @@ impl Figure {
             .map(|(i, shade)| json!([i as f64 / (field.shades().len() - 1) as f64, hex(*shade)]))
             .collect();
         // Shown by their place among the shades, so that a logarithm needs no other axis.
-        let part = |cell: &super::figure::Cell| json!(cell.value.map(|value| field.part(scale, value)));
+        let part = |cell: &super::figure::GridCell| json!(cell.value.map(|value| field.part(scale, value)));
         json!({
             "type": "heatmap", "z": grid(&part), "zmin": 0, "zmax": 1, "colorscale": colours, "xgap": 2, "ygap": 2,
             "text": grid(&|cell| json!(letters(&cell.said))), "hoverinfo": "text", "hoverongaps": true,
@@ -73,7 +73,7 @@ impl Figure {
             return json!([]);
         }
         let scale = field.scale();
-        let text = |cell: &super::figure::Cell| {
+        let text = |cell: &super::figure::GridCell| {
             let colour =
                 cell.value.map(|value| if is_dark(field.colour(scale, value)) { "#ffffff" } else { "#1e1e1e" });
             let doubt = if cell.is_doubtful { " !" } else { "" };

@@ -1,9 +1,9 @@
-//! A figure as PNG: the strokes of its SVG, drawn four times as large and halved, so that edges are smooth. A text chunk
-//! has its numbers.
+//! A figure as PNG: the strokes of its SVG, drawn four times as large and halved, so that edges are smooth. A text
+//! chunk has its numbers.
 
 use super::figure::Figure;
 use super::said::numbers;
-use super::sheet::{Anchor, HEIGHT, Ink, Sheet, Stroke, WIDTH};
+use super::sheet::{HEIGHT, Ink, Sheet, Stroke, TextAnchor, WIDTH};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, FontTransform, register_font};
@@ -71,13 +71,13 @@ fn draw(area: &Area, stroke: &Stroke) -> Result<(), Failure> {
         }
         Stroke::Letters { x, y, size, anchor, ink, bold, up, text } => {
             let across = match anchor {
-                Anchor::Start => HPos::Left,
-                Anchor::Middle => HPos::Center,
-                Anchor::End => HPos::Right,
+                TextAnchor::Start => HPos::Left,
+                TextAnchor::Middle => HPos::Center,
+                TextAnchor::End => HPos::Right,
             };
             let style = if *bold { FontStyle::Bold } else { FontStyle::Normal };
             let turned = if *up { FontTransform::Rotate270 } else { FontTransform::None };
-            // The library's sizes are of the whole line, an SVG's of the letters: of this font 1.164 (ascent and descent).
+            // The library's sizes are of the whole line, an SVG's of the letters: 1.164, this font's own ratio.
             let font = FontDesc::new(FontFamily::Name(FONT), 1.164 * size * scale, style).transform(turned);
             let ink = colour(*ink);
             let style = TextStyle::from(font).color(&ink).pos(Pos::new(across, VPos::Center));

@@ -1,6 +1,6 @@
 //! Rows as a page holds them: all of a few, of many those that tell most.
 
-use super::frame::Frame;
+use super::frame::RowFrame;
 use super::number::{counted, plain, shown, thousands};
 use super::subject::Subject;
 use crate::heading::unit_of;
@@ -11,14 +11,14 @@ use std::collections::HashSet;
 
 /// How much of the rows a page holds at most.
 #[derive(Clone, Copy)]
-pub struct Chosen {
+pub struct Extent {
     pub rows: usize,
     pub columns: usize,
 }
 
 /// Rows and columns of a page.
 pub struct Listing<'a> {
-    frame: &'a Frame,
+    frame: &'a RowFrame,
     names: Vec<String>,
     /// Columns that it could hold.
     all_names: usize,
@@ -33,14 +33,14 @@ const OF_A_BENCH: [&str; 7] = ["engine", "method", "step_s", "tolerance", "error
 
 impl<'a> Listing<'a> {
     /// The rows that a page holds; `named` are those that figures show.
-    pub fn of(subject: &'a Subject, named: &[usize], chosen: Chosen) -> Self {
+    pub fn of(subject: &'a Subject, named: &[usize], chosen: Extent) -> Self {
         let frame = &subject.frame;
         let (doubts, doubt) = doubts_of(frame);
         let mut names: Vec<String> = frame.names().filter(|name| !frame.is_blank(name)).map(str::to_string).collect();
         let all_names = names.len();
         if names.len() > chosen.columns {
             // What every row has comes first.
-            names.sort_by_key(|name| !(is_telling(subject, name) || !name.contains('.')));
+            names.sort_by_key(|name| !is_telling(subject, name) && name.contains('.'));
             names.truncate(chosen.columns);
         }
         let mut rows: Vec<usize> = (0..frame.rows()).collect();
@@ -65,8 +65,8 @@ impl<'a> Listing<'a> {
         let mut said = Vec::new();
         if self.rows.len() < self.frame.rows() {
             said.push(format!(
-                "The table holds the {} most telling of {}: those of the figures, what failed, diverged or is in doubt, and the \
-                 largest numbers.",
+                "The table holds the {} most telling of {}: those of the figures, what failed, diverged or is in \
+                 doubt, and the largest numbers.",
                 thousands(self.rows.len()),
                 counted(self.frame.rows(), "row")
             ));
@@ -153,7 +153,7 @@ fn rounded(x: f64) -> String {
 }
 
 /// What raises doubt of each row, and of all.
-fn doubts_of(frame: &Frame) -> (Vec<Option<String>>, Option<Doubt>) {
+fn doubts_of(frame: &RowFrame) -> (Vec<Option<String>>, Option<Doubt>) {
     let columns: Vec<&str> = doubts::columns().filter(|name| frame.numbers(name).is_some()).collect();
     let mut found: Vec<Map<String, Value>> = Vec::new();
     let of_row = |row: usize| {
@@ -171,7 +171,7 @@ fn doubts_of(frame: &Frame) -> (Vec<Option<String>>, Option<Doubt>) {
 }
 
 /// The rows that tell most, in their order.
-fn most_telling(frame: &Frame, named: &[usize], doubts: &[Option<String>], most: usize) -> Vec<usize> {
+fn most_telling(frame: &RowFrame, named: &[usize], doubts: &[Option<String>], most: usize) -> Vec<usize> {
     let mut chosen: HashSet<usize> = HashSet::new();
     for row in named.iter().copied().filter(|row| *row < frame.rows()) {
         if chosen.len() < most {

@@ -30,7 +30,7 @@ pub fn table(figure: &Figure) -> (Vec<String>, Vec<Vec<String>>) {
     let name = |names: Option<&[String]>, i: usize| names.and_then(|names| names.get(i).cloned()).unwrap_or_default();
     if let Some(field) = &figure.field {
         let headings = vec![figure.x.titled(), figure.y.titled(), field.titled(), "what it is".to_string()];
-        let row = |cell: &super::figure::Cell| {
+        let row = |cell: &super::figure::GridCell| {
             let value = cell.value.map_or("–".to_string(), |value| value.to_string());
             vec![name(figure.x.names(), cell.x), name(figure.y.names(), cell.y), value, cell.said.clone()]
         };

@@ -2,7 +2,7 @@
 
 use super::figure::{Dot, Drawn, Figure, FigureScale, Mark, Shading};
 use super::number::{cut, log_ticks, short, wrapped};
-use super::palette::{COLOURS, MARKERS, NUMBERS, Rgb, SHARES, is_dark, shade};
+use super::palette::{COLOURS, MARKERS, NUMBERS, SHARES, Shade, is_dark, shade};
 
 pub const WIDTH: f64 = 960.0;
 pub const HEIGHT: f64 = 600.0;
@@ -14,11 +14,11 @@ pub enum Ink {
     Muted,
     Grid,
     Paper,
-    Fixed(Rgb),
+    Fixed(Shade),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
+pub enum TextAnchor {
     Start,
     Middle,
     End,
@@ -44,7 +44,7 @@ pub enum Stroke {
         x: f64,
         y: f64,
         size: f64,
-        anchor: Anchor,
+        anchor: TextAnchor,
         ink: Ink,
         bold: bool,
         up: bool,
@@ -83,18 +83,18 @@ impl Sheet {
         let mut strokes = Vec::new();
         let mut top = 32.0;
         for line in wrapped(&figure.title, 78) {
-            strokes.push(letters(MARGIN, top, 19.0, Anchor::Start, Ink::Letters, &line).bold());
+            strokes.push(letters(MARGIN, top, 19.0, TextAnchor::Start, Ink::Letters, &line).bold());
             top += 24.0;
         }
         top += 2.0;
         for line in wrapped(&figure.finding, 122) {
-            strokes.push(letters(MARGIN, top, 13.0, Anchor::Start, Ink::Muted, &line));
+            strokes.push(letters(MARGIN, top, 13.0, TextAnchor::Start, Ink::Muted, &line));
             top += 18.0;
         }
         let notes = wrapped(&figure.notes.join("; "), 150);
         let mut bottom = HEIGHT - 18.0;
         for line in notes.iter().rev() {
-            strokes.push(letters(MARGIN, bottom, 11.0, Anchor::Start, Ink::Muted, line));
+            strokes.push(letters(MARGIN, bottom, 11.0, TextAnchor::Start, Ink::Muted, line));
             bottom -= 15.0;
         }
         let [x, y] = figure.extent();
@@ -148,7 +148,7 @@ impl Sheet {
                     at,
                     bottom + 14.0 + lower,
                     SMALL,
-                    Anchor::Middle,
+                    TextAnchor::Middle,
                     Ink::Letters,
                     &cut(text, 24),
                 ));
@@ -159,7 +159,7 @@ impl Sheet {
             if !is_named(&figure.y.scale) {
                 self.path(&[(left, at), (right, at)], Ink::Grid, 1.0);
             }
-            self.strokes.push(letters(left - 8.0, at, SMALL, Anchor::End, Ink::Letters, &cut(text, 24)));
+            self.strokes.push(letters(left - 8.0, at, SMALL, TextAnchor::End, Ink::Letters, &cut(text, 24)));
         }
         if figure.field.is_none() {
             self.path(&[(left, top), (left, bottom), (right, bottom)], Ink::Muted, 1.2);
@@ -169,7 +169,7 @@ impl Sheet {
             middle,
             bottom + 42.0,
             13.0,
-            Anchor::Middle,
+            TextAnchor::Middle,
             Ink::Letters,
             &cut(&figure.x.titled(), 80),
         ));
@@ -177,7 +177,7 @@ impl Sheet {
             MARGIN + 6.0,
             0.5 * (top + bottom),
             13.0,
-            Anchor::Middle,
+            TextAnchor::Middle,
             Ink::Letters,
             &cut(&figure.y.titled(), 52),
         );
@@ -229,7 +229,7 @@ impl Sheet {
             }
             let size = SMALL.min((right - left) / (0.62 * cell.text.chars().count().max(3) as f64));
             if size > 6.0 && bottom - top > size {
-                self.strokes.push(letters(middle.0, middle.1, size, Anchor::Middle, ink, &cell.text));
+                self.strokes.push(letters(middle.0, middle.1, size, TextAnchor::Middle, ink, &cell.text));
             }
         }
     }
@@ -253,7 +253,7 @@ impl Sheet {
                 if let [_, low, high, ..] = points[..] {
                     let order = mark.label.trim_start_matches("order ");
                     let (x, y) = (high.0 + 5.0, 0.5 * (low.1 + high.1));
-                    self.strokes.push(letters(x, y, SMALL, Anchor::Start, Ink::Muted, order));
+                    self.strokes.push(letters(x, y, SMALL, TextAnchor::Start, Ink::Muted, order));
                 }
             }
             Drawn::Band => {
@@ -344,7 +344,7 @@ impl Sheet {
                 Drawn::Triangle | Drawn::Band | Drawn::Dashed => {}
             }
             for line in wrapped(&mark.label, 26).into_iter().take(3) {
-                self.strokes.push(letters(left + 32.0, y, 11.0, Anchor::Start, Ink::Letters, &line));
+                self.strokes.push(letters(left + 32.0, y, 11.0, TextAnchor::Start, Ink::Letters, &line));
                 y += 14.0;
             }
             y += 7.0;
@@ -358,7 +358,7 @@ impl Sheet {
         let scale = field.scale();
         let mut y = top;
         for line in wrapped(&field.titled(), 26) {
-            self.strokes.push(letters(left, y, SMALL, Anchor::Start, Ink::Letters, &line));
+            self.strokes.push(letters(left, y, SMALL, TextAnchor::Start, Ink::Letters, &line));
             y += 15.0;
         }
         let top = y;
@@ -375,7 +375,7 @@ impl Sheet {
                 left + 24.0,
                 top + HIGH * (1.0 - part),
                 11.0,
-                Anchor::Start,
+                TextAnchor::Start,
                 Ink::Letters,
                 &text,
             ));
@@ -389,7 +389,7 @@ fn place(figure: &Figure, (low, high): (f64, f64), is_x: bool) -> (f64, f64) {
     (axis.place(low), axis.place(high))
 }
 
-fn letters(x: f64, y: f64, size: f64, anchor: Anchor, ink: Ink, text: &str) -> Stroke {
+fn letters(x: f64, y: f64, size: f64, anchor: TextAnchor, ink: Ink, text: &str) -> Stroke {
     Stroke::Letters { x, y, size, anchor, ink, bold: false, up: false, text: text.to_string() }
 }
 
@@ -407,7 +407,7 @@ impl Shading {
         if self.unit.is_empty() { self.label.clone() } else { format!("{} [{}]", self.label, self.unit) }
     }
 
-    pub fn shades(&self) -> &'static [Rgb] {
+    pub fn shades(&self) -> &'static [Shade] {
         if self.is_share { &SHARES } else { &NUMBERS }
     }
 
@@ -418,7 +418,8 @@ impl Shading {
         }
         let values = self.cells.iter().filter_map(|cell| cell.value).filter(|x| !self.is_logarithmic || *x > 0.0);
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        if low < high { (low, high) } else { (0.5 * low.min(1e300), low.min(1e300).max(1e-300)) }
+        let alone = low.clamp(1e-300, 1e300);
+        if low < high { (low, high) } else { (0.5 * alone, alone) }
     }
 
     /// Place of a value among the shades, from 0 to 1.
@@ -427,7 +428,7 @@ impl Shading {
         ((place(value) - place(low)) / (place(high) - place(low))).clamp(0.0, 1.0)
     }
 
-    pub fn colour(&self, scale: (f64, f64), value: f64) -> Rgb {
+    pub fn colour(&self, scale: (f64, f64), value: f64) -> Shade {
         shade(self.shades(), self.part(scale, value))
     }
 

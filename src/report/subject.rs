@@ -1,6 +1,6 @@
 //! What a report is about: rows, the axes that they lie on, and what is known of them besides.
 
-use super::frame::Frame;
+use super::frame::RowFrame;
 use super::number::{plain, shown};
 use crate::check::Judged;
 use crate::heading::unit_of;
@@ -14,7 +14,7 @@ use std::collections::HashMap;
 pub struct Subject {
     pub name: String,
     pub question: Option<String>,
-    pub frame: Frame,
+    pub frame: RowFrame,
     pub axes: Vec<PlanAxis>,
     /// Groups of axes that advance side by side.
     pub together: Vec<Vec<String>>,
@@ -28,6 +28,8 @@ pub struct Subject {
     pub trials: Vec<Trial>,
     /// Whether the frame's rows are the first of the trials.
     pub is_bench: bool,
+    /// Whether a method among them claims to solve the law of contact.
+    pub claims_to_solve: bool,
     pub verdicts: Vec<Judged>,
     /// What is in doubt, or has to be said before anything is believed.
     pub warnings: Vec<String>,
@@ -62,7 +64,7 @@ pub struct Ground<'a> {
 }
 
 impl Levels {
-    fn of(axis: &PlanAxis, frame: &Frame) -> Self {
+    fn of(axis: &PlanAxis, frame: &RowFrame) -> Self {
         let mut values: Vec<(Option<f64>, String)> = axis
             .values
             .iter()
@@ -177,7 +179,7 @@ impl<'a> Ground<'a> {
         Ground { subject, axes }
     }
 
-    pub fn frame(&self) -> &Frame {
+    pub fn frame(&self) -> &RowFrame {
         &self.subject.frame
     }
 

@@ -5,7 +5,7 @@ use super::figure::Figure;
 use super::number::is_shown;
 use super::palette::hex;
 use super::said::numbers;
-use super::sheet::{Anchor, HEIGHT, Ink, Sheet, Stroke, WIDTH};
+use super::sheet::{HEIGHT, Ink, Sheet, Stroke, TextAnchor, WIDTH};
 use std::fmt::Write;
 
 /// Text with what means something to a browser taken for letters.
@@ -24,6 +24,9 @@ pub fn escaped(text: &str) -> String {
     }
     out
 }
+
+const NAMESPACE: &str = r#"xmlns="http://www.w3.org/2000/svg""#;
+const FONT: &str = r#"font-family="'DejaVu Sans', Verdana, sans-serif""#;
 
 impl Figure {
     /// The figure as a file of its own, on white.
@@ -53,7 +56,7 @@ impl Figure {
 
     fn written(&self, paper: &str, ink: impl Fn(Ink) -> String, has_numbers: bool) -> String {
         let mut out = format!(
-            r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{}" font-family="'DejaVu Sans', Verdana, sans-serif">"#,
+            r#"<svg {NAMESPACE} viewBox="0 0 {WIDTH} {HEIGHT}" role="img" {FONT} aria-label="{}">"#,
             escaped(&self.finding)
         );
         if has_numbers {
@@ -77,26 +80,22 @@ impl Figure {
                 }
                 Stroke::Path { points, ink: of, width, opacity } => write!(
                     out,
-                    r#"<polyline points="{}" fill="none" stroke="{}" stroke-width="{width}"{} stroke-linejoin="round"/>"#,
+                    r#"<polyline points="{}" fill="none" stroke="{}" stroke-width="{width}"{}/>"#,
                     listed(points),
                     ink(*of),
                     see_through("stroke-opacity", *opacity)
                 ),
                 Stroke::Letters { x, y, size, anchor, ink: of, bold, up, text } => {
                     let anchor = match anchor {
-                        Anchor::Start => "start",
-                        Anchor::Middle => "middle",
-                        Anchor::End => "end",
+                        TextAnchor::Start => "start",
+                        TextAnchor::Middle => "middle",
+                        TextAnchor::End => "end",
                     };
                     let weight = if *bold { r#" font-weight="bold""# } else { "" };
                     let turned = if *up { format!(r#" transform="rotate(-90 {x:.2} {y:.2})""#) } else { String::new() };
-                    write!(
-                        out,
-                        r#"<text x="{x:.2}" y="{:.2}" font-size="{size:.1}" text-anchor="{anchor}" fill="{}"{weight}{turned}>{}</text>"#,
-                        y + 0.35 * size,
-                        ink(*of),
-                        escaped(text)
-                    )
+                    let (y, of) = (y + 0.35 * size, ink(*of));
+                    let place = format!(r#"x="{x:.2}" y="{y:.2}" font-size="{size:.1}" text-anchor="{anchor}""#);
+                    write!(out, r#"<text {place} fill="{of}"{weight}{turned}>{}</text>"#, escaped(text))
                 }
             };
         }

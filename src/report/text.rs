@@ -1,6 +1,6 @@
 //! A figure in characters, for a terminal.
 
-use super::figure::{Cell, Drawn, Figure, Shading};
+use super::figure::{Drawn, Figure, GridCell, Shading};
 use super::number::{cut, plain, short, wrapped};
 use super::palette::{COLOURS, ansi, is_dark};
 
@@ -11,7 +11,7 @@ const ACROSS: usize = 60;
 const DOWN: usize = 16;
 
 /// What stands in a cell, with a sign of doubt.
-fn in_cell(cell: &Cell) -> String {
+fn in_cell(cell: &GridCell) -> String {
     format!("{}{}", cell.text, if cell.is_doubtful { "!" } else { "" })
 }
 

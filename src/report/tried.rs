@@ -1,6 +1,6 @@
 //! What a method did at one step or tolerance: rows of a bench as they are, of a sweep the medians over its other axes.
 
-use super::frame::Frame;
+use super::frame::RowFrame;
 use super::stats::{explained, median};
 use super::subject::{Ground, Levels};
 use crate::rows::trials::Trial;
@@ -112,7 +112,7 @@ fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
 
 /// Trials of a table of a bench, ours or another program's: `step_s` may be called `dt`, and an error may be a word.
 /// None where it has no columns of methods, errors and times.
-pub fn trials_of(frame: &Frame) -> Option<Vec<Trial>> {
+pub fn trials_of(frame: &RowFrame) -> Option<Vec<Trial>> {
     if !["method", "error", "wall_s"].iter().all(|name| frame.has(name)) {
         return None;
     }

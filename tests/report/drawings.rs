@@ -113,7 +113,7 @@ fn points_are_drawn_where_their_numbers_are() {
                 // Another marker may lie on it: some colour of the palette is there.
                 let zoom = f64::from(png::ZOOM);
                 let at = 3 * ((y * zoom).round() as usize * width + (x * zoom).round() as usize);
-                let is_of = |c: &palette::Rgb| {
+                let is_of = |c: &palette::Shade| {
                     [c.0, c.1, c.2].iter().zip(&pixels[at..at + 3]).all(|(a, b)| a.abs_diff(*b) < 60)
                 };
                 assert!(palette::COLOURS.iter().any(is_of), "{}: {:?}", dot.said, &pixels[at..at + 3]);

@@ -126,7 +126,7 @@ fn one_case_all_failed_infinities_and_no_axis_are_reports() {
     }
     let csv =
         "case,a,outcome,error_position_m,wall_s\n1,1,finished,inf,1\n2,2,finished,1e-3,2\n3,3,diverged,-inf,nan\n";
-    let frame = gotai::report::frame::Frame::of_csv(csv.as_bytes()).unwrap();
+    let frame = gotai::report::frame::RowFrame::of_csv(csv.as_bytes()).unwrap();
     assert_eq!((frame.text("error_position_m", 0), frame.text("wall_s", 2)), ("∞".to_string(), String::new()));
     let subject = Subject { frame, axes: vec![axis("a", json!([1, 2, 3]))], planned: 3, ..Subject::default() };
     let page = Page::of(&subject, &figures(&subject));

@@ -6,7 +6,7 @@ mod drawings;
 mod figures;
 mod webdriver;
 
-use gotai::report::frame::Frame;
+use gotai::report::frame::RowFrame;
 use gotai::report::subject::Subject;
 use gotai::rows::plan_file::PlanAxis;
 use serde_json::{Map, Value, json};
@@ -51,7 +51,7 @@ pub fn axis(path: &str, values: Value) -> PlanAxis {
 
 pub fn of_rows(rows: Vec<Map<String, Value>>, axes: Vec<PlanAxis>) -> Subject {
     let planned = rows.len();
-    let frame = Frame::of_rows(Vec::new(), rows.into_iter());
+    let frame = RowFrame::of_rows(Vec::new(), rows.into_iter());
     Subject {
         name: "test".to_string(),
         frame,

@@ -6,10 +6,10 @@
 //! critical values (`critical.rs`), run time against error (`pareto.rs`), error against step (`convergence.rs`), energy
 //! over seeds (`ensemble.rs`), work (`work.rs`).
 //!
-//! A [`Figure`](figure::Figure) is one value: what it says, with numbers, its axes, marks and cells, and what is left out
-//! of it. It is drawn four ways, which tests hold to one another: in characters (`text.rs`), for a page (`plotly.rs`), as
-//! SVG (`svg.rs`) and as PNG (`png.rs`); the last two draw the strokes of one layout (`sheet.rs`). `page.rs` is all of it
-//! in one file that needs no other (L25: a result carries its conditions).
+//! A [`Figure`](figure::Figure) is one value: what it says, with numbers, its axes, marks and cells, and what is left
+//! out of it. It is drawn four ways, which tests hold to one another: in characters (`text.rs`), for a page
+//! (`plotly.rs`), as SVG (`svg.rs`) and as PNG (`png.rs`); the last two draw the strokes of one layout (`sheet.rs`).
+//! `page.rs` is all of it in one file that needs no other (L25: a result carries its conditions).
 
 pub mod choose;
 mod convergence;

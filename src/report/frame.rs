@@ -1,7 +1,6 @@
 //! Rows as columns: a third of what rows by name take, and quick to go through.
 
-use super::number::shown;
-use crate::rows::table::text;
+use super::number::{of_cell, shown};
 use arrow_array::{Array, Float64Array, Int64Array, StringArray};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::reader::ChunkReader;
@@ -73,7 +72,7 @@ impl Framing {
             match cell {
                 Value::Null => {}
                 Value::Number(number) => self.number(place, number.as_f64().unwrap_or(f64::NAN)),
-                other => self.word(place, &text(Some(other)).unwrap_or_default()),
+                other => self.word(place, &of_cell(other)),
             }
         }
         self.rows += 1;

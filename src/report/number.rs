@@ -1,4 +1,6 @@
-//! Numbers as figures write them.
+//! Numbers and words as figures write them.
+
+use serde_json::Value;
 
 /// A number as its shortest decimal, without a fraction where it is whole; with an exponent where that is shorter.
 pub fn shown(x: f64) -> String {
@@ -7,6 +9,15 @@ pub fn shown(x: f64) -> String {
     }
     let (plain, power) = (format!("{x}"), format!("{x:e}"));
     if power.len() < plain.len() { power } else { plain }
+}
+
+/// A cell that is no number, as a word.
+pub fn of_cell(cell: &Value) -> String {
+    match cell {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
 }
 
 /// A number to three significant digits.

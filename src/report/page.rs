@@ -212,7 +212,11 @@ fn conditions(out: &mut String, subject: &Subject) {
     }
     *out += "</dl>\n";
     if !subject.commands.is_empty() {
-        let _ = writeln!(out, "<h3>Again</h3>\n<pre>{}</pre>", escaped(&subject.commands.join("\n")));
+        let _ = writeln!(
+            out,
+            "<h3>The same again, in this folder or where it was made</h3>\n<pre>{}</pre>",
+            escaped(&subject.commands.join("\n"))
+        );
     }
     if let Some(configuration) = &subject.configuration {
         let _ = writeln!(

@@ -1,11 +1,10 @@
 //! What a report is about: rows, the axes that they lie on, and what is known of them besides.
 
 use super::frame::RowFrame;
-use super::number::{plain, shown};
+use super::number::{of_cell, plain, shown};
 use crate::check::Judged;
 use crate::heading::unit_of;
 use crate::rows::plan_file::PlanAxis;
-use crate::rows::table::text;
 use crate::rows::trials::Trial;
 use std::collections::HashMap;
 
@@ -70,7 +69,7 @@ impl Levels {
             .iter()
             .map(|value| {
                 let number = value.as_f64();
-                (number, number.map_or_else(|| text(Some(value)).unwrap_or_default(), shown))
+                (number, number.map_or_else(|| of_cell(value), shown))
             })
             .collect();
         let is_numeric = values.iter().all(|(number, _)| number.is_some());

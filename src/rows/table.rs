@@ -140,8 +140,7 @@ fn kind_of<'a>(values: impl Iterator<Item = &'a Value> + Clone) -> CellKind {
     }
 }
 
-/// A cell as text of a table; None where it is null.
-pub fn text(cell: Option<&Value>) -> Option<String> {
+fn text(cell: Option<&Value>) -> Option<String> {
     match cell {
         None | Some(Value::Null) => None,
         Some(Value::String(text)) => Some(text.clone()),

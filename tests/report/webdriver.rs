@@ -92,7 +92,7 @@ impl Browser {
     pub fn open(&self, file: &Path) {
         self.post("url", json!({ "url": format!("file://{}", file.display()) }));
         let began = Instant::now();
-        while self.run("return document.documentElement.dataset.ready ?? null").is_null() {
+        while self.run("return document.documentElement.dataset.drawn ?? null").is_null() {
             let failed = self.run("return document.documentElement.dataset.failed ?? null");
             assert!(failed.is_null() && began.elapsed() < Duration::from_secs(60), "{failed}");
             std::thread::sleep(Duration::from_millis(50));

@@ -279,7 +279,6 @@ const SHARED: &[&str] = &[
     "Sample",
     "Scene",
     "Scratch",
-    "Series",
     "Start",
     "TimeStepping",
 ];

@@ -12,7 +12,8 @@
 //! - `record/`: recordings, read back from their files
 //! - `cli/`: the program as a user meets it: output, exit codes
 //! - `check/`: expectations, their statistics, searches, `gotai check`
-//! - `bench/`: run time against error: rows, orders, diagrams, bad inputs
+//! - `bench/`: run time against error: rows, orders, bad inputs
+//! - `report/`: figures, drawn four ways that say the same; pages, in a browser too; maps on the terminal
 //! - `configs`: every file under configs/ runs
 //! - `allocation`: no step allocates
 //! - `counters`: how much work a run is
@@ -44,6 +45,7 @@ mod measure;
 mod methods;
 mod model;
 mod record;
+mod report;
 mod scratch;
 mod sweep;
 mod tidy;

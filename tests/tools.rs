@@ -31,6 +31,15 @@ pub fn python_for(modules: &[&str]) -> Option<PathBuf> {
     available("python", on_path("python3").filter(|python| imports(python, &modules.join(", "))))
 }
 
+/// A browser and the program that drives it: Chromium and its driver. None: skip the test.
+///
+/// # Panics
+/// If one is missing and required, as `browser`.
+pub fn browser() -> Option<(PathBuf, PathBuf)> {
+    let driver = available("browser", on_path("chromedriver").filter(|_| on_path("chromium").is_some()));
+    driver.and_then(|driver| Some((on_path("chromium")?, driver)))
+}
+
 /// A Python that can import `module`, whose name is also its name in `GOTAI_REQUIRE`. None: skip the test.
 ///
 /// # Panics

@@ -5,15 +5,18 @@ use super::error::CliError;
 use super::output::{ProgressFlag, print, print_json};
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen};
+use super::reporting::{Known, OF_BENCH, Reported, write_beside};
 use super::sweeping::{Config, configs};
 use super::table::table;
 use crate::bench::{self, Contender, Ran, timing};
 use crate::experiment::ExperimentFile;
 use crate::experiment::bench::Bench;
 use crate::files::make_folder;
-use crate::report;
+use crate::report::pareto;
+use crate::report::subject::{Ground, Subject};
+use crate::report::tried;
 use crate::rows::cells;
-use crate::rows::trials::{Trial, methods, order, pareto, to_csv};
+use crate::rows::trials::{self, Trial, methods, order, to_csv};
 use crate::study::reference;
 use crate::sweep::runner::Progress;
 use clap::Args;
@@ -29,6 +32,9 @@ pub struct Command {
     /// Folder for the results [default: recordings/<path of the config below configs/, without .yaml>+<what is set>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Write no report.html
+    #[arg(long)]
+    no_report: bool,
     #[command(flatten)]
     experiment: ExperimentArgs,
     /// How progress is told, on stderr [default: a bar on a terminal]
@@ -60,9 +66,10 @@ impl Command {
             self.make_references(&planned.trials, &dir)?;
             let (rows, seen_here): (Vec<Trial>, Vec<Seen>) = self.on_one_core(planned, &dir)?.into_iter().unzip();
             let documents: Vec<Value> = rows.iter().zip(&seen_here).map(document).collect();
-            write(&dir, &title(planned), &rows, &documents)?;
+            write(&dir, &title(planned), planned.file.written(), &rows, &documents)?;
+            let page = if self.no_report { None } else { write_report(&dir) };
             if !self.output.json {
-                print(shown(&planned.config.path, &rows, &dir));
+                print(shown(&planned.config.path, &rows, &dir, page.as_deref()));
             }
             has_failed |= rows.iter().any(|row| row.outcome == "failed");
             all.extend(documents);
@@ -149,51 +156,75 @@ fn title(planned: &PlannedBench) -> String {
     question.unwrap_or_else(|| planned.file.path().display().to_string())
 }
 
-/// Writes `bench.json`, which has the remarks too, `.csv`, `.svg` and `.png`.
-fn write(dir: &Path, title: &str, rows: &[Trial], documents: &[Value]) -> Result<(), CliError> {
-    let diagram = report::bench::diagram(title, rows);
+/// Writes `bench.json`, which has the remarks too, `.csv`, `.svg` and `.png`, and what they are of.
+fn write(dir: &Path, title: &str, experiment: String, rows: &[Trial], documents: &[Value]) -> Result<(), CliError> {
+    let subject = Subject { trials: rows.to_vec(), ..Subject::default() };
+    let figure = pareto::figure(title, &tried::trials(&Ground::of(&subject)));
     let failed = |error: &dyn std::fmt::Display| CliError::Machine(format!("{}: {error}", dir.display()));
     let mut json = serde_json::to_vec(documents).map_err(|error| failed(&error))?;
     json.push(b'\n');
     let files = [
+        (OF_BENCH, experiment.into_bytes()),
         ("bench.json", json),
         ("bench.csv", to_csv(rows).map_err(|error| failed(&error))?),
-        ("bench.svg", diagram.svg().map_err(|error| failed(&error))?.into_bytes()),
-        ("bench.png", diagram.png().map_err(|error| failed(&error))?),
+        ("bench.svg", figure.svg().into_bytes()),
+        ("bench.png", figure.png().map_err(|error| failed(&error))?),
     ];
     make_folder(dir)?;
     files.iter().try_for_each(|(name, content)| std::fs::write(dir.join(name), content)).map_err(|error| failed(&error))
 }
 
-fn shown(config: &Path, rows: &[Trial], dir: &Path) -> String {
+/// Writes report.html; what fails is a warning.
+fn write_report(dir: &Path) -> Option<PathBuf> {
+    match Reported::of_folder(dir, Known::default()) {
+        Ok(reported) => write_beside(&reported),
+        Err(error) => {
+            eprintln!("warning: no report is written: {error}");
+            None
+        }
+    }
+}
+
+fn shown(config: &Path, rows: &[Trial], dir: &Path, page: Option<&Path>) -> String {
     let column = rows.first().map_or("error", |row| row.error_kind.as_str());
-    let header = ["front", "method", "step_s", "tolerance", "steps", column, "wall_s", "wall_median_s", "outcome"];
+    // Few enough for 80 letters: a method has a step or a tolerance, and most rows have finished.
+    let has_ended_early = rows.iter().any(|row| row.outcome != "finished");
+    let mut header = vec!["front", "method", "step_s | tol.", "steps", column, "wall_s", "median_s"];
+    header.extend(has_ended_early.then_some("outcome"));
     let mut table = table(&header);
     table.remove_style(TableComponent::HorizontalLines).remove_style(TableComponent::MiddleIntersections);
-    let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.3e}"));
+    let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.2e}"));
     let given = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:e}"));
-    for (row, on_front) in rows.iter().zip(pareto(rows)) {
+    for (row, on_front) in rows.iter().zip(trials::pareto(rows)) {
         let outcome = match &row.criterion {
             Some(criterion) => format!("{} ({criterion})", row.outcome),
             None => row.outcome.clone(),
         };
-        table.add_row([
+        let accuracy = match (row.step_s, row.tolerance) {
+            (_, Some(tolerance)) => format!("tol. {tolerance:e}"),
+            (step_s, None) => given(step_s),
+        };
+        let mut cells = vec![
             if on_front { "◆" } else { "" }.to_string(),
             row.method.clone(),
-            given(row.step_s),
-            given(row.tolerance),
+            accuracy,
             row.steps.to_string(),
             number(row.error),
             number(row.wall_s),
             number(row.wall_median_s),
-            outcome,
-        ]);
+        ];
+        cells.extend(has_ended_early.then_some(outcome));
+        table.add_row(cells);
     }
     let mut text = format!("{}: {} rows; ◆ is on the Pareto front\n{table}\n", config.display(), rows.len());
     for line in methods(rows).into_iter().filter_map(|method| order_line(rows, method)) {
         text += &format!("{line}\n");
     }
-    text + &format!("  diagram: {}", dir.join("bench.svg").display())
+    text += &format!("  diagram: {}", dir.join("bench.svg").display());
+    if let Some(page) = page {
+        text += &format!("\n  report: {}", page.display());
+    }
+    text
 }
 
 fn order_line(rows: &[Trial], method: &str) -> Option<String> {

@@ -2,8 +2,8 @@
 
 use super::error::CliError;
 use super::{
-    bench, check, clean, compare, completions, doctor, explain, export, list, new, repair, rows, run, schema, status,
-    sweep, view,
+    bench, check, clean, compare, completions, doctor, explain, export, list, new, repair, report, rows, run, schema,
+    status, sweep, view,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
@@ -34,6 +34,8 @@ enum Command {
     Bench(bench::Command),
     /// Two folders of results (versions, methods, machines): what got better, what worse, by how much
     Compare(compare::Command),
+    /// Results as one page (report.html), and its figures as SVG and PNG
+    Report(report::Command),
     /// How much of a sweep is done, missing, failed
     Status(status::Command),
     /// The rows of a folder of results, chosen, sorted, as a table
@@ -72,6 +74,7 @@ impl Cli {
             Command::Check(command) => command.run(),
             Command::Bench(command) => command.run(),
             Command::Compare(command) => command.run(),
+            Command::Report(command) => command.run(),
             Command::Status(command) => command.run(),
             Command::Rows(command) => command.run(),
             Command::View(command) => command.run(),

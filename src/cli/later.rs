@@ -3,8 +3,8 @@
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
-const COMMANDS: [&str; 3] = ["merge", "submit", "report"];
-const FLAGS: [&str; 2] = ["--shard", "--no-report"];
+const COMMANDS: [&str; 2] = ["merge", "submit"];
+const FLAGS: [&str; 1] = ["--shard"];
 
 /// Prints a parser's message (or help) and gives the exit code.
 pub fn explain_usage(error: &clap::Error) -> ExitCode {

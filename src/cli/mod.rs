@@ -28,6 +28,8 @@ mod progress;
 mod remarks;
 mod repair;
 mod replay;
+mod report;
+mod reporting;
 mod rows;
 mod run;
 mod schema;

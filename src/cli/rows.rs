@@ -8,6 +8,7 @@ use crate::experiment::filter::{Condition, Filter, is_same, shown_cell};
 use crate::experiment::nearest::nearest;
 use crate::outcome::Outcome;
 use crate::record::story::shortest;
+use crate::rows::columns::TELLING;
 use crate::rows::plan_file::PlanFile;
 use crate::rows::table::{Table, to_csv};
 use crate::sweep::folder::Folder;
@@ -37,20 +38,6 @@ pub struct Command {
     #[command(flatten)]
     output: OutputArgs,
 }
-
-/// Columns that are shown where nothing else is asked for, if they are not empty in all rows.
-const TELLING: [&str; 10] = [
-    "outcome",
-    "criterion",
-    "end_time_s",
-    "energy_drift_rel",
-    "energy_rise_max_rel",
-    "penetration_max_m",
-    "residual_max",
-    "error_position_m",
-    "search_low",
-    "search_high",
-];
 
 /// Number of digits of an id that a person reads.
 const DIGITS: usize = 8;

@@ -2,9 +2,11 @@
 
 use super::error::CliError;
 use super::output::{print, print_json};
+use super::reporting::{Known, Reported, write_beside};
 use super::sweeping::{SweepArgs, Swept, configs};
 use crate::outcome::Outcome;
 use crate::record::writer::Target;
+use crate::report::choose::map_in_characters;
 use crate::rows::{Row, count};
 use clap::Args;
 use serde_json::json;
@@ -15,6 +17,9 @@ use std::process::ExitCode;
 pub struct Command {
     /// An experiment file (YAML), or a folder of them
     config: PathBuf,
+    /// Write no report.html
+    #[arg(long)]
+    no_report: bool,
     #[command(flatten)]
     sweep: SweepArgs,
 }
@@ -33,10 +38,12 @@ impl Command {
         let planned = planned.collect::<Result<Vec<_>, _>>()?;
         let mut swept = Vec::with_capacity(planned.len());
         for planned in &planned {
-            swept.push(pool.install(|| self.sweep.sweep(planned))?);
+            let done = pool.install(|| self.sweep.sweep(planned))?;
+            let ending = self.ending(&done, planned.plan.file.axes.iter().any(|axis| axis.values.len() > 1));
             if !self.sweep.output.json {
-                print(swept.last().map(summary).unwrap_or_default());
+                print(summary(&done) + &ending);
             }
+            swept.push(done);
         }
         if self.sweep.output.json {
             print_document(&swept);
@@ -44,6 +51,58 @@ impl Command {
         Swept::remarks(&swept.iter().collect::<Vec<_>>()).say(self.sweep.output.quiet);
         Ok(ExitCode::from(u8::from(swept.iter().any(|swept| swept.failed() > 0))))
     }
+}
+
+impl Command {
+    /// The map of a sweep with axes, and where its report is.
+    fn ending(&self, swept: &Swept, has_axes: bool) -> String {
+        let output = self.sweep.output;
+        let has_map = !output.json && !output.quiet;
+        if !has_axes || (self.no_report && !has_map) {
+            return String::new();
+        }
+        let reported = match Reported::of_folder(&swept.dir, Known { rows: Some(&swept.rows) }) {
+            Ok(reported) => reported,
+            Err(error) => {
+                eprintln!("warning: no report is written: {error}");
+                return String::new();
+            }
+        };
+        let mut text = String::new();
+        if !self.no_report
+            && let Some(page) = write_beside(&reported)
+        {
+            text += &format!("\n  report: {}", page.display());
+        }
+        if let Some(map) = map_in_characters(&reported.subject).filter(|_| has_map) {
+            text += &format!("\n\n{}\n{}", map.characters(output.is_colored()), where_to_look(swept));
+        }
+        text
+    }
+}
+
+/// Why runs ended early, and the command that shows them.
+fn where_to_look(swept: &Swept) -> String {
+    let mut text = String::new();
+    for outcome in [Outcome::Diverged, Outcome::Stalled, Outcome::Failed] {
+        let of = || swept.rows.iter().filter(|row| row.measured.outcome == outcome);
+        let mut criteria: Vec<(&str, usize)> = Vec::new();
+        for criterion in of().filter_map(|row| row.measured.criterion.as_deref()) {
+            match criteria.iter_mut().find(|(known, _)| *known == criterion) {
+                Some((_, n)) => *n += 1,
+                None => criteria.push((criterion, 1)),
+            }
+        }
+        criteria.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(b.0)));
+        let shown: Vec<String> = criteria.iter().take(4).map(|(criterion, n)| format!("{criterion} {n}")).collect();
+        if of().next().is_some() {
+            let name = outcome.name();
+            let dir = swept.dir.display();
+            text +=
+                &format!("{name}: {} ({}); gotai rows {dir} --where outcome={name}\n", of().count(), shown.join(", "));
+        }
+    }
+    text
 }
 
 fn summary(swept: &Swept) -> String {

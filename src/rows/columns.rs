@@ -30,6 +30,20 @@ pub fn is_beside_the_run(name: &str) -> bool {
     OF_A_CLOCK.contains(&name) || name == "recording"
 }
 
+/// Columns that are shown where nothing else is asked for, if they are not empty in all rows.
+pub const TELLING: [&str; 10] = [
+    "outcome",
+    "criterion",
+    "end_time_s",
+    "energy_drift_rel",
+    "energy_rise_max_rel",
+    "penetration_max_m",
+    "residual_max",
+    "error_position_m",
+    "search_low",
+    "search_high",
+];
+
 /// Columns of `measure: [state]`; the fields of `BodyRow`.
 pub const STATE: [Heading; 4] = [
     number("<body>.position_m", "Position of the body's centre of mass at the end, world frame.").with_parts(&XYZ),

@@ -39,6 +39,11 @@ const KINDS: [Kind; 3] = [
     },
 ];
 
+/// Columns that can raise a doubt.
+pub fn columns() -> impl Iterator<Item = &'static str> {
+    KINDS.iter().flat_map(|kind| kind.signs).map(|sign| sign.column)
+}
+
 /// Cells of a row that raise a doubt; none where there is none.
 pub fn signs(row: &Map<String, Value>) -> Map<String, Value> {
     let shown = |sign: &Sign| Some((sign.column.to_string(), Value::from(sign.shown_by(row)?)));

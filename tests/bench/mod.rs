@@ -1,7 +1,6 @@
 //! `gotai bench`: run time against error. No test looks at how long anything takes.
 
 mod bad;
-mod diagram;
 mod peer;
 
 use crate::cli::run;

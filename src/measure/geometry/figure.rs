@@ -26,7 +26,7 @@ impl From<&BodyState> for Stand {
 
 /// A body's constants.
 #[derive(Clone, Debug)]
-pub struct Figure {
+pub(crate) struct Figure {
     /// Corners of a volume mesh, from the centre of mass in body axes; none: it is its solid.
     corners: Vec<Vector3<f64>>,
     /// About the centre of mass.

@@ -1,0 +1,442 @@
+//! The map: over the two axes that tell most, the share of runs that end in one way, or the median of a column, with
+//! the curve on which half of the runs do.
+
+use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, GridCell, Mark, Shading};
+use super::number::{counted, percent, plain, short};
+use super::stats::{crossing, explained, median, wilson};
+use super::subject::{Ground, Levels};
+use crate::heading::unit_of;
+
+/// What a map shows of the rows of a cell.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Painted {
+    /// Share that ends so.
+    Share(String),
+    /// Median of the sizes in a column.
+    Median(String),
+}
+
+/// The value of a share at which a critical value stands, and its interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Critical {
+    pub place: f64,
+    pub value: f64,
+    pub low: Option<f64>,
+    pub high: Option<f64>,
+}
+
+/// Columns that a map shows where every run ends alike.
+const NUMBERS: [&str; 5] =
+    ["error_position_m", "search_low", "energy_drift_rel", "energy_rise_max_rel", "penetration_max_m"];
+
+impl Painted {
+    /// The one that is asked for, else that in which the rows differ.
+    pub fn of(ground: &Ground) -> Self {
+        let frame = ground.frame();
+        if let Some(name) = &ground.subject.painted {
+            let is_outcome = ["finished", "diverged", "stalled"].contains(&name.as_str());
+            return if is_outcome { Painted::Share(name.clone()) } else { Painted::Median(name.clone()) };
+        }
+        if let Some(outcome) = ["diverged", "stalled"].iter().find(|outcome| frame.count(outcome) > 0) {
+            return Painted::Share(outcome.to_string());
+        }
+        let differs = |name: &&&str| {
+            let finite = || frame.numbers(name).into_iter().flatten().filter(|x| x.is_finite() && **x != 0.0);
+            let first = finite().next();
+            first.is_some_and(|first| finite().any(|x| x != first))
+        };
+        let number = NUMBERS.iter().find(differs).map(|name| Painted::Median(name.to_string()));
+        number.unwrap_or(Painted::Share("diverged".to_string()))
+    }
+
+    /// What each row counts for; None where it does not.
+    fn values(&self, ground: &Ground) -> Vec<Option<f64>> {
+        let failed = ground.ended("failed");
+        match self {
+            Painted::Share(outcome) => {
+                let ended = ground.ended(outcome);
+                ended.iter().zip(failed).map(|(is, failed)| (!failed).then_some(f64::from(u8::from(*is)))).collect()
+            }
+            Painted::Median(column) => {
+                let numbers = ground.frame().numbers(column).unwrap_or_default();
+                let value = |(x, failed): (&f64, bool)| (x.is_finite() && !failed).then_some(x.abs());
+                let mut values: Vec<_> = numbers.iter().zip(failed).map(value).collect();
+                values.resize(ground.frame().rows(), None);
+                values
+            }
+        }
+    }
+}
+
+/// Axes in the order in which they tell of what is painted.
+pub fn telling<'a>(ground: &'a Ground, painted: &Painted) -> Vec<&'a Levels> {
+    let values = painted.values(ground);
+    let log = |x: f64| (x > 0.0).then(|| libm::log10(x));
+    let score = |axis: &Levels| {
+        let of = axis.of_row.iter().zip(&values).filter_map(|(level, y)| Some(((*level)? as usize, (*y)?)));
+        match painted {
+            Painted::Share(_) => explained(axis.len(), of),
+            Painted::Median(_) => explained(axis.len(), of.filter_map(|(level, y)| Some((level, log(y)?)))),
+        }
+    };
+    let mut axes: Vec<(f64, &Levels)> = ground.chosen().map(|axis| (score(axis), axis)).collect();
+    if axes.is_empty() {
+        axes = ground.axes.iter().map(|axis| (score(axis), axis)).collect();
+    }
+    // Of equals the first in the plan.
+    axes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    axes.into_iter().map(|(_, axis)| axis).collect()
+}
+
+/// Groups of neighbouring levels, at most so many: their names, and the group of each level.
+fn pooled(axis: &Levels, most: usize) -> (Vec<String>, Vec<usize>) {
+    let n = axis.len();
+    if n <= most {
+        return (axis.names.clone(), (0..n).collect());
+    }
+    if axis.numbers.is_none() {
+        // Words have no neighbours.
+        let mut names: Vec<String> = axis.names[..most - 1].to_vec();
+        names.push(format!("{} others", n - most + 1));
+        return (names, (0..n).map(|i| i.min(most - 1)).collect());
+    }
+    let group: Vec<usize> = (0..n).map(|i| i * most / n).collect();
+    let name = |g: usize| {
+        let of = |mut i: Box<dyn Iterator<Item = usize>>| i.find(|i| group[*i] == g).unwrap_or_default();
+        let (first, last) = (of(Box::new(0..n)), of(Box::new((0..n).rev())));
+        if first == last { axis.names[first].clone() } else { format!("{}…{}", axis.names[first], axis.names[last]) }
+    };
+    ((0..most).map(name).collect(), group)
+}
+
+/// What is counted in a cell.
+#[derive(Clone, Default)]
+struct Count {
+    values: Vec<f64>,
+    rows: usize,
+    failed: usize,
+    telling: Option<(f64, usize)>,
+}
+
+/// The map of a ground with at most so many values on an axis, the others pooled. None without an axis.
+pub fn map(ground: &Ground, most: usize) -> Option<Figure> {
+    let painted = Painted::of(ground);
+    let axes = telling(ground, &painted);
+    let (x, y) = sides(&axes)?;
+    let (x_names, x_group) = pooled(x, most);
+    let (mut y_names, mut y_group) = y.map_or((vec!["all".to_string()], Vec::new()), |y| pooled(y, most));
+    let is_upside_down = y.is_some_and(|y| y.numbers.is_none());
+    if is_upside_down {
+        // Words are read from above.
+        y_names.reverse();
+        y_group.iter_mut().for_each(|group| *group = y_names.len() - 1 - *group);
+    }
+    let counts =
+        counts(ground, &painted, (x, &x_group), y.map(|y| (y, y_group.as_slice())), (x_names.len(), y_names.len()));
+    let cells = cells(
+        ground,
+        &painted,
+        (x, &x_names, &x_group),
+        y.map(|y| (y, y_names.as_slice(), y_group.as_slice())),
+        &counts,
+    );
+    let (label, unit, is_share) = match &painted {
+        Painted::Share(outcome) => (format!("share {outcome}"), "", true),
+        Painted::Median(column) => {
+            let (name, unit) = named(ground, column);
+            (format!("median {name}"), unit, false)
+        }
+    };
+    let mut notes = ground.notes();
+    let beside: Vec<String> = ground
+        .axes
+        .iter()
+        .filter(|axis| axis.path != x.path && y.is_none_or(|y| axis.path != y.path))
+        .map(|axis| format!("{} ({} values)", axis.path, axis.len()))
+        .collect();
+    if !beside.is_empty() {
+        notes.push(format!("pooled over {}", beside.join(", ")));
+    }
+    for axis in [Some(x), y].into_iter().flatten().filter(|axis| axis.len() > most) {
+        notes.push(format!("{} values of {} are pooled into {most}", axis.len(), axis.path));
+    }
+    let mut marks = Vec::new();
+    let mut finding = finding(ground, &painted, &cells);
+    if let (Painted::Share(outcome), true) = (&painted, x.len() <= most) {
+        let curve = curve(&counts, x);
+        let dots: Vec<Dot> = curve.iter().map(|(y_place, critical)| dot(*y_place, critical, x, &y_names)).collect();
+        finding += &half(&curve, outcome, x, &y_names);
+        if !dots.is_empty() {
+            let label = format!("half of the runs {} at {}", verb(outcome), x.path);
+            marks.push(Mark { label, drawn: Drawn::Boundary, colour: 0, dots });
+        }
+    }
+    let values = || cells.iter().filter_map(|cell| cell.value).filter(|value| *value > 0.0);
+    let (low, high) = values().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), v| (low.min(v), high.max(v)));
+    let axis = |levels: Option<&Levels>, names: Vec<String>| FigureAxis {
+        label: levels.map_or(String::new(), |levels| levels.path.clone()),
+        unit: levels.map_or(String::new(), |levels| levels.unit.to_string()),
+        scale: FigureScale::Named(names),
+    };
+    Some(Figure {
+        name: "map".to_string(),
+        title: match &painted {
+            Painted::Share(outcome) => format!("Where runs {}", verb(outcome)),
+            Painted::Median(column) => capital(&named(ground, column).0),
+        },
+        finding,
+        field: Some(Shading {
+            label,
+            unit: unit.to_string(),
+            is_share,
+            is_logarithmic: !is_share && high / low > 30.0,
+            cells,
+        }),
+        x: axis(Some(x), x_names),
+        y: axis(y, y_names),
+        marks,
+        notes,
+    })
+}
+
+/// The axis along x, and that along y: what is read as a number lies, the step before others.
+pub fn sides<'a>(axes: &[&'a Levels]) -> Option<(&'a Levels, Option<&'a Levels>)> {
+    match axes {
+        [] => None,
+        [only] => Some((only, None)),
+        [a, b, ..] => {
+            let rank = |axis: &Levels| (axis.is_step(), axis.numbers.is_some(), axis.len());
+            Some(if rank(b) > rank(a) { (b, Some(a)) } else { (a, Some(b)) })
+        }
+    }
+}
+
+pub fn verb(outcome: &str) -> &str {
+    match outcome {
+        "diverged" => "diverge",
+        "stalled" => "stall",
+        "finished" => "finish",
+        other => other,
+    }
+}
+
+type Grouped<'a> = (&'a Levels, &'a [usize]);
+
+fn counts(
+    ground: &Ground,
+    painted: &Painted,
+    (x, x_group): Grouped,
+    y: Option<Grouped>,
+    (columns, rows): (usize, usize),
+) -> Vec<Vec<Count>> {
+    let mut counts = vec![vec![Count::default(); columns]; rows];
+    let (values, failed) = (painted.values(ground), ground.ended("failed"));
+    let rise = ground.frame().numbers("energy_rise_max_rel");
+    for row in 0..ground.frame().rows() {
+        let at_y = y.map_or(Some(0), |(y, group)| y.of_row[row].map(|level| group[level as usize]));
+        let (Some(x), Some(y)) = (x.of_row[row].map(|level| x_group[level as usize]), at_y) else { continue };
+        let count = &mut counts[y][x];
+        count.rows += 1;
+        count.failed += usize::from(failed[row]);
+        if let Some(value) = values[row] {
+            count.values.push(value);
+            let rise = rise.map(|rise| rise[row]).filter(|x| x.is_finite()).unwrap_or(0.0).clamp(0.0, 1e300);
+            // What ends so comes before what does not, then the largest rise of energy.
+            let telling = if matches!(painted, Painted::Share(_)) { 1e301 * value + rise } else { value };
+            if count.telling.is_none_or(|(best, _)| telling > best) {
+                count.telling = Some((telling, row));
+            }
+        }
+    }
+    counts
+}
+
+type Named<'a> = (&'a Levels, &'a [String], &'a [usize]);
+
+fn cells(
+    ground: &Ground,
+    painted: &Painted,
+    (x, x_names, x_group): (&Levels, &Vec<String>, &Vec<usize>),
+    y: Option<Named>,
+    counts: &[Vec<Count>],
+) -> Vec<GridCell> {
+    let product: usize = ground.subject.axes.iter().map(|axis| axis.values.len()).product();
+    let is_whole_grid = ground.subject.planned == product && ground.subject.together.is_empty();
+    let in_group = |levels: &Levels, group: &[usize], g: usize| {
+        let values = (0..levels.len()).filter(|level| group[*level] == g).map(|level| levels.names[level].clone());
+        (levels.path.clone(), values.collect::<Vec<_>>())
+    };
+    let mut cells = Vec::new();
+    for (y_at, line) in counts.iter().enumerate() {
+        for (x_at, count) in line.iter().enumerate() {
+            let mut pick = vec![in_group(x, x_group, x_at)];
+            pick.extend(y.map(|(y, _, group)| in_group(y, group, y_at)));
+            let of_grid: usize = pick.iter().map(|(_, values)| values.len()).product();
+            let all: usize = x.len() * y.map_or(1, |(y, ..)| y.len());
+            let expected = if is_whole_grid { ground.subject.planned * of_grid / all } else { count.rows };
+            let missing = expected.saturating_sub(count.rows);
+            let n = count.values.len();
+            let mut said = format!("{} = {}", x.path, with_unit(&x_names[x_at], x.unit));
+            if let Some((y, names, _)) = y {
+                said += &format!(", {} = {}", y.path, with_unit(&names[y_at], y.unit));
+            }
+            let (value, text) = match painted {
+                _ if n == 0 => (None, (if count.failed > 0 { "failed" } else { "–" }).to_string()),
+                Painted::Share(outcome) => {
+                    let k = count.values.iter().filter(|value| **value > 0.0).count();
+                    let (low, high) = wilson(k, n);
+                    said += &format!(": {k} of {n} {outcome} (95 % interval {} to {})", percent(low), percent(high));
+                    let share = k as f64 / n as f64;
+                    (Some(share), percent(share))
+                }
+                Painted::Median(column) => {
+                    let middle = median(&count.values).unwrap_or_default();
+                    let (name, unit) = named(ground, column);
+                    said += &format!(": median {name} {} of {n}", with_unit(&short(middle), unit));
+                    // Two digits where there is room for them.
+                    let text = if middle == 0.0 {
+                        "0".to_string()
+                    } else if x_names.len() <= 8 {
+                        format!("{middle:.1e}")
+                    } else {
+                        format!("{middle:.0e}")
+                    };
+                    (Some(middle), text)
+                }
+            };
+            for (n, what) in
+                [(count.failed, "failed"), (missing, "missing"), (count.rows - count.failed - n, "without a number")]
+            {
+                if n > 0 {
+                    said += &format!("; {n} {what}");
+                }
+            }
+            if count.rows == 0 {
+                said += ": no row";
+            }
+            let is_doubtful = count.failed > 0 || missing > 0;
+            let row = count.telling.map(|(_, row)| row);
+            cells.push(GridCell { x: x_at, y: y_at, value, text, said: plain(&said), is_doubtful, row, pick });
+        }
+    }
+    cells
+}
+
+/// What a column is called, and its unit; of a search it is of the key that is searched.
+fn named(ground: &Ground, column: &str) -> (String, &'static str) {
+    match &ground.subject.search {
+        Some(key) if column.starts_with("search_") => (format!("critical {key}"), unit_of(key)),
+        _ => (format!("|{column}|"), unit_of(column)),
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn with_unit(number: &str, unit: &str) -> String {
+    if unit.is_empty() { number.to_string() } else { format!("{number} {unit}") }
+}
+
+/// Critical values along x, a line of the map each: its place, and the value.
+fn curve(counts: &[Vec<Count>], x: &Levels) -> Vec<(usize, Critical)> {
+    let shares = |line: &[Count]| -> Vec<(f64, usize, usize)> {
+        let share = |(i, count): (usize, &Count)| {
+            (i as f64, count.values.iter().filter(|value| **value > 0.0).count(), count.values.len())
+        };
+        line.iter().enumerate().map(share).collect()
+    };
+    let critical = |line: &[Count]| critical(&shares(line), x);
+    counts.iter().enumerate().filter_map(|(y, line)| Some((y, critical(line)?))).collect()
+}
+
+/// Where a share that rises along an axis crosses a half. Levels are (place, k, n).
+pub fn critical(levels: &[(f64, usize, usize)], x: &Levels) -> Option<Critical> {
+    let (place, low, high) = crossing(levels)?;
+    let value = |place: f64| x.value_at(place);
+    Some(Critical { place, value: value(place)?, low: low.and_then(value), high: high.and_then(value) })
+}
+
+fn dot(y: usize, critical: &Critical, x: &Levels, y_names: &[String]) -> Dot {
+    let name = if y_names.len() > 1 { format!("{}: ", y_names[y]) } else { String::new() };
+    let said = format!("{name}{}", interval(critical, x.unit));
+    Dot::at(critical.place, y as f64).saying(plain(&said))
+}
+
+/// A critical value with its interval.
+pub fn interval(critical: &Critical, unit: &str) -> String {
+    let end = |end: Option<f64>, open: &str| end.map_or(open.to_string(), short);
+    let value = with_unit(&short(critical.value), unit);
+    match (critical.low, critical.high) {
+        (None, None) => value,
+        (low, high) => format!("{value} (95 %: {} to {})", end(low, "below"), end(high, "beyond")),
+    }
+}
+
+fn half(curve: &[(usize, Critical)], outcome: &str, x: &Levels, y_names: &[String]) -> String {
+    let smallest = curve.iter().min_by(|a, b| a.1.value.total_cmp(&b.1.value));
+    match (smallest, y_names.len()) {
+        (None, _) => String::new(),
+        (Some((_, critical)), 1) => {
+            format!(" Half of the runs {} at {} = {}.", verb(outcome), x.path, interval(critical, x.unit))
+        }
+        (Some((y, critical)), _) => format!(
+            " Half of the runs {} first for {}: at {} = {}.",
+            verb(outcome),
+            y_names[*y],
+            x.path,
+            interval(critical, x.unit)
+        ),
+    }
+}
+
+fn finding(ground: &Ground, painted: &Painted, cells: &[GridCell]) -> String {
+    let frame = ground.frame();
+    let largest = cells.iter().filter(|cell| cell.value.is_some()).max_by(|a, b| {
+        let value = |cell: &GridCell| cell.value.unwrap_or(f64::NEG_INFINITY);
+        // Of equals the first.
+        value(a).total_cmp(&value(b)).then(std::cmp::Ordering::Greater)
+    });
+    match painted {
+        Painted::Share(outcome) => {
+            let (k, n) = (frame.count(outcome), frame.rows() - frame.count("failed"));
+            if n == 0 {
+                return "No run has ended, so that nothing can be said.".to_string();
+            }
+            if k == 0 {
+                let (_, high) = wilson(0, n);
+                return format!(
+                    "None of {} {} (95 % interval up to {:.2} %).",
+                    counted(n, "run"),
+                    verb(outcome),
+                    100.0 * high
+                );
+            }
+            let (low, high) = wilson(k, n);
+            let most = largest.map(|cell| cell.said.split(" (95").next().unwrap_or_default().to_string());
+            let most = most.map(|said| format!("; most where {said}")).unwrap_or_default();
+            format!(
+                "{k} of {} {} ({:.1} %, 95 % interval {:.1} to {:.1} %){most}.",
+                counted(n, "run"),
+                verb(outcome),
+                100.0 * k as f64 / n as f64,
+                100.0 * low,
+                100.0 * high
+            )
+        }
+        Painted::Median(column) => {
+            let smallest = cells.iter().filter_map(|cell| cell.value).reduce(f64::min);
+            match (largest, smallest) {
+                (Some(cell), Some(smallest)) => {
+                    let (name, unit) = named(ground, column);
+                    let [smallest, largest] =
+                        [smallest, cell.value.unwrap_or_default()].map(|x| with_unit(&short(x), unit));
+                    let place = cell.said.split(": median").next().unwrap_or_default();
+                    format!("The median {name} of a cell goes from {smallest} to {largest}, where {place}.")
+                }
+                _ => format!("No row has a number in {column}."),
+            }
+        }
+    }
+}

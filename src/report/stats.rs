@@ -1,0 +1,121 @@
+//! Statistics of figures: intervals of shares, quantiles, how much an axis says, where a share crosses a half, laws of
+//! powers.
+
+/// Interval of a share of `k` in `n` with 95 % confidence (E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209).
+pub fn wilson(k: usize, n: usize) -> (f64, f64) {
+    const Z: f64 = 1.959963984540054;
+    if n == 0 {
+        return (0.0, 1.0);
+    }
+    let (k, n) = (k as f64, n as f64);
+    let (p, z2) = (k / n, Z * Z);
+    let middle = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
+    let half = Z / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
+    // Exact at the ends, where rounding would leave 1e-17.
+    (if k == 0.0 { 0.0 } else { middle - half }, if k == n { 1.0 } else { middle + half })
+}
+
+/// The value that this share of sorted numbers does not exceed, interpolated between neighbours.
+pub fn quantile(sorted: &[f64], q: f64) -> f64 {
+    let at = q * (sorted.len() - 1) as f64;
+    let (low, high) = (sorted[at.floor() as usize], sorted[at.ceil() as usize]);
+    if low == high { low } else { low + (high - low) * at.fract() }
+}
+
+/// Median of numbers; None without one.
+pub fn median(values: &[f64]) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    (!sorted.is_empty()).then(|| quantile(&sorted, 0.5))
+}
+
+/// Part of the variance of numbers that their levels explain, less what chance explains: ω² (W. L. Hays, Statistics for
+/// Psychologists, 1963). Numbers come with their level.
+pub fn explained(levels: usize, of: impl Iterator<Item = (usize, f64)>) -> f64 {
+    let mut sums = vec![(0.0, 0.0); levels];
+    let (mut n, mut sum, mut squares) = (0.0, 0.0, 0.0);
+    for (level, y) in of {
+        sums[level].0 += 1.0;
+        sums[level].1 += y;
+        n += 1.0;
+        sum += y;
+        squares += y * y;
+    }
+    let used = sums.iter().filter(|(n, _)| *n > 0.0).count() as f64;
+    let total = squares - sum * sum / n;
+    if n <= used || used < 2.0 || total <= 0.0 {
+        // A row a level: all is explained, and nothing said.
+        return 0.0;
+    }
+    let between: f64 = sums.iter().filter(|(n, _)| *n > 0.0).map(|(n, s)| s * s / n).sum::<f64>() - sum * sum / n;
+    let within = (total - between).max(0.0) / (n - used);
+    (between - (used - 1.0) * within) / (total + within)
+}
+
+/// Means that never fall, nearest to given ones in weighted squares (pool adjacent violators).
+fn rising(means: &[f64], weights: &[f64]) -> Vec<f64> {
+    let mut blocks: Vec<(f64, f64, usize)> = Vec::new();
+    for (mean, weight) in means.iter().zip(weights) {
+        blocks.push((*mean, *weight, 1));
+        while let [.., a, b] = blocks[..] {
+            if a.0 <= b.0 {
+                break;
+            }
+            blocks.truncate(blocks.len() - 2);
+            let weight = a.1 + b.1;
+            blocks.push(((a.0 * a.1 + b.0 * b.1) / weight, weight, a.2 + b.2));
+        }
+    }
+    blocks.into_iter().flat_map(|(mean, _, n)| std::iter::repeat_n(mean, n)).collect()
+}
+
+/// Where a share that rises along x crosses a half, interpolated in the places `x` between levels, and the same of the
+/// ends of its intervals. Levels are (x, k, n) in the order of x. None where it does not cross.
+pub fn crossing(levels: &[(f64, usize, usize)]) -> Option<(f64, Option<f64>, Option<f64>)> {
+    let levels: Vec<_> = levels.iter().filter(|(_, _, n)| *n > 0).copied().collect();
+    let weights: Vec<f64> = levels.iter().map(|(_, _, n)| *n as f64).collect();
+    let of = |share: &dyn Fn(usize, usize) -> f64| {
+        let shares: Vec<f64> = levels.iter().map(|(_, k, n)| share(*k, *n)).collect();
+        let shares = rising(&shares, &weights);
+        let up = shares.windows(2).position(|pair| pair[0] < 0.5 && pair[1] >= 0.5)?;
+        let (a, b) = (levels[up].0, levels[up + 1].0);
+        Some(a + (b - a) * (0.5 - shares[up]) / (shares[up + 1] - shares[up]))
+    };
+    let middle = of(&|k, n| k as f64 / n as f64)?;
+    Some((middle, of(&|k, n| wilson(k, n).1), of(&|k, n| wilson(k, n).0)))
+}
+
+/// Law y = a xᵇ through points, by least squares of the logarithms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PowerLaw {
+    pub factor: f64,
+    pub exponent: f64,
+    /// Half the width of the exponent's interval with 95 % confidence; None of two points.
+    pub margin: Option<f64>,
+}
+
+impl PowerLaw {
+    /// The law of points that are all positive; None of fewer than two places.
+    pub fn fit(points: &[(f64, f64)]) -> Option<Self> {
+        let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (libm::log(*x), libm::log(*y))).collect();
+        let n = logs.len() as f64;
+        let (mx, my) = (logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n);
+        let xx: f64 = logs.iter().map(|p| (p.0 - mx) * (p.0 - mx)).sum();
+        let xy: f64 = logs.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
+        let exponent = Some(xy / xx).filter(|slope| slope.is_finite())?;
+        let left: f64 = logs.iter().map(|p| p.1 - my - exponent * (p.0 - mx)).map(|d| d * d).sum();
+        let margin = (logs.len() > 2).then(|| student(logs.len() - 2) * (left / (n - 2.0) / xx).sqrt());
+        Some(PowerLaw { factor: libm::exp(my - exponent * mx), exponent, margin })
+    }
+
+    pub fn at(&self, x: f64) -> f64 {
+        self.factor * libm::exp(self.exponent * libm::log(x))
+    }
+}
+
+/// 97.5 % quantile of Student's t.
+fn student(degrees: usize) -> f64 {
+    const TABLE: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228];
+    let large = |n: f64| 1.96 + 2.4 / n + 3.0 / (n * n);
+    TABLE.get(degrees.saturating_sub(1)).copied().unwrap_or_else(|| large(degrees as f64))
+}

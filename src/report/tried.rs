@@ -1,0 +1,142 @@
+//! What a method did at one step or tolerance: rows of a bench as they are, of a sweep the medians over its other axes.
+
+use super::frame::RowFrame;
+use super::stats::{explained, median};
+use super::subject::{Ground, Levels};
+use crate::rows::trials::Trial;
+
+/// A trial, and where it is from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tried {
+    pub trial: Trial,
+    /// The row, where it is one.
+    pub row: Option<usize>,
+    /// Number of rows that it is the median of.
+    pub rows: usize,
+}
+
+/// Errors that a sweep's rows are compared by, the first of which there is one.
+const ERRORS: [&str; 4] =
+    ["error_position_m", "error_orientation_rad", "error_velocity_m_s", "error_angular_velocity_rad_s"];
+
+/// Most series of a figure.
+const MOST_SERIES: usize = 10;
+
+/// Trials of a subject: those that it has, else those that its rows make.
+pub fn trials(ground: &Ground) -> Vec<Tried> {
+    let known = &ground.subject.trials;
+    if !known.is_empty() {
+        let tried = |(row, trial): (usize, &Trial)| {
+            let row = (ground.subject.is_bench && row < ground.frame().rows()).then_some(row);
+            Tried { trial: labelled(trial.clone()), row, rows: 1 }
+        };
+        return known.iter().enumerate().map(tried).collect();
+    }
+    of_rows(ground).unwrap_or_default()
+}
+
+/// A trial whose method says which program it is of, if it is not ours.
+fn labelled(mut trial: Trial) -> Trial {
+    if trial.engine != "gotai" {
+        trial.method = format!("{} {}", trial.engine, trial.method).trim().to_string();
+    }
+    trial
+}
+
+fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
+    let frame = ground.frame();
+    let has_sizes = |name: &&&str| frame.numbers(name).is_some_and(|x| x.iter().any(|x| x.is_finite() && *x != 0.0));
+    let accuracy: Vec<&Levels> = ground.axes.iter().filter(|axis| axis.is_step() || axis.is_tolerance()).collect();
+    if accuracy.is_empty() {
+        return None;
+    }
+    // The error that follows the step, not one that is rounding alone.
+    let follows = |name: &&&str| {
+        let log =
+            |row: usize| frame.number(name, row).map(f64::abs).filter(|x| *x > 0.0 && x.is_finite()).map(libm::log10);
+        let of = accuracy[0].of_row.iter().enumerate();
+        explained(accuracy[0].len(), of.filter_map(|(row, level)| Some(((*level)? as usize, log(row)?))))
+    };
+    let known: Vec<&&str> = ERRORS.iter().filter(has_sizes).collect();
+    let best = known.iter().map(follows).fold(0.0, f64::max);
+    let error = **known.iter().find(|name| follows(name) >= 0.5 * best)?;
+    let errors = frame.numbers(error)?;
+    // One series for what the other axes are, where these are few.
+    let mut by: Vec<&Levels> = ground.chosen().filter(|axis| !axis.is_step() && !axis.is_tolerance()).collect();
+    while by.iter().map(|axis| axis.len()).product::<usize>() > MOST_SERIES {
+        by.pop();
+    }
+    let (wall, steps) = (frame.numbers("wall_s"), frame.numbers("steps"));
+    let used = frame.numbers("step_used_s");
+    let finished = ground.ended("finished");
+    let mut groups: std::collections::BTreeMap<Vec<u32>, Vec<usize>> = std::collections::BTreeMap::new();
+    for row in 0..frame.rows() {
+        let key: Option<Vec<u32>> = by.iter().chain(&accuracy).map(|axis| axis.of_row[row]).collect();
+        if let Some(key) = key {
+            groups.entry(key).or_default().push(row);
+        }
+    }
+    let tried = |(key, rows): (Vec<u32>, Vec<usize>)| {
+        let of = |numbers: Option<&[f64]>| {
+            let finite = |row: &usize| Some(numbers?[*row].abs()).filter(|x| x.is_finite() && finished[*row]);
+            median(&rows.iter().filter_map(finite).collect::<Vec<_>>())
+        };
+        let names: Vec<String> = by.iter().zip(&key).map(|(axis, level)| axis.names[*level as usize].clone()).collect();
+        let value = |of: fn(&Levels) -> bool| {
+            let at = accuracy.iter().position(|axis| of(axis))?;
+            accuracy[at].numbers.as_ref().map(|numbers| numbers[key[by.len() + at] as usize])
+        };
+        let method = if names.is_empty() { ground.subject.methods.join(", ") } else { names.join(", ") };
+        let step_s = value(Levels::is_step).map(|step_s| of(used).unwrap_or(step_s));
+        Tried {
+            trial: Trial {
+                scene: String::new(),
+                engine: "gotai".to_string(),
+                method,
+                step_s: step_s.filter(|_| value(Levels::is_tolerance).is_none()),
+                tolerance: value(Levels::is_tolerance),
+                steps: of(steps).unwrap_or_default() as u64,
+                error: of(Some(errors)),
+                error_kind: error.to_string(),
+                wall_s: of(wall),
+                wall_median_s: None,
+                outcome: (if rows.iter().any(|row| finished[*row]) { "finished" } else { "diverged" }).to_string(),
+                criterion: None,
+            },
+            row: (rows.len() == 1).then(|| rows[0]),
+            rows: rows.len(),
+        }
+    };
+    Some(groups.into_iter().map(tried).collect())
+}
+
+/// Trials of a table of a bench, ours or another program's: `step_s` may be called `dt`, and an error may be a word.
+/// None where it has no columns of methods, errors and times.
+pub fn trials_of(frame: &RowFrame) -> Option<Vec<Trial>> {
+    if !["method", "error", "wall_s"].iter().all(|name| frame.has(name)) {
+        return None;
+    }
+    let number = |name: &str, row: usize| {
+        let written = || frame.word(name, row).and_then(|word| word.parse::<f64>().ok());
+        frame.number(name, row).or_else(written).filter(|x| x.is_finite())
+    };
+    let trial = |row: usize| {
+        let error = number("error", row);
+        let outcome = frame.word("outcome", row).unwrap_or(if error.is_some() { "finished" } else { "diverged" });
+        Trial {
+            scene: frame.text("scene", row),
+            engine: frame.text("engine", row),
+            method: frame.text("method", row),
+            step_s: number("step_s", row).or_else(|| number("dt", row)),
+            tolerance: number("tolerance", row),
+            steps: number("steps", row).unwrap_or_default() as u64,
+            error: error.map(f64::abs),
+            error_kind: frame.text("error_kind", row),
+            wall_s: number("wall_s", row),
+            wall_median_s: number("wall_median_s", row),
+            outcome: outcome.to_string(),
+            criterion: frame.word("criterion", row).map(str::to_string),
+        }
+    };
+    Some((0..frame.rows()).map(trial).collect())
+}

@@ -1,0 +1,63 @@
+//! Counters of work along the axis that tells most: medians.
+
+use super::ensemble::along;
+use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, Mark};
+use super::number::{counted, short};
+use super::stats::{explained, median};
+use super::subject::{Ground, Levels};
+
+/// Most counters of a figure.
+const MOST: usize = 6;
+
+/// The figure of a ground. None where nothing was counted, or there is no axis.
+pub fn figure(ground: &Ground) -> Option<Figure> {
+    let frame = ground.frame();
+    let total = |name: &str| frame.numbers(name).map(|numbers| numbers.iter().filter(|x| x.is_finite()).sum::<f64>());
+    let mut counters: Vec<(&str, f64)> = frame
+        .names()
+        .filter(|name| name.starts_with("work_"))
+        .filter_map(|name| Some((name, total(name).filter(|sum| *sum > 0.0)?)))
+        .collect();
+    counters.sort_by(|a, b| b.1.total_cmp(&a.1));
+    counters.truncate(MOST);
+    let first = frame.numbers(counters.first()?.0)?;
+    let score = |axis: &Levels| {
+        let of = axis.of_row.iter().zip(first);
+        explained(axis.len(), of.filter_map(|(level, y)| Some(((*level)? as usize, libm::log1p(y.max(0.0))))))
+    };
+    let x = ground.chosen().max_by(|a, b| score(a).total_cmp(&score(b)))?;
+    let mut said = Vec::new();
+    let mut marks = Vec::new();
+    for (colour, (name, _)) in counters.iter().enumerate() {
+        let dot = |(level, values): (usize, &Vec<f64>)| {
+            let middle = median(values).filter(|middle| *middle > 0.0)?;
+            let place = x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
+            let said =
+                format!("{name}, {}: median {} of {}", x.says(level), short(middle), counted(values.len(), "run"));
+            Some(Dot::at(place, middle).saying(said))
+        };
+        let dots: Vec<Dot> = ground.grouped(x, None, name)[0].iter().enumerate().filter_map(dot).collect();
+        if let (Some(a), Some(b)) = (dots.first(), dots.last()) {
+            said.push(format!("{name} {} to {}", short(a.y), short(b.y)));
+        }
+        let drawn = if x.numbers.is_some() { Drawn::Line } else { Drawn::Points };
+        marks.push(Mark { label: name.to_string(), drawn, colour, dots });
+    }
+    said.truncate(3);
+    let mut notes = ground.notes();
+    notes.push("medians; a median of 0 is not shown".to_string());
+    Some(Figure {
+        name: "work".to_string(),
+        title: "Work".to_string(),
+        finding: format!("Medians from {} to {}: {}.", x.says(0), x.says(x.len() - 1), said.join(", ")),
+        x: along(x, x.is_logarithmic()),
+        y: FigureAxis {
+            label: "count in a run, median".to_string(),
+            unit: "1".to_string(),
+            scale: FigureScale::Logarithmic,
+        },
+        field: None,
+        marks,
+        notes,
+    })
+}

@@ -1,0 +1,115 @@
+//! A report in a browser: it loads without a network and without a complaint, its plots are there, choosing works, it
+//! fits a phone, and can be read in light and dark.
+
+use super::figures::HOSTILE;
+use super::subject;
+use super::webdriver::Browser;
+use crate::{scratch, tools};
+use gotai::report::choose::figures;
+use gotai::report::page::Page;
+use serde_json::json;
+use std::path::PathBuf;
+
+fn page(folder: &scratch::Folder) -> PathBuf {
+    let mut subject = subject();
+    subject.question = Some(HOSTILE.to_string());
+    subject.replay = Some("gotai run out --case".to_string());
+    subject.configuration = Some(format!("question: {HOSTILE}\n{}", "a_long_key_without_any_space: 1".repeat(20)));
+    subject.conditions = vec![("program".to_string(), "a_name_that_nobody_can_break".repeat(8))];
+    subject.warnings = vec![HOSTILE.to_string()];
+    let path = folder.path().join("report.html");
+    std::fs::write(&path, Page::of(&subject, &figures(&subject)).html).unwrap();
+    path
+}
+
+#[test]
+fn a_report_works_in_a_browser() {
+    let Some(programs) = tools::browser() else { return };
+    let folder = scratch::folder();
+    let page = page(&folder);
+    let browser = Browser::new(&programs);
+    browser.open(&page);
+    assert_eq!(browser.messages(), Vec::<serde_json::Value>::new());
+    let fetched =
+        "return performance.getEntriesByType('resource').map(e => e.name).filter(n => !/^(data|blob):/.test(n))";
+    assert_eq!(browser.run(fetched), json!([]));
+    assert_eq!(browser.run("return window.hacked ?? null"), json!(null));
+    // Every figure is drawn, with its marks.
+    assert_eq!(browser.run("return document.querySelectorAll('.js-plotly-plot').length"), json!(7));
+    let drawn = browser.run("return [...document.querySelectorAll('.live')].map(d => d.querySelectorAll('.point, .hm image, .annotation').length)");
+    assert!(drawn.as_array().unwrap().iter().all(|n| n.as_u64().unwrap() > 1), "{drawn}");
+    assert_eq!(browser.run("return document.querySelectorAll('#body tr').length"), json!(100));
+
+    // A cell of the map: its rows, and its most telling case.
+    let at = browser.run(
+        "const plot = document.querySelector('[data-figure=map]'); plot.scrollIntoView({ block: 'center' });
+         const box = plot.querySelector('.nsewdrag').getBoundingClientRect();
+         return [box.x + box.width * 5 / 6, box.y + box.height * 7 / 8]",
+    );
+    browser.click(at[0].as_f64().unwrap(), at[1].as_f64().unwrap());
+    std::thread::sleep(std::time::Duration::from_millis(400));
+    let count = browser.run("return document.getElementById('count').textContent");
+    assert_eq!(count, json!("10 of 120 rows"));
+    let chosen = browser.run("return document.getElementById('chosen').innerText");
+    let chosen = chosen.as_str().unwrap();
+    for part in ["gotai run out --case 0000", "It has no recording", "cube 125", "diverged"] {
+        assert!(chosen.contains(part), "{part}: {chosen}");
+    }
+
+    // A filter, then a column's head by the keyboard.
+    browser.run(
+        "document.querySelectorAll('#picks button').forEach(b => b.click()); document.getElementById('filter').focus()",
+    );
+    browser.keys("outcome=diverged time.step_s>0.05");
+    assert_eq!(browser.run("return document.getElementById('count').textContent"), json!("22 of 120 rows"));
+    browser.run("[...document.querySelectorAll('#head button')].find(b => b.textContent.startsWith('energy_drift_rel')).focus()");
+    browser.keys("\u{e007}\u{e007}");
+    let sort = browser.run("return [...document.querySelectorAll('#head th')].map(th => th.ariaSort ?? th.getAttribute('aria-sort')).filter(s => s !== 'none')");
+    assert_eq!(sort, json!(["descending"]));
+    let first = "return [...document.querySelectorAll('#body tr')].slice(0, 2).map(tr => Number([...tr.children].at(-4).textContent))";
+    let _ = browser.run(first);
+    browser.run("document.querySelector('#body tr').focus()");
+    browser.keys("\u{e015}\u{e007}");
+    let second = browser.run("return document.querySelectorAll('#body tr')[1].getAttribute('aria-selected')");
+    assert_eq!(second, json!("true"));
+    assert_eq!(browser.messages(), Vec::<serde_json::Value>::new());
+}
+
+#[test]
+fn a_report_fits_a_phone_and_can_be_read_in_light_and_dark() {
+    let Some(programs) = tools::browser() else { return };
+    let folder = scratch::folder();
+    let page = page(&folder);
+    let browser = Browser::new(&programs);
+    for (width, scheme) in [(360, "light"), (390, "dark"), (1100, "light"), (1100, "dark")] {
+        let size = json!({ "width": width, "height": 800, "deviceScaleFactor": 2, "mobile": width < 500 });
+        browser.command("Emulation.setDeviceMetricsOverride", size);
+        let media = json!({ "features": [{ "name": "prefers-color-scheme", "value": scheme }] });
+        browser.command("Emulation.setEmulatedMedia", media);
+        browser.open(&page);
+        let wide = browser.run("return [document.documentElement.scrollWidth, window.innerWidth]");
+        assert!(wide[0].as_f64() <= wide[1].as_f64(), "{width}: {wide}");
+        // WCAG's contrast of letters with what is behind them: 4.5 at least.
+        let contrast = browser.run(
+            "const rgb = (text) => text.match(/[\\d.]+/g).map(Number);
+             const light = (c) => { const l = c.slice(0, 3).map((x) => { x /= 255; return x <= 0.03928 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4; });
+               return 0.2126 * l[0] + 0.7152 * l[1] + 0.0722 * l[2]; };
+             const behind = (e) => { for (; e; e = e.parentElement) { const c = rgb(getComputedStyle(e).backgroundColor); if (c.length < 4 || c[3] > 0) return c; } return [255, 255, 255]; };
+             return [...document.querySelectorAll('h1, h2, h3, p, li, .met, .unmet, dt, dd, td, th button, summary, button, input, pre')]
+               .filter((e) => e.offsetParent && e.textContent.trim() !== '')
+               .map((e) => { const [a, b] = [light(rgb(getComputedStyle(e).color)), light(behind(e))].sort((x, y) => y - x);
+                 return [(a + 0.05) / (b + 0.05), e.tagName + ' ' + e.className]; })
+               .sort((a, b) => a[0] - b[0])[0]",
+        );
+        // measured: 5.2
+        assert!(contrast[0].as_f64().unwrap() >= 4.5, "{scheme}: {contrast}");
+        // The plots have the colours of the page.
+        let paper = browser.run("return [getComputedStyle(document.querySelector('.main-svg')).backgroundColor, getComputedStyle(document.documentElement).backgroundColor]");
+        assert_eq!(paper[0], paper[1]);
+    }
+    // On paper the drawings stand in their place, black on white.
+    browser.command("Emulation.setEmulatedMedia", json!({ "media": "print", "features": [] }));
+    let shown = browser
+        .run("return ['.static', '.live', '.tools'].map(s => getComputedStyle(document.querySelector(s)).display)");
+    assert_eq!(shown, json!(["block", "none", "none"]));
+}

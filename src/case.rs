@@ -1,7 +1,7 @@
 //! One point of a sweep: a resolved experiment and its id.
 
 use crate::digest::sha256;
-use crate::experiment::types::{Experiment, Record};
+use crate::experiment::types::{Experiment, Planning, Record};
 use serde_json::{Map, Value};
 
 #[derive(Clone, Debug)]
@@ -33,9 +33,11 @@ impl Case {
     }
 }
 
-/// JSON of everything that decides the motion: not the question, nor what is recorded of it.
+/// JSON of everything that decides the motion: not the question, nor what is recorded of it,
+/// nor what is skipped.
 pub fn canonical(experiment: &Experiment) -> Vec<u8> {
-    let decisive = Experiment { question: None, record: Record::default(), ..experiment.clone() };
+    let plan = Planning::default();
+    let decisive = Experiment { question: None, record: Record::default(), plan, ..experiment.clone() };
     serde_json::to_vec(&decisive).unwrap_or_default()
 }
 

@@ -32,6 +32,7 @@ pub mod predicate;
 mod reading;
 mod scene;
 pub mod search;
+mod skips;
 mod solver;
 mod source;
 mod sweep;

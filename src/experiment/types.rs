@@ -12,6 +12,7 @@ pub use super::limits::{Limits, ReferenceRun};
 pub use super::loads::*;
 pub use super::method::*;
 pub use super::scene::*;
+pub use super::skips::{Planning, Skip, Skips};
 pub use super::solver::{
     AFFORDABLE_BODIES, AFFORDABLE_PROBLEMS, AFFORDABLE_PRODUCTS, FEWEST_PROBLEMS, Solver, SolverFacts, rule_of_auto,
 };
@@ -39,6 +40,9 @@ pub struct Experiment {
     pub diverge: Diverge,
     #[serde(default, skip_serializing_if = "is_default")]
     pub limits: Limits,
+    /// How it is made; no part of a case's id.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub plan: Planning,
     #[serde(default)]
     pub record: Record,
     /// Columns beyond those of every row.

@@ -5,6 +5,7 @@ use super::container::Container;
 use super::loads::{AppliedForce, Wrench};
 use super::pins::{self, Pin};
 use super::surface::{Pair, Surface};
+use crate::experiment::types::Skips;
 use crate::state::BodyState;
 use nalgebra::Vector3;
 
@@ -20,6 +21,8 @@ pub struct Model {
     pub pins: Vec<Pin>,
     /// A point at height zero of the potential energy.
     pub potential_zero_m: Vector3<f64>,
+    /// What a run leaves out where the scene does not need it.
+    pub skips: Skips,
     /// Whether some two bodies may touch each other.
     pub touching_pairs: bool,
 }

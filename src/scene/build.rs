@@ -27,7 +27,7 @@ pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError
     let mut states = Vec::with_capacity(scene.bodies.len());
     let mut depths_m = Vec::with_capacity(scene.bodies.len());
     for described in &scene.bodies {
-        let body = build_body(described, scene)?;
+        let body = build_body(described, scene, experiment.plan.skip)?;
         let (state, depth_m) = first_state(described, &body, experiment, landing.as_ref())?;
         states.push(state);
         depths_m.push(depth_m);
@@ -52,6 +52,7 @@ pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError
         forces,
         pins,
         potential_zero_m,
+        skips: experiment.plan.skip,
     };
     let state = State { step: 0, time_s: 0.0, bodies: states };
     if experiment.method.facts().contact != file::ContactModel::None && !scene.allow_overlap {

@@ -29,6 +29,7 @@ pub mod heading;
 pub mod math;
 pub mod outcome;
 mod panics;
+pub mod shared;
 pub mod state;
 pub mod work;
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 columns! {
     /// Counters of a run, the columns `work_*` of a row.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(default)]
     pub struct Work {
         /// Points that were held against a face.
         #[serde(rename = "work_contact_tests")]

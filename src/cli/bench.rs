@@ -12,7 +12,6 @@ use crate::experiment::ExperimentFile;
 use crate::experiment::bench::Bench;
 use crate::files::make_folder;
 use crate::report;
-use crate::rows::cells;
 use crate::rows::trials::{Trial, methods, order, pareto, to_csv};
 use crate::study::reference;
 use crate::sweep::runner::Progress;
@@ -116,7 +115,7 @@ impl Command {
             let rows = planned.trials.iter().map(|trial| {
                 let ran = bench::run(trial, &planned.bench, &scene, Some(dir));
                 bar.one_done();
-                ran.map(|Ran { row, measured }| (row, Seen::of(&cells(&measured), &trial.experiment)))
+                ran.map(|Ran { row, measured }| (row, Seen::of(&measured, &trial.experiment)))
             });
             let rows = rows.collect::<Result<Vec<_>, _>>();
             bar.end();

@@ -8,7 +8,7 @@ use crate::experiment::ExperimentFile;
 use crate::experiment::types::RecordTo;
 use crate::outcome::Outcome;
 use crate::record::writer::Target;
-use crate::rows::{Row, cells, count};
+use crate::rows::{Row, count};
 use crate::sweep::folder::Folder;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::planned::Planned;
@@ -17,7 +17,6 @@ use crate::sweep::store::Store;
 use clap::Args;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
-use std::collections::HashMap;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -151,9 +150,11 @@ impl SweepArgs {
         let job = Job { dir: &dir, targets, csv: self.csv, work: &work, progress: &bar };
         let ran = quietly(|| job.sweep(&plan.cases, &store))?;
         let rows = lock(&store).rows();
-        let cases: HashMap<&str, &Planned> = plan.cases.iter().map(|planned| (&*planned.case.id, planned)).collect();
-        let seen = |row: &Row| Some(Seen::of(&cells(row), &cases.get(&*row.case)?.case.experiment));
-        let seen = rows.iter().filter_map(seen).collect();
+        // Rows are in plan order, with gaps where there are none.
+        let mut cases = plan.cases.iter();
+        let mut case_of = |row: &Row| cases.find(|planned| planned.case.id == row.case);
+        let seen =
+            rows.iter().filter_map(|row| Some(Seen::of(&row.measured, &case_of(row)?.case.experiment))).collect();
         Ok(Swept { config: config.path.clone(), dir, ran, planned: plan.cases.len(), rows, seen })
     }
 }

@@ -18,6 +18,7 @@ pub use super::solver::{
 };
 pub use super::variants::*;
 use crate::clock::Clock;
+use crate::shared::Shared;
 use serde::{Deserialize, Serialize};
 use strum::{IntoStaticStr, VariantArray};
 
@@ -29,7 +30,7 @@ pub struct Experiment {
     /// Question that the experiment answers, in a sentence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub question: Option<String>,
-    pub scene: Scene,
+    pub scene: Shared<Scene>,
     /// Seed of all random draws, which depend on it and on the body's name.
     #[serde(default)]
     pub seed: u64,

@@ -1,6 +1,6 @@
 //! Measurements of a run: the columns of every row, one line each.
 
-use crate::heading::{CellKind, InCell, columns};
+use crate::heading::{Cell, CellKind, InCell, columns};
 use crate::outcome::Outcome;
 use crate::work::Work;
 use serde::{Deserialize, Serialize};
@@ -10,6 +10,7 @@ columns! {
     /// Measurements of a run, whatever sweep it belongs to. Fields are columns, in this order; a number that means
     /// nothing here is null. What the relative ones are relative to: docs/numbers.md.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    #[serde(default)]
     pub struct Measured {
         /// Outcome of the run: `finished`, `diverged`, `stalled` or `failed`. Divergence is a result, a failure is a
         /// fault of the program.
@@ -121,6 +122,10 @@ columns! {
 
 impl InCell for Outcome {
     const KIND: CellKind = CellKind::Text;
+
+    fn cell(&self) -> Cell<'_> {
+        Cell::Text(self.name())
+    }
 }
 
 impl Measured {

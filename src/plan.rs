@@ -112,6 +112,15 @@ impl Plan {
     }
 }
 
+/// Stage of the runs beside the one that is shown, from which `sensitivity` follows.
+pub fn twins(are_wanted: bool) -> Stage {
+    let why = match are_wanted {
+        true => "three, as `measure: [sensitivity]`, `auto` or `reference:` asks for them",
+        false => "nobody asks for `sensitivity`",
+    };
+    Stage::new("twin runs", are_wanted, why)
+}
+
 fn most_contacts(model: &Model) -> usize {
     const MOST: usize = 4096;
     (points(model) * faces(model).min(3)).min(MOST)

@@ -11,13 +11,15 @@ use crate::bench::{self, Contender, Ran, timing};
 use crate::experiment::ExperimentFile;
 use crate::experiment::bench::Bench;
 use crate::files::make_folder;
+use crate::heading::unit_of;
 use crate::report;
-use crate::rows::trials::{Trial, methods, order, pareto, to_csv};
+use crate::rows::trials::{Trial, best_of_each_engine, methods, of_others, order, pareto, to_csv};
 use crate::study::reference;
 use crate::sweep::runner::Progress;
 use clap::Args;
 use comfy_table::TableComponent;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -28,6 +30,10 @@ pub struct Command {
     /// Folder for the results [default: recordings/<path of the config below configs/, without .yaml>+<what is set>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Rows of other engines on these scenes (CSV: scene, engine, method, step_s or dt, steps, error, error_kind,
+    /// wall_s), of which the best are shown beside these, as `benches/peers/` makes them
+    #[arg(long, value_name = "FILE.csv")]
+    with: Vec<PathBuf>,
     #[command(flatten)]
     experiment: ExperimentArgs,
     #[command(flatten)]
@@ -50,15 +56,18 @@ impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
         // Every trial of every file is checked before the first run.
         let planned = self.planned()?;
+        let others = self.others()?;
+        let beside: Vec<Vec<Trial>> =
+            planned.iter().map(|planned| beside(planned, &others)).collect::<Result<_, CliError>>()?;
         let (mut all, mut seen, mut has_failed) = (Vec::new(), Vec::new(), false);
-        for planned in &planned {
+        for (planned, beside) in planned.iter().zip(&beside) {
             let dir = planned.config.out(self.out.as_deref(), &self.experiment);
             self.make_references(&planned.trials, &dir)?;
             let (rows, seen_here): (Vec<Trial>, Vec<Seen>) = self.on_one_core(planned, &dir)?.into_iter().unzip();
             let documents: Vec<Value> = rows.iter().zip(&seen_here).map(document).collect();
-            write(&dir, &title(planned), &rows, &documents)?;
+            write(&dir, &title(planned), &rows, beside, &documents)?;
             if !self.output.json {
-                print(shown(&planned.config.path, &rows, &dir));
+                print(shown(&planned.config.path, &rows, beside, &dir));
             }
             has_failed |= rows.iter().any(|row| row.outcome == "failed");
             all.extend(documents);
@@ -89,6 +98,17 @@ impl Command {
             return Err(CliError::Input(format!("{given}: no file in it has a `bench:`")));
         }
         Ok(planned)
+    }
+
+    /// Rows of all files of other engines.
+    fn others(&self) -> Result<Vec<Trial>, CliError> {
+        let mut all = Vec::new();
+        for path in &self.with {
+            let said = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+            let csv = std::fs::read(path).map_err(|error| CliError::Input(said(&error)))?;
+            all.extend(of_others(&csv).map_err(|error| CliError::Input(said(&error)))?);
+        }
+        Ok(all)
     }
 
     fn make_references(&self, trials: &[Contender], dir: &Path) -> Result<(), CliError> {
@@ -130,6 +150,36 @@ impl Command {
     }
 }
 
+/// Best rows of every other engine on the scene of a file: rows belong to it by its name, in which `-` and `_` are alike.
+fn beside(planned: &PlannedBench, others: &[Trial]) -> Result<Vec<Trial>, CliError> {
+    if others.is_empty() {
+        return Ok(Vec::new());
+    }
+    let name = |path: &str| path.rsplit('/').next().unwrap_or_default().replace('_', "-");
+    let own = name(&planned.config.path.with_extension("").display().to_string());
+    let of_scene: Vec<Trial> = others.iter().filter(|row| name(&row.scene) == own).cloned().collect();
+    let path = planned.config.path.display();
+    if of_scene.is_empty() && planned.config.is_of_folder {
+        return Ok(Vec::new());
+    }
+    if of_scene.is_empty() {
+        let known: BTreeSet<&str> = others.iter().map(|row| row.scene.as_str()).collect();
+        let known: Vec<&str> = known.into_iter().collect();
+        return Err(CliError::Input(format!("{path}: --with has no rows of this scene; it has {}", known.join(", "))));
+    }
+    // A scene may have several kinds of error; those of the same unit can be compared.
+    let unit = unit_of(&planned.bench.error);
+    let alike: Vec<Trial> = of_scene.iter().filter(|row| unit_of(&row.error_kind) == unit).cloned().collect();
+    if alike.is_empty() {
+        let found = &of_scene[0].error_kind;
+        return Err(CliError::Input(format!(
+            "{path}: --with has errors in another unit (`{found}`) than `{}`",
+            planned.bench.error
+        )));
+    }
+    Ok(best_of_each_engine(&alike))
+}
+
 /// JSON of a row, with the remarks about its run, if there are some.
 fn document((row, seen): (&Trial, &Seen)) -> Value {
     let mut document = serde_json::to_value(row).unwrap_or_default();
@@ -146,8 +196,10 @@ fn title(planned: &PlannedBench) -> String {
 }
 
 /// Writes `bench.json`, which has the remarks too, `.csv`, `.svg` and `.png`.
-fn write(dir: &Path, title: &str, rows: &[Trial], documents: &[Value]) -> Result<(), CliError> {
-    let diagram = report::bench::diagram(title, rows);
+fn write(dir: &Path, title: &str, rows: &[Trial], beside: &[Trial], documents: &[Value]) -> Result<(), CliError> {
+    let of_engine = |row: &Trial| Trial { method: row.engine.clone(), ..row.clone() };
+    let drawn: Vec<Trial> = rows.iter().cloned().chain(beside.iter().map(of_engine)).collect();
+    let diagram = report::bench::diagram(title, &drawn);
     let failed = |error: &dyn std::fmt::Display| CliError::Machine(format!("{}: {error}", dir.display()));
     let mut json = serde_json::to_vec(documents).map_err(|error| failed(&error))?;
     json.push(b'\n');
@@ -161,14 +213,16 @@ fn write(dir: &Path, title: &str, rows: &[Trial], documents: &[Value]) -> Result
     files.iter().try_for_each(|(name, content)| std::fs::write(dir.join(name), content)).map_err(|error| failed(&error))
 }
 
-fn shown(config: &Path, rows: &[Trial], dir: &Path) -> String {
+fn shown(config: &Path, rows: &[Trial], beside: &[Trial], dir: &Path) -> String {
     let column = rows.first().map_or("error", |row| row.error_kind.as_str());
     let header = ["front", "method", "step_s", "tolerance", "steps", column, "wall_s", "wall_median_s", "outcome"];
     let mut table = table(&header);
     table.remove_style(TableComponent::HorizontalLines).remove_style(TableComponent::MiddleIntersections);
     let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.3e}"));
     let given = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:e}"));
-    for (row, on_front) in rows.iter().zip(pareto(rows)) {
+    let of_engine = |row: &Trial| Trial { method: format!("{}: {}", row.engine, row.method), ..row.clone() };
+    let all: Vec<Trial> = rows.iter().cloned().chain(beside.iter().map(of_engine)).collect();
+    for (row, on_front) in all.iter().zip(pareto(&all)) {
         let outcome = match &row.criterion {
             Some(criterion) => format!("{} ({criterion})", row.outcome),
             None => row.outcome.clone(),

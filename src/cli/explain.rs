@@ -4,11 +4,11 @@ use super::args::{ExperimentArgs, OutputArgs};
 use super::error::CliError;
 use super::output::{print, print_json};
 use crate::experiment::types::{Shape, Skip};
-use crate::plan::{Plan, Stage};
+use crate::plan::{self, Plan, Stage};
 use crate::record::sampler::steps_between;
 use crate::run::ticks::ticks;
 use crate::scene;
-use crate::study::{reference, trial};
+use crate::study::{reference, sensitivity, trial};
 use crate::sweep::plan::cases;
 use crate::sweep::planned::Planned;
 use crate::sweep::recordings::{FEW, known_before};
@@ -122,7 +122,8 @@ fn tallies(cases: &[Planned]) -> Vec<Tally> {
     let mut tallies: Vec<Tally> = Vec::new();
     for Planned { case, .. } in cases {
         let Ok((model, _)) = scene::build(&case.experiment) else { continue };
-        for stage in Plan::new(&model, &case.experiment.method).stages {
+        let twins = plan::twins(sensitivity::is_wanted(&case.experiment));
+        for stage in Plan::new(&model, &case.experiment.method).stages.into_iter().chain([twins]) {
             match tallies.iter_mut().find(|tally| tally.name == stage.name) {
                 Some(tally) => tally.add(stage),
                 None => tallies.push(Tally::of(stage)),

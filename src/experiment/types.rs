@@ -203,6 +203,7 @@ pub enum Measure {
     CriticalStep,
     /// Forward, backward and central quotients of the positions against the velocities.
     DifferenceQuotients,
-    /// Growth of an error of the start at the end; of methods that follow events it is always measured.
+    /// Growth of an error of the start at the end, at the cost of three more runs; with `auto` and `reference:` it is
+    /// always measured.
     Sensitivity,
 }

@@ -22,7 +22,9 @@ fn series(rows: &[Trial], method: &str) -> Series {
     let of_method: Vec<&Trial> = rows.iter().filter(|row| row.method == method).collect();
     let points: Vec<(f64, f64)> = of_method.iter().filter_map(|row| row.point()).collect();
     let mut label = method.to_string();
-    if let Some(order) = order(rows, method) {
+    // Of another engine's best rows, which are of several methods, there is none.
+    let is_one = of_method.iter().all(|row| row.engine != row.method);
+    if let Some(order) = order(rows, method).filter(|_| is_one) {
         label += &format!(", order {:.2}", order.slope);
     }
     // What a logarithm cannot show is said in words.

@@ -102,8 +102,8 @@ columns! {
         /// Last time of the reference at which its two runs agree.
         pub reference_until_s: Option<f64>,
         /// Factor by which an error of the start has grown at the end, from three twin runs that start displaced a
-        /// little. A body in free flight has 2. Always measured for methods that follow events, for others if
-        /// `measure:` asks for it.
+        /// little. A body in free flight has 2. Measured if `measure:` asks for it, for `auto`, and with `reference:`;
+        /// else null.
         pub sensitivity: Option<f64>,
         /// Largest number of contacts in a step.
         pub contacts_max: u64,

@@ -15,6 +15,10 @@ use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
 
+/// Rows of which a Parquet file is written as it is: to compress its many short columns takes longer than all else that
+/// a run of some milliseconds does.
+const FEW: usize = 64;
+
 /// Table: columns by name, and the rows.
 pub struct Table<'a> {
     columns: Vec<(String, CellKind)>,
@@ -121,8 +125,10 @@ impl<'a> Table<'a> {
         self.each_row(|cells| filled.iter_mut().zip(cells).for_each(|(column, cell)| column.append(*cell)));
         let columns = self.names().zip(&mut filled).map(|(name, column)| (name, column.finish(), true));
         let batch = RecordBatch::try_from_iter_with_nullable(columns)?;
-        let compression = Compression::ZSTD(ZstdLevel::default());
-        let properties = WriterProperties::builder().set_compression(compression);
+        let properties = match self.rows.len() {
+            0..FEW => WriterProperties::builder().set_dictionary_enabled(false),
+            _ => WriterProperties::builder().set_compression(Compression::ZSTD(ZstdLevel::default())),
+        };
         let properties = properties.set_key_value_metadata(Some(self.said_of(plan, hash))).build();
         let mut file = Vec::new();
         let mut writer = ArrowWriter::try_new(&mut file, batch.schema(), Some(properties))?;

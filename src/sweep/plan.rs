@@ -40,12 +40,8 @@ impl SweepPlan {
         // A search has built both ends of its brackets.
         if file.search().is_none() {
             let check = |planned: &Planned| build(file, &planned.point, &planned.case.experiment).map(drop);
-            unlike(&plan.cases)
-                .par_iter()
-                .map(|planned| check(planned))
-                .collect::<Vec<_>>()
-                .into_iter()
-                .collect::<Result<(), _>>()?;
+            let unlike = unlike(&plan.cases);
+            in_parallel(unlike.len(), |i| check(unlike[i])).into_iter().collect::<Result<(), _>>()?;
         }
         Ok(plan)
     }
@@ -60,8 +56,7 @@ impl SweepPlan {
             None => {
                 let likes = Likes::of(file);
                 let case = |index| case(&likes, file.axes().point(index), config);
-                let cases = (0..file.axes().len()).into_par_iter().map(case).collect::<Vec<_>>();
-                cases.into_iter().collect::<Result<Vec<_>, _>>()?
+                in_parallel(file.axes().len(), case).into_iter().collect::<Result<Vec<_>, _>>()?
             }
         };
         tell_apart(&mut cases, file, config);
@@ -106,6 +101,11 @@ pub fn single_case(file: &ExperimentFile) -> Result<Case, ExperimentError> {
     let case = Case::new(file.experiment()?, Map::new());
     build(file, &[], &case.experiment)?;
     Ok(case)
+}
+
+/// What is made of every index, on all threads; of a single one no thread is woken.
+fn in_parallel<T: Send>(count: usize, make: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+    if count <= 1 { (0..count).map(make).collect() } else { (0..count).into_par_iter().map(make).collect() }
 }
 
 fn case(likes: &Likes, point: Vec<usize>, config: &str) -> Result<Planned, ExperimentError> {

@@ -178,7 +178,13 @@ fn friction(model: &Model, facts: &Facts, contact: bool, skips: Skips) -> Stage 
         _ if !contact => Stage::new(name, false, "no contact test"),
         Some(why) if !rough => Stage::new(name, true, format!("μ = 0, but {why}")),
         _ if rough => Stage::skippable(name, Skip::FrictionRows, skips, Ok("μ > 0".to_string())),
-        _ => Stage::skippable(name, Skip::FrictionRows, skips, Err("μ = 0: normal rows only".to_string())),
+        _ => {
+            let why = match facts.solver {
+                Some(Solver::Auto | Solver::Newton) => "μ = 0: normal rows only, in sweeps; exact systems have all",
+                Some(Solver::Pgs | Solver::Nncg) | None => "μ = 0: normal rows only",
+            };
+            Stage::skippable(name, Skip::FrictionRows, skips, Err(why.to_string()))
+        }
     }
 }
 

@@ -17,7 +17,7 @@ columns! {
         /// Steps with at least one contact to solve.
         #[serde(rename = "work_contact_solves")]
         pub contact_solves: u64,
-        /// Tangent rows of contacts that `time-stepping` solved, two a contact and solve.
+        /// Tangent rows of contacts that `time-stepping` has in its sweeps, two a contact and solve.
         #[serde(rename = "work_tangent_rows")]
         pub tangent_rows: u64,
         /// Sweeps over the contacts of a step, for velocities and for positions.

@@ -23,7 +23,7 @@ pub enum Skip {
     ContactTest,
     /// Points of a body against a face, and pairs of bodies, that are farther away than their bounding spheres reach.
     Bounds,
-    /// Tangent rows where no contact has friction.
+    /// Tangent rows of sweeps where no contact has friction.
     FrictionRows,
     /// The gyroscopic term of bodies whose moments of inertia are all equal.
     GyroscopicTerm,

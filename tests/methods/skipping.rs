@@ -166,3 +166,17 @@ fn every_skip_says_why_by_which_word_and_where_it_shows() {
     let full = stages(CUBE_IN_BOX, &["plan.skip=[]", "scene.friction=0"]);
     assert!(full.iter().all(|stage| stage.runs || stage.skip.is_none()));
 }
+
+#[test]
+fn explain_says_a_sentence_once_whatever_the_mesh() {
+    let folder = crate::scratch::folder();
+    let config = folder.path().join("cubes.yaml");
+    let axes = "sweep: { axes: { scene.bodies.cube.mesh.nodes_per_edge: [2, 3, 5], scene.friction: [0, 0.3] } }\n";
+    std::fs::write(&config, format!("{CUBE_IN_BOX}{axes}")).unwrap();
+    let (code, text, err) = crate::cli::run(&["explain", config.to_str().unwrap()]);
+    assert_eq!(code, 0, "{err}");
+    assert_eq!(text.matches("points against faces").count(), 1, "{text}");
+    assert!(text.contains("8 to 125 points, 6 faces") && text.contains("skip `contact-test`: the same bits"), "{text}");
+    assert!(text.contains("friction rows: runs in 3 cases, skipped in 3"), "{text}");
+    assert!(text.contains("twin runs: skipped — nobody asks for `sensitivity`"), "{text}");
+}

@@ -117,7 +117,7 @@ def cut_shot():
     slip = v - (v @ n) * n + np.cross(w, r * n)
     normal = (1 + e) * (v @ n) * m / 2
     tangent = min(mu * normal, np.linalg.norm(slip) * m / 7)
-    push = normal * n - tangent * slip / np.linalg.norm(slip)
+    push = normal * n + tangent * slip / np.linalg.norm(slip)
     v_a, v_b = v - push / m, push / m
     ends = [-2 * r * n + v_a * (t - hit), v_b * (t - hit)]
     balls = [

@@ -36,7 +36,7 @@ fn stages(text: &str, sets: &[&str]) -> Vec<Stage> {
 
 #[test]
 fn normal_rows_alone_are_the_whole_frictionless_motion() {
-    let sets = ["scene.friction=0", "scene.bodies.cube.mesh.nodes_per_edge=4"];
+    let sets = ["scene.friction=0", "scene.bodies.cube.mesh.nodes_per_edge=4", "time.end_s=1.2"];
     for solver in ["auto", "pgs", "nncg", "newton"] {
         let method = format!("method={{time-stepping: {{solver: {solver}}}}}");
         let sets = [&sets[..], &[method.as_str()]].concat();
@@ -89,7 +89,7 @@ scene:
       position_m: [-1.4, 3, -1.4]
       copies: { grid: [2, 1, 2], step_m: [2, 0, 2] }
   random: { speed_m_s: 3, spin_rad_s: 3, attitude: true }
-time: { step_s: 0.01, end_s: 1 }
+time: { step_s: 0.01, end_s: 0.5 }
 ";
 
 #[test]

@@ -18,7 +18,7 @@
 //!     plane nx ny nz d          half-space, n.x >= d is free
 //!     body SHAPE a b c  m  Ix Iy Iz  px py pz  qw qx qy qz  vx vy vz  wx wy wz
 //!
-//! SHAPE is sphere (a = radius), box (a b c = half extents) or none (no contact).
+//! SHAPE is sphere (a = radius), box (a b c = half extents), ellipsoid (a b c = semi-axes) or none (no contact).
 
 use gotai::bench::peer;
 use std::process::ExitCode;

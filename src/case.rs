@@ -1,7 +1,8 @@
 //! One point of a sweep: a resolved experiment and its id.
 
 use crate::digest::sha256;
-use crate::experiment::types::{Experiment, Record};
+use crate::experiment::types::{Experiment, Planning, Record};
+use crate::shared::Shared;
 use serde_json::{Map, Value};
 
 #[derive(Clone, Debug)]
@@ -9,14 +10,14 @@ pub struct Case {
     /// Hash of the resolved configuration, which alone it depends on.
     pub id: String,
     /// Value on every axis, as the result columns show it.
-    pub axes: Map<String, Value>,
+    pub axes: Shared<Map<String, Value>>,
     /// The resolved experiment; of a search, that of its first run.
     pub experiment: Experiment,
 }
 
 impl Case {
     pub fn new(experiment: Experiment, axes: Map<String, Value>) -> Self {
-        Case { id: id(&[canonical(&experiment)]), axes, experiment }
+        Case { id: id(&[canonical(&experiment)]), axes: axes.into(), experiment }
     }
 
     /// A case of many runs that make one row: `ends` are the experiments at both ends of a bracket, of everything that
@@ -29,13 +30,15 @@ impl Case {
         parts.push(rule.into_bytes());
         let experiment = ends.into_iter().next();
         let experiment = experiment.expect("a search has an end");
-        Case { id: id(&parts), axes, experiment }
+        Case { id: id(&parts), axes: axes.into(), experiment }
     }
 }
 
-/// JSON of everything that decides the motion: not the question, nor what is recorded of it.
+/// JSON of everything that decides the motion: not the question, nor what is recorded of it,
+/// nor what is skipped.
 pub fn canonical(experiment: &Experiment) -> Vec<u8> {
-    let decisive = Experiment { question: None, record: Record::default(), ..experiment.clone() };
+    let plan = Planning::default();
+    let decisive = Experiment { question: None, record: Record::default(), plan, ..experiment.clone() };
     serde_json::to_vec(&decisive).unwrap_or_default()
 }
 

@@ -37,9 +37,18 @@ const SEAL_BYTES: usize = 8;
 
 /// A JSON object with one more member, 64 bits of the SHA-256 of all before it.
 pub fn sealed(object: &impl Serialize) -> String {
-    let text = serde_json::to_string(object).unwrap_or_default();
-    let said = text.strip_suffix('}').unwrap_or_default();
-    format!("{said}{SEAL}{}\"}}", sha256(said, SEAL_BYTES))
+    let mut text = serde_json::to_vec(object).unwrap_or_default();
+    text.pop();
+    String::from_utf8(seal(text)).unwrap_or_default()
+}
+
+/// What a JSON object says, without its last brace, sealed and closed.
+pub fn seal(mut said: Vec<u8>) -> Vec<u8> {
+    let sum = sha256(&said, SEAL_BYTES);
+    for part in [SEAL, &sum, "\"}"] {
+        said.extend_from_slice(part.as_bytes());
+    }
+    said
 }
 
 /// Text of a sealed object without its seal; None where it is not what was written. (The end of a line may have been
@@ -51,5 +60,7 @@ pub fn unsealed(text: &[u8]) -> Option<String> {
 }
 
 pub fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    const DIGITS: &[u8; 16] = b"0123456789abcdef";
+    let digits = |byte: &u8| [byte >> 4, byte & 15].map(|digit| char::from(DIGITS[usize::from(digit)]));
+    bytes.iter().flat_map(digits).collect()
 }

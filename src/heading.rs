@@ -1,6 +1,7 @@
 //! Headings of a table's columns. `columns!` makes them from the lines that declare a row's fields, so that a column
 //! stands in one place.
 
+use crate::shared::Shared;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
@@ -148,37 +149,127 @@ impl Serialize for Heading {
     }
 }
 
+/// Content of a cell, borrowed from its row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell<'a> {
+    Null,
+    Text(&'a str),
+    Count(u64),
+    Number(f64),
+    /// Of a column that only some experiments have.
+    Other(&'a Value),
+}
+
+impl Cell<'_> {
+    /// The number in it, if there is one.
+    pub fn as_f64(self) -> Option<f64> {
+        match self {
+            Cell::Count(count) => Some(count as f64),
+            Cell::Number(x) => Some(x),
+            Cell::Other(value) => value.as_f64(),
+            Cell::Null | Cell::Text(_) => None,
+        }
+    }
+
+    /// The whole number in it, if there is one.
+    pub fn as_i64(self) -> Option<i64> {
+        match self {
+            Cell::Count(count) => i64::try_from(count).ok(),
+            Cell::Other(value) => value.as_i64(),
+            Cell::Null | Cell::Text(_) | Cell::Number(_) => None,
+        }
+    }
+
+    /// Appends its JSON.
+    pub fn write_json(self, to: &mut Vec<u8>) {
+        // Writing into memory cannot fail, and JSON has all of these.
+        let _ = match self {
+            Cell::Null => serde_json::to_writer(to, &()),
+            Cell::Text(text) => serde_json::to_writer(to, text),
+            Cell::Count(count) => serde_json::to_writer(to, &count),
+            Cell::Number(x) => serde_json::to_writer(to, &x),
+            Cell::Other(value) => serde_json::to_writer(to, value),
+        };
+    }
+
+    /// Appends its text as tables have it: null is nothing, and texts are without quotes.
+    pub fn write_text(self, to: &mut Vec<u8>) {
+        match self {
+            Cell::Null | Cell::Other(Value::Null) => {}
+            Cell::Text(text) => to.extend_from_slice(text.as_bytes()),
+            Cell::Other(Value::String(text)) => to.extend_from_slice(text.as_bytes()),
+            Cell::Count(_) | Cell::Number(_) | Cell::Other(_) => self.write_json(to),
+        }
+    }
+}
+
 /// A type of a field that is one cell.
 pub trait InCell {
     const KIND: CellKind;
+
+    fn cell(&self) -> Cell<'_>;
 }
 
 impl InCell for String {
     const KIND: CellKind = CellKind::Text;
+
+    fn cell(&self) -> Cell<'_> {
+        Cell::Text(self)
+    }
 }
 
 impl InCell for u64 {
     const KIND: CellKind = CellKind::Count;
+
+    fn cell(&self) -> Cell<'_> {
+        Cell::Count(*self)
+    }
 }
 
 impl InCell for f64 {
     const KIND: CellKind = CellKind::Number;
+
+    /// A number that JSON cannot hold is null there, too.
+    fn cell(&self) -> Cell<'_> {
+        if self.is_finite() { Cell::Number(*self) } else { Cell::Null }
+    }
 }
 
 impl<T: InCell> InCell for Option<T> {
     const KIND: CellKind = T::KIND;
+
+    fn cell(&self) -> Cell<'_> {
+        self.as_ref().map_or(Cell::Null, T::cell)
+    }
 }
 
 /// A row, or a part of one.
 pub trait Headings {
     /// Headings in the order in which serde writes the fields.
     fn headings() -> Vec<Heading>;
+
+    /// Shows the cells in the same order, each with the name of its column.
+    fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, Cell<'a>));
 }
 
 /// Columns whose names are known only when an experiment is there.
 impl Headings for Map<String, Value> {
     fn headings() -> Vec<Heading> {
         Vec::new()
+    }
+
+    fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, Cell<'a>)) {
+        self.iter().for_each(|(name, value)| visit(name, Cell::Other(value)));
+    }
+}
+
+impl<T: Headings> Headings for Shared<T> {
+    fn headings() -> Vec<Heading> {
+        T::headings()
+    }
+
+    fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, Cell<'a>)) {
+        T::each_cell(self, visit);
     }
 }
 
@@ -210,7 +301,20 @@ macro_rules! columns {
                     )
                 ),+].concat()
             }
+
+            fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, $crate::heading::Cell<'a>)) {
+                $($crate::heading::columns!(@cell self, visit, $field, $type, [$($($how)+)?]);)+
+            }
         }
+    };
+    (@cell $self:ident, $visit:ident, $field:ident, $type:ty, [flatten]) => {
+        <$type as $crate::heading::Headings>::each_cell(&$self.$field, $visit)
+    };
+    (@cell $self:ident, $visit:ident, $field:ident, $type:ty, [rename = $name:literal]) => {
+        $visit($name, $crate::heading::InCell::cell(&$self.$field))
+    };
+    (@cell $self:ident, $visit:ident, $field:ident, $type:ty, []) => {
+        $visit(stringify!($field), $crate::heading::InCell::cell(&$self.$field))
     };
     (@of $field:ident, $type:ty, $meaning:expr, [flatten], []) => {
         <$type as $crate::heading::Headings>::headings()

@@ -30,6 +30,7 @@ pub mod interrupt;
 pub mod math;
 pub mod outcome;
 mod panics;
+pub mod shared;
 pub mod state;
 pub mod work;
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 columns! {
     /// Counters of a run, the columns `work_*` of a row.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(default)]
     pub struct Work {
         /// Points that were held against a face.
         #[serde(rename = "work_contact_tests")]
@@ -17,6 +18,9 @@ columns! {
         /// Steps with at least one contact to solve.
         #[serde(rename = "work_contact_solves")]
         pub contact_solves: u64,
+        /// Tangent rows of contacts that `time-stepping` has in its sweeps, two a contact and solve.
+        #[serde(rename = "work_tangent_rows")]
+        pub tangent_rows: u64,
         /// Sweeps over the contacts of a step, for velocities and for positions.
         #[serde(rename = "work_sweeps")]
         #[column(cheap)]

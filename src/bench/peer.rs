@@ -105,8 +105,9 @@ fn body(line: &Line, index: usize) -> Result<Value, PeerError> {
         Some("sphere") => json!({ "sphere": { "radius_m": a } }),
         // Half extents.
         Some("box") => json!({ "box": { "size_m": [2.0 * a, 2.0 * b, 2.0 * c] } }),
+        Some("ellipsoid") => json!({ "ellipsoid": { "semi_axes_m": [a, b, c] } }),
         Some("none") => json!("none"),
-        _ => return Err(line.expected("a body of shape sphere, box or none")),
+        _ => return Err(line.expected("a body of shape sphere, box, ellipsoid or none")),
     };
     Ok(json!({
         "name": format!("body{index}"), "shape": shape, "mass_kg": mass_kg, "inertia_kg_m2": [ix, iy, iz],

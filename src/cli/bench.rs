@@ -12,16 +12,17 @@ use crate::bench::{self, Contender, Ran, timing};
 use crate::experiment::ExperimentFile;
 use crate::experiment::bench::Bench;
 use crate::files::make_folder;
+use crate::heading::unit_of;
 use crate::report::pareto;
 use crate::report::subject::{Ground, Subject};
 use crate::report::tried;
-use crate::rows::cells;
-use crate::rows::trials::{self, Trial, methods, order, to_csv};
+use crate::rows::trials::{self, Trial, best_of_each_engine, methods, of_others, order, to_csv};
 use crate::study::reference;
 use crate::sweep::runner::Progress;
 use clap::Args;
 use comfy_table::TableComponent;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -35,6 +36,10 @@ pub struct Command {
     /// Write no report.html
     #[arg(long)]
     no_report: bool,
+    /// Rows of other engines on these scenes (CSV: scene, engine, method, step_s or dt, steps, error, error_kind,
+    /// wall_s), of which the best are shown beside these, as `benches/peers/` makes them
+    #[arg(long, value_name = "FILE.csv")]
+    with: Vec<PathBuf>,
     #[command(flatten)]
     experiment: ExperimentArgs,
     /// How progress is told, on stderr [default: a bar on a terminal]
@@ -60,16 +65,19 @@ impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
         // Every trial of every file is checked before the first run.
         let planned = self.planned()?;
+        let others = self.others()?;
+        let beside: Vec<Vec<Trial>> =
+            planned.iter().map(|planned| beside(planned, &others)).collect::<Result<_, CliError>>()?;
         let (mut all, mut seen, mut has_failed) = (Vec::new(), Vec::new(), false);
-        for planned in &planned {
+        for (planned, beside) in planned.iter().zip(&beside) {
             let dir = planned.config.out(self.out.as_deref(), &self.experiment);
             self.make_references(&planned.trials, &dir)?;
             let (rows, seen_here): (Vec<Trial>, Vec<Seen>) = self.on_one_core(planned, &dir)?.into_iter().unzip();
             let documents: Vec<Value> = rows.iter().zip(&seen_here).map(document).collect();
-            write(&dir, &title(planned), planned.file.written(), &rows, &documents)?;
+            write(&dir, &title(planned), planned.file.written(), (&rows, beside), &documents)?;
             let page = if self.no_report { None } else { write_report(&dir) };
             if !self.output.json {
-                print(shown(&planned.config.path, &rows, &dir, page.as_deref()));
+                print(shown(&planned.config.path, (&rows, beside), &dir, page.as_deref()));
             }
             has_failed |= rows.iter().any(|row| row.outcome == "failed");
             all.extend(documents);
@@ -102,6 +110,17 @@ impl Command {
         Ok(planned)
     }
 
+    /// Rows of all files of other engines.
+    fn others(&self) -> Result<Vec<Trial>, CliError> {
+        let mut all = Vec::new();
+        for path in &self.with {
+            let said = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+            let csv = std::fs::read(path).map_err(|error| CliError::Input(said(&error)))?;
+            all.extend(of_others(&csv).map_err(|error| CliError::Input(said(&error)))?);
+        }
+        Ok(all)
+    }
+
     fn make_references(&self, trials: &[Contender], dir: &Path) -> Result<(), CliError> {
         if trials.iter().any(|trial| trial.experiment.reference.is_some()) {
             let bar = Bar::new(&self.config, self.output, self.progress);
@@ -126,7 +145,7 @@ impl Command {
             let rows = planned.trials.iter().map(|trial| {
                 let ran = bench::run(trial, &planned.bench, &scene, Some(dir));
                 bar.one_done();
-                ran.map(|Ran { row, measured }| (row, Seen::of(&cells(&measured), &trial.experiment)))
+                ran.map(|Ran { row, measured }| (row, Seen::of(&measured, &trial.experiment)))
             });
             let rows = rows.collect::<Result<Vec<_>, _>>();
             bar.end();
@@ -139,6 +158,36 @@ impl Command {
         std::thread::scope(|scope| scope.spawn(work).join())
             .unwrap_or_else(|_| Err(CliError::Machine("the thread of the bench has failed".into())))
     }
+}
+
+/// Best rows of every other engine on the scene of a file: rows belong to it by its name, in which `-` and `_` are alike.
+fn beside(planned: &PlannedBench, others: &[Trial]) -> Result<Vec<Trial>, CliError> {
+    if others.is_empty() {
+        return Ok(Vec::new());
+    }
+    let name = |path: &str| path.rsplit('/').next().unwrap_or_default().replace('_', "-");
+    let own = name(&planned.config.path.with_extension("").display().to_string());
+    let of_scene: Vec<Trial> = others.iter().filter(|row| name(&row.scene) == own).cloned().collect();
+    let path = planned.config.path.display();
+    if of_scene.is_empty() && planned.config.is_of_folder {
+        return Ok(Vec::new());
+    }
+    if of_scene.is_empty() {
+        let known: BTreeSet<&str> = others.iter().map(|row| row.scene.as_str()).collect();
+        let known: Vec<&str> = known.into_iter().collect();
+        return Err(CliError::Input(format!("{path}: --with has no rows of this scene; it has {}", known.join(", "))));
+    }
+    // A scene may have several kinds of error; those of the same unit can be compared.
+    let unit = unit_of(&planned.bench.error);
+    let alike: Vec<Trial> = of_scene.iter().filter(|row| unit_of(&row.error_kind) == unit).cloned().collect();
+    if alike.is_empty() {
+        let found = &of_scene[0].error_kind;
+        return Err(CliError::Input(format!(
+            "{path}: --with has errors in another unit (`{found}`) than `{}`",
+            planned.bench.error
+        )));
+    }
+    Ok(best_of_each_engine(&alike))
 }
 
 /// JSON of a row, with the remarks about its run, if there are some.
@@ -157,8 +206,17 @@ fn title(planned: &PlannedBench) -> String {
 }
 
 /// Writes `bench.json`, which has the remarks too, `.csv`, `.svg` and `.png`, and what they are of.
-fn write(dir: &Path, title: &str, experiment: String, rows: &[Trial], documents: &[Value]) -> Result<(), CliError> {
-    let subject = Subject { trials: rows.to_vec(), ..Subject::default() };
+fn write(
+    dir: &Path,
+    title: &str,
+    experiment: String,
+    (rows, beside): (&[Trial], &[Trial]),
+    documents: &[Value],
+) -> Result<(), CliError> {
+    // Another engine's best rows are of several of its methods: one line.
+    let of_engine = |row: &Trial| Trial { method: String::new(), ..row.clone() };
+    let drawn = rows.iter().cloned().chain(beside.iter().map(of_engine)).collect();
+    let subject = Subject { trials: drawn, ..Subject::default() };
     let figure = pareto::figure(title, &tried::trials(&Ground::of(&subject)));
     let failed = |error: &dyn std::fmt::Display| CliError::Machine(format!("{}: {error}", dir.display()));
     let mut json = serde_json::to_vec(documents).map_err(|error| failed(&error))?;
@@ -185,7 +243,7 @@ fn write_report(dir: &Path) -> Option<PathBuf> {
     }
 }
 
-fn shown(config: &Path, rows: &[Trial], dir: &Path, page: Option<&Path>) -> String {
+fn shown(config: &Path, (rows, beside): (&[Trial], &[Trial]), dir: &Path, page: Option<&Path>) -> String {
     let column = rows.first().map_or("error", |row| row.error_kind.as_str());
     // Few enough for 80 letters: a method has a step or a tolerance, and most rows have finished.
     let has_ended_early = rows.iter().any(|row| row.outcome != "finished");
@@ -195,7 +253,9 @@ fn shown(config: &Path, rows: &[Trial], dir: &Path, page: Option<&Path>) -> Stri
     table.remove_style(TableComponent::HorizontalLines).remove_style(TableComponent::MiddleIntersections);
     let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.2e}"));
     let given = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:e}"));
-    for (row, on_front) in rows.iter().zip(trials::pareto(rows)) {
+    let of_engine = |row: &Trial| Trial { method: format!("{}: {}", row.engine, row.method), ..row.clone() };
+    let all: Vec<Trial> = rows.iter().cloned().chain(beside.iter().map(of_engine)).collect();
+    for (row, on_front) in all.iter().zip(trials::pareto(&all)) {
         let outcome = match &row.criterion {
             Some(criterion) => format!("{} ({criterion})", row.outcome),
             None => row.outcome.clone(),

@@ -3,12 +3,12 @@
 use super::args::{ExperimentArgs, OutputArgs};
 use super::error::CliError;
 use super::output::{print, print_json};
-use crate::experiment::types::Shape;
-use crate::plan::{Plan, Stage};
+use crate::experiment::types::{Shape, Skip};
+use crate::plan::{self, Plan, Stage};
 use crate::record::sampler::steps_between;
 use crate::run::ticks::ticks;
 use crate::scene;
-use crate::study::{reference, trial};
+use crate::study::{reference, sensitivity, trial};
 use crate::sweep::plan::cases;
 use crate::sweep::planned::Planned;
 use crate::sweep::recordings::{FEW, known_before};
@@ -38,12 +38,16 @@ struct Cost {
     bytes: u64,
 }
 
-/// A stage with the number of cases that have it, and the reasons given.
+/// A stage with the number of cases that have it, and the reasons given, each once.
 struct Tally {
     name: &'static str,
     runs: usize,
     skipped: usize,
     whys: Vec<String>,
+    /// Least and most of what there is of it in a case.
+    sizes: Vec<(&'static str, [usize; 2])>,
+    skip: Option<Skip>,
+    counter: Option<&'static str>,
 }
 
 impl Command {
@@ -90,30 +94,67 @@ fn describe(tally: &Tally) -> String {
         (0, _) => "skipped".to_string(),
         (runs, skipped) => format!("runs in {runs} cases, skipped in {skipped}"),
     };
-    format!("  {}: {how} — {}", tally.name, tally.whys.join("; "))
+    let size = |(name, [least, most]): &(_, [usize; 2])| match least == most {
+        true => format!("{least} {name}"),
+        false => format!("{least} to {most} {name}"),
+    };
+    let mut why = tally.whys.clone();
+    why.extend((!tally.sizes.is_empty()).then(|| tally.sizes.iter().map(size).collect::<Vec<_>>().join(", ")));
+    let mut text = format!("  {}: {how} — {}", tally.name, why.join("; "));
+    let word = |skip: Skip| format!("skip `{}`: {}", skip.word(), skip.bound());
+    let shown = [tally.skip.map(word), tally.counter.map(|by| format!("see `{by}`"))];
+    let shown: Vec<String> = shown.into_iter().flatten().collect();
+    if !shown.is_empty() {
+        text += &format!(" ({})", shown.join("; "));
+    }
+    text
 }
 
 fn tally_json(tally: &Tally) -> serde_json::Value {
-    json!({ "name": tally.name, "runs": tally.runs, "skipped": tally.skipped, "why": tally.whys })
+    let sizes: serde_json::Map<_, _> = tally.sizes.iter().map(|(name, ends)| (name.to_string(), json!(ends))).collect();
+    json!({
+        "name": tally.name, "runs": tally.runs, "skipped": tally.skipped, "why": tally.whys, "sizes": sizes,
+        "skip": tally.skip, "counter": tally.counter,
+    })
 }
 
 fn tallies(cases: &[Planned]) -> Vec<Tally> {
     let mut tallies: Vec<Tally> = Vec::new();
     for Planned { case, .. } in cases {
         let Ok((model, _)) = scene::build(&case.experiment) else { continue };
-        for Stage { name, runs, why } in Plan::new(&model, &case.experiment.method).stages {
-            let at = tallies.iter().position(|tally| tally.name == name).unwrap_or_else(|| {
-                tallies.push(Tally { name, runs: 0, skipped: 0, whys: Vec::new() });
-                tallies.len() - 1
-            });
-            let tally = &mut tallies[at];
-            *(if runs { &mut tally.runs } else { &mut tally.skipped }) += 1;
-            if !tally.whys.contains(&why) {
-                tally.whys.push(why);
+        let twins = plan::twins(sensitivity::is_wanted(&case.experiment));
+        for stage in Plan::new(&model, &case.experiment.method).stages.into_iter().chain([twins]) {
+            match tallies.iter_mut().find(|tally| tally.name == stage.name) {
+                Some(tally) => tally.add(stage),
+                None => tallies.push(Tally::of(stage)),
             }
         }
     }
     tallies
+}
+
+impl Tally {
+    fn of(stage: Stage) -> Self {
+        let Stage { name, skip, counter, .. } = stage;
+        let mut tally = Tally { name, runs: 0, skipped: 0, whys: Vec::new(), sizes: Vec::new(), skip, counter };
+        tally.add(stage);
+        tally
+    }
+
+    fn add(&mut self, stage: Stage) {
+        *(if stage.runs { &mut self.runs } else { &mut self.skipped }) += 1;
+        if !self.whys.contains(&stage.why) {
+            self.whys.push(stage.why);
+        }
+        for (name, size) in stage.sizes {
+            match self.sizes.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, [least, most])) => (*least, *most) = ((*least).min(size), (*most).max(size)),
+                None => self.sizes.push((name, [size; 2])),
+            }
+        }
+        self.skip = self.skip.or(stage.skip);
+        self.counter = self.counter.or(stage.counter);
+    }
 }
 
 /// Cost of all cases, extrapolated from trials of a few, evenly through the plan.

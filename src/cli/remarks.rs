@@ -3,6 +3,7 @@
 
 use crate::check::OneSided;
 use crate::experiment::types::Experiment;
+use crate::heading::Headings;
 use crate::rows::doubts::{Doubt, doubt, signs};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -25,8 +26,8 @@ pub(super) struct Remarks {
 
 impl Seen {
     /// What is seen of a row, or of what was measured.
-    pub(super) fn of(cells: &Map<String, Value>, experiment: &Experiment) -> Self {
-        Seen { signs: signs(cells), solves: experiment.method.facts().solves_contacts }
+    pub(super) fn of(row: &impl Headings, experiment: &Experiment) -> Self {
+        Seen { signs: signs(row), solves: experiment.method.facts().solves_contacts }
     }
 
     pub(super) fn is_doubtful(&self) -> bool {

@@ -56,7 +56,7 @@ pub(super) fn replay(
     let (ended, written) = run_case(&planned.case, &model, start, &place);
     let differing = row.map_or(Vec::new(), |row| differing(&row.measured, &ended.measured));
     let name = planned.name.ended(ended.measured.outcome);
-    let remarks = Remarks::about(&[Seen::of(&cells(&ended.measured), &planned.case.experiment)], &[]);
+    let remarks = Remarks::about(&[Seen::of(&ended.measured, &planned.case.experiment)], &[]);
     if output.json {
         let recording = (!targets.is_empty() && written.is_ok()).then_some(name.as_str());
         let mut document = document(&planned.case, recording, &model, &ended, &remarks);

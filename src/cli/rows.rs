@@ -3,7 +3,6 @@
 use super::args::OutputArgs;
 use super::error::CliError;
 use super::output::{print, print_json};
-use super::table::table;
 use crate::experiment::filter::{Condition, Filter, is_same, shown_cell};
 use crate::experiment::nearest::nearest;
 use crate::outcome::Outcome;
@@ -51,10 +50,12 @@ impl Command {
     /// The input is wrong, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         let folder = Folder::read(&self.dir)?;
-        let rows = Table::new(&folder.plan.axes, &folder.rows());
-        let known: Vec<&str> = rows.names().collect();
+        let there = folder.rows();
+        let table = Table::new(&folder.plan.axes, &there);
+        let known: Vec<&str> = table.names().collect();
+        let rows: Vec<Cells> = table.rows().collect();
         let filter = filter(&self.filters, &known, &folder.plan)?;
-        let mut chosen: Vec<&Cells> = rows.rows().filter(|row| takes(&filter, row)).collect();
+        let mut chosen: Vec<&Cells> = rows.iter().filter(|row| takes(&filter, row)).collect();
         self.sort(&mut chosen, &known)?;
         let columns = self.columns(&folder, &known, &chosen)?;
         let cells = |row: &Cells| -> Vec<Value> {
@@ -68,14 +69,14 @@ impl Command {
             let text = text.map_err(|error| CliError::Machine(format!("cannot write CSV: {error}")))?;
             print(String::from_utf8_lossy(&text).trim_end());
         } else {
-            let mut table = table(&columns);
+            let mut table = super::table::table(&columns);
             table.load_preset(presets::NOTHING);
             for row in &chosen {
                 table.add_row(columns.iter().zip(cells(row)).map(|(name, cell)| shown(name, &cell)));
             }
             print(table);
             if !self.output.quiet {
-                eprintln!("{} of {} rows, {} planned", chosen.len(), rows.rows().count(), folder.plan.rows);
+                eprintln!("{} of {} rows, {} planned", chosen.len(), rows.len(), folder.plan.rows);
             }
         }
         Ok(ExitCode::SUCCESS)

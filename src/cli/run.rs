@@ -18,7 +18,6 @@ use crate::plan::Plan;
 use crate::record::read::experiment_of;
 use crate::record::schema::text;
 use crate::record::writer::Target;
-use crate::rows::cells;
 use crate::study::{Place, Recording, reference};
 use crate::sweep::build::build;
 use crate::sweep::folder::Folder;
@@ -108,7 +107,7 @@ impl Command {
         let place = Place { references: Some(&dir), recording };
         let (ended, kept) = run_one(case, &model, start, &place, &mut store);
         let name = planned.name.ended(ended.measured.outcome);
-        let remarks = Remarks::about(&[Seen::of(&cells(&ended.measured), &case.experiment)], &[table_of(&dir)]);
+        let remarks = Remarks::about(&[Seen::of(&ended.measured, &case.experiment)], &[table_of(&dir)]);
         if self.output.json {
             let recording = (!targets.is_empty() && kept.is_ok()).then_some(name.as_str());
             print_json(&document(case, recording, &model, &ended, &remarks));

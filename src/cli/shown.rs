@@ -20,7 +20,7 @@ pub(super) fn document(case: &Case, recording: Option<&str>, model: &Model, ende
     let row = Row {
         case: case.id.clone(),
         axes: case.axes.clone(),
-        measured: ended.measured.clone(),
+        measured: ended.measured.clone().into(),
         recording: recording.map(str::to_string),
         build: BUILD.to_string(),
     };

@@ -11,7 +11,7 @@ use crate::measure::more;
 use crate::outcome::Outcome;
 use crate::record::writer::Target;
 use crate::rows::columns::{self, SEARCH};
-use crate::rows::{Row, cells, count};
+use crate::rows::{Row, count};
 use crate::sweep::folder::Folder;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::planned::Planned;
@@ -20,7 +20,6 @@ use crate::sweep::store::Store;
 use clap::Args;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
-use std::collections::HashMap;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -184,9 +183,11 @@ impl SweepArgs {
             rows = lock(&store).rows();
         }
         let took = clock.elapsed();
-        let cases: HashMap<&str, &Planned> = plan.cases.iter().map(|planned| (&*planned.case.id, planned)).collect();
-        let seen = |row: &Row| Some(Seen::of(&cells(row), &cases.get(&*row.case)?.case.experiment));
-        let seen = rows.iter().filter_map(seen).collect();
+        // Rows are in plan order, with gaps where there are none.
+        let mut cases = plan.cases.iter();
+        let mut case_of = |row: &Row| cases.find(|planned| planned.case.id == row.case);
+        let seen =
+            rows.iter().filter_map(|row| Some(Seen::of(&row.measured, &case_of(row)?.case.experiment))).collect();
         let (config, planned) = (config.path.clone(), plan.cases.len());
         Ok(Swept { config, dir, ran, planned, rows, seen, judged, broken, begun, took })
     }

@@ -6,6 +6,7 @@ use super::doubt::Doubts;
 use super::limits::{Limits, Reach};
 use super::two::of_pair;
 use super::{Contact, faces};
+use crate::experiment::types::Skip;
 use crate::model::surface::Surface;
 use crate::model::{Body, Model, pose_of_solid};
 use crate::shape::pair::{Apart, touches};
@@ -136,7 +137,12 @@ impl Detector {
                 self.bounds.push(Bounds::around(&at.p_WB, body.bounding_radius_m + limits.around_m(i)));
             }
         }
-        self.broad.pairs(&self.bounds, &mut self.pairs);
+        if model.skips.has(Skip::Bounds) {
+            return self.broad.pairs(&self.bounds, &mut self.pairs);
+        }
+        let count = self.solids.len() as u32;
+        self.pairs.clear();
+        self.pairs.extend((0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j))));
     }
 }
 
@@ -149,7 +155,7 @@ fn with_container(model: &Model, state: &State, limits: &impl Limits, contacts: 
         let Surface { friction, restitution, tangential_restitution } = model.pair(index, None);
         for (f, face) in container.faces.iter().enumerate() {
             let limit_m = limits.face_m(index, &face.normal);
-            work.contact_tests += faces::each_near(body, at, face, limit_m, |node, r_BC_W, gap_m| {
+            let visit = |node, r_BC_W: Vector3<f64>, gap_m| {
                 contacts.push(Contact {
                     body: index,
                     other: None,
@@ -163,7 +169,11 @@ fn with_container(model: &Model, state: &State, limits: &impl Limits, contacts: 
                     restitution,
                     tangential_restitution,
                 });
-            });
+            };
+            work.contact_tests += match model.skips.has(Skip::Bounds) {
+                true => faces::each_near(body, at, face, limit_m, visit),
+                false => faces::each_of_all(body, at, face, limit_m, visit),
+            };
         }
     }
 }

@@ -8,8 +8,21 @@ use crate::state::BodyState;
 use nalgebra::Vector3;
 
 /// Calls `visit(node, lever arm from the centre of mass in world axes, gap)` for all candidate points of a body whose
-/// gap to the face is below the limit, and returns the number of points that were looked at.
+/// gap to the face is below the limit, and returns the number of points that were looked at: none of a face beyond the
+/// bounding radius.
 pub fn each_near(
+    body: &Body,
+    at: &BodyState,
+    face: &Face,
+    limit_m: f64,
+    visit: impl FnMut(u32, Vector3<f64>, f64),
+) -> u64 {
+    let is_far = face.gap_m(&at.p_WB) - body.bounding_radius_m >= limit_m;
+    if is_far { 0 } else { each_of_all(body, at, face, limit_m, visit) }
+}
+
+/// The same, the points looked at however far the face is.
+pub fn each_of_all(
     body: &Body,
     at: &BodyState,
     face: &Face,
@@ -17,9 +30,6 @@ pub fn each_near(
     mut visit: impl FnMut(u32, Vector3<f64>, f64),
 ) -> u64 {
     let centre_gap_m = face.gap_m(&at.p_WB);
-    if centre_gap_m - body.bounding_radius_m >= limit_m {
-        return 0;
-    }
     let normal_B = at.q_WB.inverse_transform_vector(&face.normal);
     let points = body.geometry.points() as u64;
     if let Geometry::Solid { solid: Solid::Sphere { radius_m }, centre } = &body.geometry {

@@ -3,6 +3,7 @@
 use super::forces::{Gathered, Held, NO_SLIP, Solved};
 use super::motion::{ClosedMotion, Motion};
 use crate::exact::arc::Arc;
+use crate::experiment::types::Skip;
 use crate::model::Model;
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
@@ -29,7 +30,8 @@ pub fn settle(
 ) -> Option<f64> {
     let bodies = if held.is_empty() { 0 } else { model.bodies.len() };
     let resting: Vec<bool> = (0..bodies).map(|i| is_at_rest(model, state, i, forces)).collect();
-    let mut settling = Settling { model, held, forces, resting: &resting, ends_s: f64::INFINITY };
+    let is_closed = model.skips.has(Skip::ClosedForms);
+    let mut settling = Settling { model, held, forces, resting: &resting, ends_s: f64::INFINITY, is_closed };
     motions.clear();
     let mut dense = 0;
     for i in 0..model.bodies.len() {
@@ -55,6 +57,8 @@ struct Settling<'a> {
     forces: Forces<'a>,
     resting: &'a [bool],
     ends_s: f64,
+    /// Whether motions that have a closed form take it; what rests does in any case.
+    is_closed: bool,
 }
 
 impl Settling<'_> {
@@ -72,7 +76,7 @@ impl Settling<'_> {
         let pull = self.model.constant_pull(i)?;
         let own = || self.held.iter().enumerate().filter(move |(_, held)| held.touch.bodies().any(|b| b == i));
         if own().next().is_none() {
-            return Some(ClosedMotion::free(body, state.time_s, &at, pull));
+            return self.is_closed.then(|| ClosedMotion::free(body, state.time_s, &at, pull));
         }
         let all_others =
             |rest: &dyn Fn(usize) -> bool| own().all(|(_, held)| held.touch.bodies().all(|b| b == i || rest(b)));
@@ -84,7 +88,7 @@ impl Settling<'_> {
         if !all_others(&|b| self.model.bodies[b].driven && self.resting[b]) {
             return None;
         }
-        if !own().all(|(_, held)| held.touch.is_on_plane(i)) {
+        if !self.is_closed || !own().all(|(_, held)| held.touch.is_on_plane(i)) {
             return None;
         }
         let own: Vec<usize> = own().map(|(k, _)| k).collect();

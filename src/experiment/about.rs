@@ -35,8 +35,8 @@ impl Measure {
                 about("Difference quotients of the positions of a run against its velocities.", "lecture L1")
             }
             Measure::Sensitivity => about(
-                "Twin runs whose start is displaced a little. The column is always filled \
-                 for methods that follow events.",
+                "Three twin runs whose start is displaced a little. The column is always filled \
+                 for `auto`, and with `reference:`.",
                 "",
             ),
         }

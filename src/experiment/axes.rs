@@ -143,6 +143,11 @@ fn read_axis(key: &str, spec: &Value) -> Result<Axis> {
     let at = axis_path(key);
     let segments = split(key).map_err(|error| error.at(at.clone()))?;
     of_the_experiment(&segments[0], key, &at)?;
+    // Its cases would be one and the same, and share a row.
+    if segments[0] == "plan" {
+        let expected = "a key that a case's id depends on; set it for all cases (`--set plan.skip=[]`)";
+        return Err(ExperimentError::unexpected(at, expected, &format!("`{key}`")));
+    }
     let values = match spec {
         Value::Sequence(items) => read_list(items, &at)?,
         Value::Mapping(_) => from_value::<Form>(spec, &at)?.values(&at)?,

@@ -1,6 +1,6 @@
 //! An experiment file with what flags change: from text to resolved `Experiment`s, and from errors back to lines.
 
-use super::axes::{Axes, axis_path, value_path};
+use super::axes::{Axes, Axis, axis_path, value_path};
 use super::bench::{self, Bench};
 use super::copies;
 use super::emit::emit;
@@ -15,7 +15,7 @@ use super::source::read;
 use super::sweep::Sweep;
 use super::tree::{Number, Value};
 use super::types::Experiment;
-use super::validate::{normalise_quaternions, validate};
+use super::validate::{is_time_valid, normalise_quaternions, validate};
 use super::value_de::from_value;
 use std::path::{Path, PathBuf};
 
@@ -55,6 +55,33 @@ enum Varied {
     /// An axis, by its index.
     Axis(usize),
     Searched,
+}
+
+/// What an axis changes that leaves everything else of a resolved experiment as it is.
+#[derive(Clone, Copy)]
+enum Light {
+    Seed,
+    Step,
+}
+
+impl Light {
+    fn of(axis: &Axis) -> Option<Light> {
+        match axis.path.as_str() {
+            "seed" => Some(Light::Seed),
+            "time.step_s" => Some(Light::Step),
+            _ => None,
+        }
+    }
+
+    /// None: a value that is none, or one that has to be read with more care.
+    fn set(self, experiment: &mut Experiment, value: &Value) -> Option<()> {
+        let Value::Number(number) = value else { return None };
+        match self {
+            Light::Seed => experiment.seed = number.as_u64()?,
+            Light::Step => experiment.time.step_s = Some(number.as_f64().filter(|step_s| step_s.is_finite())?),
+        }
+        Some(())
+    }
 }
 
 /// A point of the axes, with a value of the searched key if there is one.
@@ -212,6 +239,28 @@ impl ExperimentFile {
     /// `point` is not a point of this file's axes.
     pub fn case(&self, point: &[usize]) -> Result<Experiment> {
         self.resolved_at(Point { indices: point, searched: None })
+    }
+
+    /// Whether some axis changes no more than the seed or the step, so that most cases are like others.
+    pub fn has_light_axes(&self) -> bool {
+        self.search.is_none() && self.axes.axes.iter().any(|axis| Light::of(axis).is_some())
+    }
+
+    /// The point without its values on the axes that change no more than the seed or the step: cases that have the same
+    /// are like each other.
+    pub fn likeness(&self, point: &[usize]) -> Vec<usize> {
+        let axes = self.axes.axes.iter().zip(point);
+        axes.filter(|(axis, _)| Light::of(axis).is_none()).map(|(_, value)| *value).collect()
+    }
+
+    /// The experiment at a point of the grid, from one at a point that it is like; they share the scene. None where it
+    /// takes more, or has something wrong that `case` says.
+    pub fn case_like(&self, like: &Experiment, point: &[usize]) -> Option<Experiment> {
+        let mut experiment = like.clone();
+        for (axis, value) in self.axes.axes.iter().zip(point) {
+            Light::of(axis).map_or(Some(()), |light| light.set(&mut experiment, &axis.values[*value].value))?;
+        }
+        is_time_valid(&experiment).then_some(experiment)
     }
 
     /// The experiment at a point of the grid, with a value of the searched key.

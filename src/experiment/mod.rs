@@ -33,6 +33,7 @@ mod reading;
 mod scene;
 pub mod schema;
 pub mod search;
+mod skips;
 mod solver;
 mod source;
 mod sweep;

@@ -12,11 +12,13 @@ pub use super::limits::{Limits, ReferenceRun};
 pub use super::loads::*;
 pub use super::method::*;
 pub use super::scene::*;
+pub use super::skips::{Planning, Skip, Skips};
 pub use super::solver::{
     AFFORDABLE_BODIES, AFFORDABLE_PROBLEMS, AFFORDABLE_PRODUCTS, FEWEST_PROBLEMS, Solver, SolverFacts, rule_of_auto,
 };
 pub use super::variants::*;
 use crate::clock::Clock;
+use crate::shared::Shared;
 use serde::{Deserialize, Serialize};
 use strum::{IntoStaticStr, VariantArray};
 
@@ -28,7 +30,7 @@ pub struct Experiment {
     /// Question that the experiment answers, in a sentence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub question: Option<String>,
-    pub scene: Scene,
+    pub scene: Shared<Scene>,
     /// Seed of all random draws, which depend on it and on the body's name.
     #[serde(default)]
     pub seed: u64,
@@ -39,6 +41,9 @@ pub struct Experiment {
     pub diverge: Diverge,
     #[serde(default, skip_serializing_if = "is_default")]
     pub limits: Limits,
+    /// How it is made; no part of a case's id.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub plan: Planning,
     #[serde(default)]
     pub record: Record,
     /// Columns beyond those of every row.
@@ -211,6 +216,7 @@ pub enum Measure {
     CriticalStep,
     /// Forward, backward and central quotients of the positions against the velocities.
     DifferenceQuotients,
-    /// Growth of an error of the start at the end; of methods that follow events it is always measured.
+    /// Growth of an error of the start at the end, at the cost of three more runs; with `auto` and `reference:` it is
+    /// always measured.
     Sensitivity,
 }

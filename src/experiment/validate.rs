@@ -35,6 +35,12 @@ pub fn validate(experiment: &Experiment) -> Result<()> {
     validate_measure(experiment, root.key("measure"))
 }
 
+/// Whether the time of an experiment makes sense, all else of which does.
+pub fn is_time_valid(experiment: &Experiment) -> bool {
+    let base = KeyPath::default();
+    validate_time(&experiment.time, &experiment.method, Path::Base(&base)).is_ok()
+}
+
 /// Deviation from 1 of the squared length of a normalised quaternion: four components, a root and two quotients, each
 /// rounded.
 const UNIT_SLACK: f64 = 8.0 * f64::EPSILON;

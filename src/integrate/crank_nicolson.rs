@@ -43,7 +43,7 @@ fn new_velocity_B(
     work: &mut Work,
 ) -> Option<Vector3<f64>> {
     let I = &body.I_B;
-    if body.isotropic {
+    if body.spins_steadily {
         return Some(old_B + body.I_B_inverse * torque_B * h);
     }
     let half = h / 2.0;

@@ -19,6 +19,6 @@ impl Drive {
 
     /// Whether ω changes: without a torque, moments of inertia that are all equal leave it as it is.
     pub fn turns(&self, body: &Body) -> bool {
-        !body.isotropic || self.torque_B != Vector3::zeros()
+        !body.spins_steadily || self.torque_B != Vector3::zeros()
     }
 }

@@ -22,7 +22,7 @@ fn advance(body: &Body, at: &mut BodyState, drive: &Drive, update: Update, h: f6
     at.v_WB += drive.acceleration * h;
     let turns = drive.turns(body);
     if turns {
-        work.gyroscopic += u64::from(!body.isotropic);
+        work.gyroscopic += u64::from(!body.spins_steadily);
         let w_B = at.q_WB.inverse_transform_vector(&at.w_WB);
         let torque_B = gyroscopic_torque_B(body, &w_B) + drive.torque_B;
         at.w_WB += at.q_WB * (body.I_B_inverse * torque_B) * h;

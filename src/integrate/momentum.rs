@@ -34,7 +34,7 @@ pub fn step_free(
 ) -> bool {
     for ((body, at, drive), L_W) in island.each(model).zip(momenta) {
         fall(at, &drive.acceleration, h);
-        if body.isotropic {
+        if body.spins_steadily {
             // ω is constant: nothing to solve, and the attitude is exact.
             at.q_WB = exponential(&(at.w_WB * h)) * at.q_WB;
             at.q_WB.renormalize();
@@ -79,7 +79,7 @@ fn half_turn(
     h: f64,
     work: &mut Work,
 ) -> Option<(UnitQuaternion<f64>, Vector3<f64>)> {
-    if body.isotropic {
+    if body.spins_steadily {
         let w_B = body.I_B_inverse * q_WB.inverse_transform_vector(L_W);
         return Some((exponential(&(w_B * (h / 2.0))), w_B));
     }

@@ -39,7 +39,7 @@ pub fn rate(body: &Body, drive: &Drive, y: &Phase, work: &mut Work) -> Phase {
     rate.fixed_rows_mut::<3>(0).copy_from(&y.fixed_rows::<3>(3));
     rate.fixed_rows_mut::<3>(3).copy_from(&drive.acceleration);
     if drive.turns(body) {
-        work.gyroscopic += u64::from(!body.isotropic);
+        work.gyroscopic += u64::from(!body.spins_steadily);
         let torque_B = gyroscopic_torque_B(body, &w_B(y)) + drive.torque_B;
         rate.fixed_rows_mut::<3>(6).copy_from(&(body.I_B_inverse * torque_B));
     }

@@ -40,7 +40,7 @@ pub fn turn_at_momentum(body: &Body, at: &mut BodyState, L_W: &Vector3<f64>, ste
     const MOST: u32 = 30;
     let w_at = |q: &UnitQuaternion<f64>| q * (body.I_B_inverse * q.inverse_transform_vector(L_W));
     let mut w_mid = w_at(&at.q_WB);
-    if !body.isotropic {
+    if !body.spins_steadily {
         work.gyroscopic += 1;
         for _ in 0..MOST {
             let next = w_at(&(exponential(&(w_mid * (step_s / 2.0))) * at.q_WB));

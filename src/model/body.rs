@@ -16,6 +16,8 @@ pub struct Body {
     pub I_B_inverse: Matrix3<f64>,
     /// Whether I is a multiple of the identity: no gyroscopic term, and I does not turn with the body.
     pub isotropic: bool,
+    /// Whether steps turn it by its constant spin: it is isotropic, and the gyroscopic term may be skipped.
+    pub spins_steadily: bool,
     /// Centre of mass in the body frame.
     pub p_BoBcm: Vector3<f64>,
     pub geometry: Geometry,

@@ -5,13 +5,16 @@ use super::container::Container;
 use super::loads::{AppliedForce, Wrench};
 use super::pins::{self, Pin};
 use super::surface::{Pair, Surface};
+use crate::experiment::types::Skips;
+use crate::shared::Shared;
 use crate::state::BodyState;
 use nalgebra::Vector3;
 
 #[derive(Clone, Debug)]
 pub struct Model {
     pub gravity_m_s2: Vector3<f64>,
-    pub bodies: Vec<Body>,
+    /// Bodies, which cases of one scene share.
+    pub bodies: Shared<Vec<Body>>,
     pub container: Option<Container>,
     pub container_surface: Surface,
     /// Pairs whose surface is not the mean of the two bodies'.
@@ -20,6 +23,8 @@ pub struct Model {
     pub pins: Vec<Pin>,
     /// A point at height zero of the potential energy.
     pub potential_zero_m: Vector3<f64>,
+    /// What a run leaves out where the scene does not need it.
+    pub skips: Skips,
     /// Whether some two bodies may touch each other.
     pub touching_pairs: bool,
 }

@@ -20,7 +20,9 @@ pub fn figure(title: &str, tried: &[Tried]) -> Figure {
         let of_method: Vec<&Tried> = tried.iter().filter(|tried| tried.trial.method == method).collect();
         let dots: Vec<Dot> = of_method.iter().filter_map(|tried| dot(&tried.trial, tried.row)).collect();
         let mut label = plain(method);
-        if let Some(order) = order(&trials, method) {
+        // Of another engine's best rows, which are of several methods, there is none.
+        let is_ours = of_method.iter().all(|tried| tried.trial.engine == "gotai");
+        if let Some(order) = order(&trials, method).filter(|_| is_ours) {
             label += &format!(", order {:.2}", order.slope);
         }
         // What a logarithm cannot show is said in words.

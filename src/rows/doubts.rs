@@ -2,6 +2,7 @@
 //! told by the names of columns alone, so that a column that a row does not have raises none.
 
 use super::Measured;
+use crate::heading::Headings;
 use serde_json::{Map, Value};
 
 /// Sign of a doubt: a column, and the value above which it is one.
@@ -45,14 +46,22 @@ pub fn columns() -> impl Iterator<Item = &'static str> {
 }
 
 /// Cells of a row that raise a doubt; none where there is none.
-pub fn signs(row: &Map<String, Value>) -> Map<String, Value> {
-    let shown = |sign: &Sign| Some((sign.column.to_string(), Value::from(sign.shown_by(row)?)));
-    KINDS.iter().flat_map(|kind| kind.signs).filter_map(shown).collect()
+pub fn signs(row: &impl Headings) -> Map<String, Value> {
+    let mut shown = Map::new();
+    row.each_cell(&mut |name, cell| {
+        let mut signs = KINDS.iter().flat_map(|kind| kind.signs).filter(|sign| sign.column == name);
+        if let (Some(sign), Some(x)) = (signs.next(), cell.as_f64())
+            && x > sign.above
+        {
+            shown.insert(name.to_string(), Value::from(x));
+        }
+    });
+    shown
 }
 
 /// Whether what was measured raises a doubt.
 pub fn are_raised(measured: &Measured) -> bool {
-    matches!(serde_json::to_value(measured), Ok(Value::Object(cells)) if !signs(&cells).is_empty())
+    !signs(measured).is_empty()
 }
 
 /// What is in doubt, in words, and the columns that say so.

@@ -1,6 +1,6 @@
 //! Measurements of a run: the columns of every row, one line each.
 
-use crate::heading::{CellKind, InCell, columns};
+use crate::heading::{Cell, CellKind, InCell, columns};
 use crate::outcome::Outcome;
 use crate::work::Work;
 use serde::{Deserialize, Serialize};
@@ -10,6 +10,7 @@ columns! {
     /// Measurements of a run, whatever sweep it belongs to. Fields are columns, in this order; a number that means
     /// nothing here is null. What the relative ones are relative to: docs/numbers.md.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    #[serde(default)]
     pub struct Measured {
         /// Outcome of the run: `finished`, `diverged`, `stalled` or `failed`. Divergence is a result, a failure is a
         /// fault of the program.
@@ -119,8 +120,8 @@ columns! {
         /// Last time of the reference at which its two runs agree.
         pub reference_until_s: Option<f64>,
         /// Factor by which an error of the start has grown at the end, from three twin runs that start displaced a
-        /// little. A body in free flight has 2. Always measured for methods that follow events, for others if
-        /// `measure:` asks for it.
+        /// little. A body in free flight has 2. Measured if `measure:` asks for it, for `auto`, and with `reference:`;
+        /// else null.
         pub sensitivity: Option<f64>,
         /// Largest number of contacts in a step.
         pub contacts_max: u64,
@@ -141,6 +142,10 @@ columns! {
 
 impl InCell for Outcome {
     const KIND: CellKind = CellKind::Text;
+
+    fn cell(&self) -> Cell<'_> {
+        Cell::Text(self.name())
+    }
 }
 
 impl Measured {

@@ -3,6 +3,7 @@
 use super::Measured;
 use crate::heading::columns;
 use crate::outcome::Outcome;
+use crate::shared::Shared;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -14,10 +15,10 @@ columns! {
         pub case: String,
         /// Every axis by its path.
         #[serde(flatten)]
-        pub axes: Map<String, Value>,
+        pub axes: Shared<Map<String, Value>>,
         /// Measurements of the run.
         #[serde(flatten)]
-        pub measured: Measured,
+        pub measured: Shared<Measured>,
         /// Name of the case's recording, without the ending of its files (`.rrd`, `.mcap`). Null where there is none.
         pub recording: Option<String>,
         /// Hash of the program that made the row.

@@ -33,6 +33,69 @@ impl Trial {
     }
 }
 
+/// Row of another engine, as the columns of a comparison are called.
+#[derive(Deserialize)]
+struct Other {
+    scene: String,
+    engine: String,
+    method: String,
+    #[serde(alias = "dt")]
+    step_s: Option<f64>,
+    #[serde(default)]
+    tolerance: Option<f64>,
+    steps: Option<f64>,
+    error: Option<f64>,
+    error_kind: String,
+    wall_s: Option<f64>,
+    #[serde(default)]
+    wall_median_s: Option<f64>,
+}
+
+/// Rows of other engines, from CSV with the columns scene, engine, method, step_s or dt, steps, error, error_kind and
+/// wall_s, and any others; those that have no error or no time are left out.
+///
+/// # Errors
+/// A column is missing, or holds something else.
+pub fn of_others(csv: &[u8]) -> Result<Vec<Trial>, csv::Error> {
+    let trial = |row: Other| Trial {
+        scene: row.scene,
+        engine: row.engine,
+        method: row.method,
+        step_s: row.step_s,
+        tolerance: row.tolerance,
+        steps: row.steps.unwrap_or_default() as u64,
+        error: row.error,
+        error_kind: row.error_kind,
+        wall_s: row.wall_s,
+        wall_median_s: row.wall_median_s,
+        outcome: "finished".to_string(),
+        criterion: None,
+    };
+    let rows = csv::Reader::from_reader(csv).into_deserialize::<Other>().collect::<Result<Vec<_>, _>>()?;
+    let is_whole = |row: &Trial| row.point().is_some_and(|(error, wall_s)| error.is_finite() && wall_s.is_finite());
+    Ok(rows.into_iter().map(trial).filter(is_whole).collect())
+}
+
+/// The rows of each engine that no other row of it beats, engines in the order of their first rows, the fastest first.
+pub fn best_of_each_engine(rows: &[Trial]) -> Vec<Trial> {
+    let mut engines: Vec<&str> = Vec::new();
+    for row in rows {
+        if !engines.contains(&row.engine.as_str()) {
+            engines.push(&row.engine);
+        }
+    }
+    let mut best = Vec::new();
+    for engine in engines {
+        let own: Vec<Trial> = rows.iter().filter(|row| row.engine == engine).cloned().collect();
+        let on_front = pareto(&own);
+        let mut front: Vec<Trial> =
+            own.into_iter().zip(on_front).filter(|(_, is_on)| *is_on).map(|(row, _)| row).collect();
+        front.sort_by(|a, b| a.wall_s.unwrap_or(f64::INFINITY).total_cmp(&b.wall_s.unwrap_or(f64::INFINITY)));
+        best.extend(front);
+    }
+    best
+}
+
 /// Labels of the methods in the order of their first rows.
 pub fn methods(rows: &[Trial]) -> Vec<&str> {
     let mut methods: Vec<&str> = Vec::new();

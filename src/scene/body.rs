@@ -12,7 +12,7 @@ use crate::shape::moments::{MassProperties, Moments, exact, lumped};
 use crate::shape::solid::Solid;
 use nalgebra::{Matrix3, Vector3};
 
-pub(super) fn build_body(described: &file::Body, scene: &file::Scene) -> Result<Body, BuildError> {
+pub(super) fn build_body(described: &file::Body, scene: &file::Scene, skips: file::Skips) -> Result<Body, BuildError> {
     let mesh = described.mesh.as_ref().and_then(|spec| volume_mesh(&described.shape, spec));
     let solid = build_solid(described)?;
     let drag = scene.air.map_or_else(Drag::default, |air| build_drag(&air, solid.as_ref()));
@@ -26,13 +26,15 @@ pub(super) fn build_body(described: &file::Body, scene: &file::Scene) -> Result<
         Geometry::Solid { solid, centre } => centre.norm() + solid.bounding_radius_m(),
     };
     let I_B = snapped(mass.I_B);
+    let isotropic = I_B == Matrix3::identity() * I_B[(0, 0)];
     Ok(Body {
         name: described.name.clone(),
         mass_kg: mass.mass_kg,
         I_B,
         // A flat or point-like body has no inverse about some axis: nothing turns it there.
         I_B_inverse: I_B.try_inverse().unwrap_or_else(Matrix3::zeros),
-        isotropic: I_B == Matrix3::identity() * I_B[(0, 0)],
+        isotropic,
+        spins_steadily: isotropic && skips.has(file::Skip::GyroscopicTerm),
         p_BoBcm: mass.p_BoBcm,
         geometry,
         bounding_radius_m,

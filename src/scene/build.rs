@@ -11,8 +11,10 @@ use crate::model::container::{Container, Face};
 use crate::model::loads::AppliedForce;
 use crate::model::surface::{Pair, Surface};
 use crate::model::{Body, Model};
+use crate::shared::Shared;
 use crate::state::State;
 use nalgebra::Vector3;
+use std::cell::RefCell;
 
 /// Model and first state of an experiment that has passed validation.
 ///
@@ -23,15 +25,13 @@ pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError
     let scene = &experiment.scene;
     let container = scene.container.as_ref().map(build_container);
     let landing = Landing::new(experiment, container.as_ref());
-    let mut bodies = Vec::with_capacity(scene.bodies.len());
+    let bodies = build_bodies(&experiment.scene, experiment.plan.skip)?;
     let mut states = Vec::with_capacity(scene.bodies.len());
     let mut depths_m = Vec::with_capacity(scene.bodies.len());
-    for described in &scene.bodies {
-        let body = build_body(described, scene)?;
-        let (state, depth_m) = first_state(described, &body, experiment, landing.as_ref())?;
+    for (described, body) in scene.bodies.iter().zip(bodies.iter()) {
+        let (state, depth_m) = first_state(described, body, experiment, landing.as_ref())?;
         states.push(state);
         depths_m.push(depth_m);
-        bodies.push(body);
     }
     let forces = scene.forces.iter().map(|force| build_force(force, &bodies)).collect();
     let pins = build_pins(scene, &bodies, &mut states)?;
@@ -52,12 +52,42 @@ pub fn build(experiment: &file::Experiment) -> Result<(Model, State), BuildError
         forces,
         pins,
         potential_zero_m,
+        skips: experiment.plan.skip,
     };
     let state = State { step: 0, time_s: 0.0, bodies: states };
     if experiment.method.facts().contact != file::ContactModel::None && !scene.allow_overlap {
         refuse_overlap(&model, &state, &depths_m)?;
     }
     Ok((model, state))
+}
+
+/// Whether an experiment that can be built can be built with every other seed, and every other step.
+pub fn is_sound_whatever_the_seed(experiment: &file::Experiment) -> bool {
+    let scene = &experiment.scene;
+    let Some(random) = &scene.random else { return true };
+    let solids = scene.bodies.iter().filter(|body| body.shape != file::Shape::None).count();
+    let is_looked_at = experiment.method.facts().contact != file::ContactModel::None && !scene.allow_overlap;
+    let may_overlap = is_looked_at && random.attitude && (solids > 1 || (solids > 0 && scene.container.is_some()));
+    scene.pins.is_empty() && random.place.is_none() && !may_overlap
+}
+
+thread_local! {
+    /// Bodies that this thread has built last, and of which scene: the cases of a sweep that differ by seed or step
+    /// alone have one.
+    static LAST: RefCell<Option<(Shared<file::Scene>, file::Skips, Shared<Vec<Body>>)>> = const { RefCell::new(None) };
+}
+
+fn build_bodies(scene: &Shared<file::Scene>, skips: file::Skips) -> Result<Shared<Vec<Body>>, BuildError> {
+    let is_it = |(of, with, _): &&(Shared<file::Scene>, file::Skips, Shared<Vec<Body>>)| {
+        of.is_one_with(scene) && *with == skips
+    };
+    if let Some(bodies) = LAST.with_borrow(|last| last.as_ref().filter(is_it).map(|(.., bodies)| bodies.clone())) {
+        return Ok(bodies);
+    }
+    let bodies = scene.bodies.iter().map(|described| build_body(described, scene, skips));
+    let bodies = Shared::new(bodies.collect::<Result<Vec<_>, _>>()?);
+    LAST.set(Some((scene.clone(), skips, bodies.clone())));
+    Ok(bodies)
 }
 
 fn build_container(container: &file::Container) -> Container {

@@ -12,5 +12,5 @@ mod pins;
 mod place;
 pub mod random;
 
-pub use build::build;
+pub use build::{build, is_sound_whatever_the_seed};
 pub use error::BuildError;

@@ -45,7 +45,7 @@ pub fn solve(
         problem.response(p, u);
         strict_residual(problem, p, u) <= KEPT * goal.tolerance && !shares_matter(problem, 0..p.len(), p, u)
     };
-    if lasts(p, &mut scratch.u) {
+    if scratch.keeps && lasts(p, &mut scratch.u) {
         work.kept_solves += 1;
         return true;
     }
@@ -65,7 +65,7 @@ pub fn solve(
         let is_new = own.iter().all(|p| *p == Impulse::zeros());
         let contacts = island.touches.iter().map(|touch| touch.index);
         let is_shared = is_new || shares_matter(problem, contacts, p, &scratch.u);
-        if !is_shared && island.is_strictly_met(KEPT * goal.tolerance, &own) {
+        if scratch.keeps && !is_shared && island.is_strictly_met(KEPT * goal.tolerance, &own) {
             work.kept_solves += 1;
             continue;
         }
@@ -84,11 +84,13 @@ pub fn solve(
 pub struct Scratch {
     nncg: nncg::Scratch,
     u: Vec<Twist>,
+    /// Whether impulses of the last step that still obey the law are taken as they are.
+    keeps: bool,
 }
 
 impl Scratch {
-    pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
-        Scratch { nncg: nncg::Scratch::with_capacity(contacts, bodies), u: Vec::with_capacity(bodies) }
+    pub fn with_capacity(contacts: usize, bodies: usize, keeps: bool) -> Self {
+        Scratch { nncg: nncg::Scratch::with_capacity(contacts, bodies), u: Vec::with_capacity(bodies), keeps }
     }
 }
 

@@ -17,10 +17,11 @@ pub enum ContactSolver {
 }
 
 impl ContactSolver {
-    /// With room for so many contacts and bodies.
-    pub fn new(which: Solver, contacts: usize, bodies: usize) -> Self {
+    /// With room for so many contacts and bodies. `keeps`: whether `auto` takes impulses as they are that still obey
+    /// the law.
+    pub fn new(which: Solver, contacts: usize, bodies: usize, keeps: bool) -> Self {
         match which {
-            Solver::Auto => ContactSolver::Auto(auto::Scratch::with_capacity(contacts, bodies)),
+            Solver::Auto => ContactSolver::Auto(auto::Scratch::with_capacity(contacts, bodies, keeps)),
             Solver::Pgs => ContactSolver::Pgs(gauss_seidel::Scratch::with_capacity(contacts, bodies)),
             Solver::Nncg => ContactSolver::Nncg(nncg::Scratch::with_capacity(contacts, bodies)),
             Solver::Newton => ContactSolver::Newton(gauss_seidel::Scratch::with_capacity(contacts, bodies)),

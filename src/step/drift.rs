@@ -21,7 +21,7 @@ pub fn drift(model: &Model, state: &mut State, time_s: f64, work: &mut Work) {
     state.time_s += time_s;
     for (body, at) in model.bodies.iter().zip(&mut state.bodies) {
         at.p_WB += at.v_WB * time_s;
-        if body.isotropic || body.driven {
+        if body.spins_steadily || body.driven {
             at.q_WB = exponential(&(at.w_WB * time_s)) * at.q_WB;
         } else if at.w_WB.amax() > 0.0 && at.is_finite() {
             let L_W = momentum_W(body, &at.q_WB, &at.w_WB);

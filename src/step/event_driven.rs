@@ -134,7 +134,7 @@ impl EventDriven {
             longest_s: slip::longest_s(model),
             stretch_s: stretch::length_s(model),
             law: settings.impact,
-            contact: plan.contact,
+            contact: plan.looks,
             motions: Vec::with_capacity(model.bodies.len()),
             held: Vec::new(),
             steady_W: Vec::new(),

@@ -86,7 +86,7 @@ pub(super) fn push_out(model: &Model, state: &mut State, push: &Push) {
 /// The body at another place, with its velocity and its own angular momentum.
 fn moved(body: &Body, at: &BodyState, by: &Twist) -> BodyState {
     let mut moved = BodyState { p_WB: at.p_WB + by.v, q_WB: exponential(&by.w) * at.q_WB, ..*at };
-    if !body.isotropic {
+    if !body.spins_steadily {
         moved.w_WB = w_from_momentum(body, &moved, &(body.I_W(at) * at.w_WB));
     }
     moved

@@ -99,7 +99,7 @@ pub(super) fn move_body(
         Rotation::Momentum => {
             let I_W = body.I_W(at);
             turn_at_momentum(body, at, &(I_W * moving.w), step_s, work);
-            at.w_WB = if body.isotropic { new.w } else { w_from_momentum(body, at, &(I_W * new.w)) };
+            at.w_WB = if body.spins_steadily { new.w } else { w_from_momentum(body, at, &(I_W * new.w)) };
         }
     }
 }

@@ -20,7 +20,7 @@ use crate::collide::lasting::{Hold, Lasting};
 use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, SolvedContact};
 use crate::deadline::Deadline;
-use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, TimeStepping as Settings};
+use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, Skip, TimeStepping as Settings};
 use crate::model::pins::Pin as Joint;
 use crate::model::{Body, Model};
 use crate::plan::Plan;
@@ -95,7 +95,12 @@ impl TimeStepping {
             deadline: Deadline::default(),
         };
         TimeStepping {
-            solver: ContactSolver::new(settings.solver, scratch.contacts(), scratch.free.capacity()),
+            solver: ContactSolver::new(
+                settings.solver,
+                scratch.contacts(),
+                scratch.free.capacity(),
+                plan.skips.has(Skip::KeptImpulses),
+            ),
             scheme: plan.approach,
             approach: plan.approach,
             sweeps,
@@ -292,6 +297,7 @@ impl TimeStepping {
         }
         s.impulses.extend(&self.last_pins);
         s.impulses.resize(s.problem.blocks.len(), Impulse::zeros());
+        s.work.tangent_rows += if self.sweeps.friction { 2 * s.found.len() as u64 } else { 0 };
         let mut settled = s.problem.blocks.is_empty();
         for _ in 0..MOST_STOPS {
             settled = settled || self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work);

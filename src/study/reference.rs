@@ -8,7 +8,9 @@ use crate::case;
 use crate::clock::Clock;
 use crate::digest::{sealed, unsealed};
 use crate::experiment::tolerances::SMALLEST_GLOBAL;
-use crate::experiment::types::{EventDriven, Experiment, Limits, Method, Record, ReferenceRun, SteppingMethod, Time};
+use crate::experiment::types::{
+    EventDriven, Experiment, Limits, Method, Planning, Record, ReferenceRun, SteppingMethod, Time,
+};
 use crate::files::{self, FileError, make_folder, write_whole};
 use crate::measure::error::Errors;
 use crate::measure::reference::{PARTS, Reference, Sample};
@@ -43,6 +45,7 @@ pub fn id(experiment: &Experiment) -> Option<String> {
         },
         diverge: Default::default(),
         limits: Limits::default(),
+        plan: Planning::default(),
         record: Record::default(),
         measure: Vec::new(),
         exact: None,

@@ -36,9 +36,12 @@ const FRAME: [Vector3<f64>; 3] = [
     Vector3::new(6.0 / 7.0, 2.0 / 7.0, -3.0 / 7.0),
 ];
 
-/// Whether the growth is measured. It costs three more runs: who follows events wants to be told, others ask.
+/// Whether the growth is measured. It costs three more runs: who asks is told, whatever the method, and who compares
+/// ends (`auto`, `reference:`), to whom an error says little without it.
 pub fn is_wanted(experiment: &Experiment) -> bool {
-    experiment.method.follows_events() || experiment.measure.contains(&Measure::Sensitivity)
+    experiment.measure.contains(&Measure::Sensitivity)
+        || experiment.reference.is_some()
+        || experiment.method.facts().chooses
 }
 
 /// Writes the growth of errors into what was measured, if it is wanted.

@@ -6,9 +6,11 @@
 
 use super::recorded::Recorded;
 use crate::build_info::BUILD;
-use crate::digest::{sealed, unsealed};
+use crate::digest::{seal, sealed, unsealed};
 use crate::files::{self, FileError, write_whole};
+use crate::heading::{Cell, Headings};
 use crate::rows::Measured;
+use crate::shared::Shared;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -21,7 +23,7 @@ pub struct Entry {
     pub case: String,
     pub build: String,
     #[serde(flatten)]
-    pub measured: Measured,
+    pub measured: Shared<Measured>,
 }
 
 /// One line.
@@ -102,13 +104,20 @@ impl JournalFile {
         Ok((JournalFile { path, file, is_torn }, Journal::of(&text)))
     }
 
-    /// Appends a line at once.
+    /// Appends a recording's line at once.
     ///
     /// # Errors
     /// The machine failed.
-    pub fn add(&mut self, entry: &impl Serialize) -> Result<(), FileError> {
-        let begin = if std::mem::take(&mut self.is_torn) { "\n" } else { "" };
-        self.write(&(begin.to_string() + &line(entry)))
+    pub fn add(&mut self, recorded: &Recorded) -> Result<(), FileError> {
+        self.write(line(recorded).into_bytes())
+    }
+
+    /// Appends a row's line at once.
+    ///
+    /// # Errors
+    /// The machine failed.
+    pub fn add_row(&mut self, entry: &Entry) -> Result<(), FileError> {
+        self.write(row_line(entry))
     }
 
     /// Makes these lines the whole journal, in the order of the ids.
@@ -120,12 +129,16 @@ impl JournalFile {
         rows.sort_by_key(|entry| &entry.case);
         let mut recordings: Vec<&Recorded> = kept.recordings.values().collect();
         recordings.sort_by_key(|recorded| &recorded.recorded);
-        let lines: String = rows.iter().map(line).chain(recordings.iter().map(line)).collect();
-        write_whole(&path(dir), lines.as_bytes())
+        let recordings = recordings.iter().map(|recorded| line(recorded).into_bytes());
+        let lines: Vec<u8> = rows.into_iter().map(row_line).chain(recordings).flatten().collect();
+        write_whole(&path(dir), &lines)
     }
 
-    fn write(&mut self, text: &str) -> Result<(), FileError> {
-        self.file.write_all(text.as_bytes()).map_err(|error| FileError::new(&self.path, error))
+    fn write(&mut self, mut line: Vec<u8>) -> Result<(), FileError> {
+        if std::mem::take(&mut self.is_torn) {
+            line.insert(0, b'\n');
+        }
+        self.file.write_all(&line).map_err(|error| FileError::new(&self.path, error))
     }
 }
 
@@ -150,6 +163,25 @@ pub fn open_alone(dir: &Path, path: &Path) -> Result<File, FileError> {
             return Ok(file);
         }
     }
+}
+
+/// Row on a line of its own, sealed, without the columns of every row that are null.
+fn row_line(Entry { case, build, measured }: &Entry) -> Vec<u8> {
+    let mut said = Vec::with_capacity(1 << 11);
+    let mut say = |name: &str, cell: Cell| {
+        if cell != Cell::Null {
+            said.push(if said.is_empty() { b'{' } else { b',' });
+            Cell::Text(name).write_json(&mut said);
+            said.push(b':');
+            cell.write_json(&mut said);
+        }
+    };
+    say("case", Cell::Text(case));
+    say("build", Cell::Text(build));
+    measured.each_cell(&mut say);
+    let mut line = seal(said);
+    line.push(b'\n');
+    line
 }
 
 /// Sealed object on a line of its own.

@@ -4,6 +4,7 @@ use super::cell::Cell;
 use super::names;
 use crate::case::Case;
 use crate::experiment::ExperimentFile;
+use crate::experiment::types::Accuracy;
 use crate::record::name::RecordingName;
 use crate::record::writer::Target;
 use crate::study::Recording;
@@ -18,7 +19,7 @@ pub struct Planned {
     /// Name of its recording.
     pub name: RecordingName,
     /// Search of many runs that make the row: a bisection, whose first run is the case's.
-    pub search: Option<Cell>,
+    pub search: Option<Box<Cell>>,
 }
 
 impl Planned {
@@ -31,6 +32,19 @@ impl Planned {
     /// Puts all digits of its id into its name.
     pub fn with_whole_id(&mut self, file: &ExperimentFile, config: &str) {
         self.name = RecordingName::new(&names::values(file, &self.point, config), &self.case.id);
+    }
+
+    /// How long it is likely to take beside others, by counts alone: steps times what there is to move and to touch.
+    pub fn likely_cost(&self) -> f64 {
+        /// Stretches of a second, of a method that follows events, beside steps of others, each of which costs more.
+        const STRETCHES_1_S: f64 = 1e3;
+        let experiment = &self.case.experiment;
+        let steps = match experiment.method.accuracy() {
+            Accuracy::Step => experiment.clock().steps as f64,
+            Accuracy::Tolerance(_) | Accuracy::Closed => STRETCHES_1_S * experiment.time.end_s,
+        };
+        let runs = self.search.as_ref().map_or(1, |cell| cell.expected_runs());
+        steps * experiment.scene.bodies.len() as f64 * runs as f64
     }
 
     /// Recording of the case in a folder; None where there is no kind of file to record into.

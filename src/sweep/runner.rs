@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, HashSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Failure of the machine during a sweep; rows of cases that had ended are kept.
 #[derive(Debug, thiserror::Error)]
@@ -89,7 +89,10 @@ impl Job<'_> {
         self.make_references(&missing, cases)?;
         self.progress.begin("cases", missing.len());
         let done = AtomicUsize::new(0);
-        let ran = missing.par_iter().filter(|_| !self.progress.is_stopped()).try_for_each(|&i| {
+        let ran = in_turn(&longest_first(&missing, cases), |&i| {
+            if self.progress.is_stopped() {
+                return Ok(());
+            }
             let targets = if at_once.contains(&i) { self.targets } else { &[] };
             let (measured, written) = self.caught(&cases[i], targets);
             let (id, outcome) = (&cases[i].case.id, measured.outcome);
@@ -215,6 +218,29 @@ fn chosen<'a>(rule: RecordCases, cases: &'a [Planned], store: &Store) -> Vec<Cho
     let mut seen = HashSet::new();
     let first = chosen.filter(|(planned, outcome)| *outcome != Outcome::Failed && seen.insert(&planned.case.id));
     first.map(|(planned, outcome)| (planned, store.recorded(&planned.case.id).cloned(), outcome)).collect()
+}
+
+/// The same, those that are likely to take longest first, so that none is left alone at the end; of equals in plan
+/// order.
+fn longest_first(missing: &[usize], cases: &[Planned]) -> Vec<usize> {
+    let mut ordered: Vec<(f64, usize)> = missing.iter().map(|&i| (cases[i].likely_cost(), i)).collect();
+    ordered.sort_by(|(a, i), (b, j)| b.total_cmp(a).then(i.cmp(j)));
+    ordered.into_iter().map(|(_, i)| i).collect()
+}
+
+/// Does the work on all items on all threads, each thread taking the next one in their order; after a failure no new
+/// ones.
+fn in_turn<T: Sync>(items: &[T], work: impl Fn(&T) -> Result<(), SweepError> + Sync) -> Result<(), SweepError> {
+    let (next, failed) = (AtomicUsize::new(0), Mutex::new(None));
+    rayon::broadcast(|_| {
+        while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
+            if let Err(error) = work(item) {
+                next.store(items.len(), Ordering::Relaxed);
+                failed.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+            }
+        }
+    });
+    failed.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
 }
 
 /// The first of equal cases stands for all of them.

@@ -53,7 +53,7 @@ fn case(cell: Cell, first: &[usize], name: &str) -> Result<Planned, ExperimentEr
     let over = search.over.map(|over| file.axes().axes[over].path.clone());
     let axes: Map<_, _> = columns(file.axes(), first).filter(|(path, _)| Some(path) != over.as_ref()).collect();
     let planned = Planned::new(file, Case::of_search(cell.rule(), ends, axes), first.to_vec(), name);
-    Ok(Planned { search: Some(cell), ..planned })
+    Ok(Planned { search: Some(Box::new(cell)), ..planned })
 }
 
 /// Both ends are whole, and between them nothing else is accepted.

@@ -15,6 +15,7 @@ use crate::outcome::Outcome;
 use crate::record::writer::Target;
 use crate::rows::plan_file::PlanFile;
 use crate::rows::{Measured, Row, table};
+use crate::shared::Shared;
 use serde_json::{Map, Value};
 use std::collections::HashSet;
 use std::fmt;
@@ -28,7 +29,7 @@ pub struct Store {
     dir: PathBuf,
     plan: PlanFile,
     /// Ids of the plan's cases with their values on the axes.
-    order: Vec<(String, Map<String, Value>)>,
+    order: Vec<(String, Shared<Map<String, Value>>)>,
     /// The plan that was here before.
     before: Option<PlanFile>,
     journal: JournalFile,
@@ -97,12 +98,12 @@ impl Store {
     }
 
     pub fn measured(&self, case: &str) -> Option<&Measured> {
-        self.done.rows.get(case).map(|entry| &entry.measured)
+        self.done.rows.get(case).map(|entry| &*entry.measured)
     }
 
     /// Measurements of a case, if this very program made them: another one may give other bits.
     pub fn measured_by_this_build(&self, case: &str) -> Option<&Measured> {
-        self.done.rows.get(case).filter(|entry| entry.build == BUILD).map(|entry| &entry.measured)
+        self.done.rows.get(case).filter(|entry| entry.build == BUILD).map(|entry| &*entry.measured)
     }
 
     /// Recording of a case whose row is there, whichever build they are of.
@@ -120,8 +121,8 @@ impl Store {
     /// # Errors
     /// The machine failed.
     pub fn add(&mut self, case: &str, measured: Measured) -> Result<(), FileError> {
-        let entry = Entry { case: case.to_string(), build: BUILD.to_string(), measured };
-        self.journal.add(&entry)?;
+        let entry = Entry { case: case.to_string(), build: BUILD.to_string(), measured: measured.into() };
+        self.journal.add_row(&entry)?;
         self.done.rows.insert(entry.case.clone(), entry);
         Ok(())
     }
@@ -182,13 +183,13 @@ fn refuse_foreign(dir: &Path) -> Result<(), StoreError> {
 }
 
 /// Ids of cases with their values on the axes, in plan order.
-pub(super) fn order(cases: &[Planned]) -> Vec<(String, Map<String, Value>)> {
+pub(super) fn order(cases: &[Planned]) -> Vec<(String, Shared<Map<String, Value>>)> {
     cases.iter().map(|Planned { case, .. }| (case.id.clone(), case.axes.clone())).collect()
 }
 
 /// Rows of a plan that there are, in its order.
-pub(super) fn rows(dir: &Path, order: &[(String, Map<String, Value>)], done: &Journal) -> Vec<Row> {
-    let row = |(case, axes): &(String, Map<String, Value>)| {
+pub(super) fn rows(dir: &Path, order: &[(String, Shared<Map<String, Value>>)], done: &Journal) -> Vec<Row> {
+    let row = |(case, axes): &(String, Shared<Map<String, Value>>)| {
         let Entry { case, build, measured } = done.rows.get(case)?.clone();
         let is_there = |recorded: &&Recorded| Target::ALL.iter().any(|target| recorded.is_whole(dir, *target, false));
         let recording = done.recorded(&case).filter(is_there).map(|recorded| recorded.name.clone());
@@ -199,13 +200,14 @@ pub(super) fn rows(dir: &Path, order: &[(String, Map<String, Value>)], done: &Jo
 
 pub(super) fn write_tables(dir: &Path, plan: &PlanFile, rows: &[Row], csv: bool) -> Result<(), FileError> {
     let table = table::Table::new(&plan.axes, rows);
+    let written = table.written();
     let path = dir.join("rows.csv");
     if csv || rows.len() <= CSV_ROWS {
-        write_whole(&path, &table.to_csv().map_err(|error| FileError::new(&path, error))?)?;
+        write_whole(&path, &written.csv)?;
     } else {
         // Of fewer rows, and no longer true.
         files::remove(&path)?;
     }
     let path = dir.join("rows.parquet");
-    write_whole(&path, &table.to_parquet(plan).map_err(|error| FileError::new(&path, error))?)
+    write_whole(&path, &table.to_parquet(plan, &written.hash).map_err(|error| FileError::new(&path, error))?)
 }

@@ -175,3 +175,42 @@ fn of_a_folder_the_files_with_a_bench_are_run() {
     assert_eq!(serde_json::from_str::<Value>(&text).unwrap().as_array().unwrap().len(), 18);
     assert!(out.join("a/bench.png").exists() && out.join("b/bench.svg").exists() && !out.join("none").exists());
 }
+
+#[test]
+fn other_engines_stand_beside_the_rows_in_table_and_diagram() {
+    let folder = scratch::folder();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_string()
+    };
+    let config = file("my-spin.yaml", SPIN);
+    let head = "scene,engine,method,dt,steps,error,error_kind,wall_s,wall_per_sim_second";
+    let others = file(
+        "others.csv",
+        &format!(
+            "{head}\nmy_spin,tops,RK4,0.01,200,1e-12,angle_rad,1e-9,1e-9\nmy_spin,tops,Euler,0.01,200,1e-2,angle_rad,1,1\n\
+             my_spin,tops,slow,0.01,,,failed: timeout,,\nelsewhere,tops,RK4,0.01,200,1e-3,angle_rad,1,1\n"
+        ),
+    );
+    let out = folder.path().join("out").to_str().unwrap().to_string();
+    let (code, text, err) = run(&["bench", &config, "--with", &others, "--out", &out]);
+    assert_eq!(code, 0, "{err}");
+    // The one that its own rows beat is left out, and nothing here is as fast as the other.
+    assert!(text.contains("tops: RK4") && !text.contains("Euler") && text.matches('◆').count() <= 3, "{text}");
+    let svg = std::fs::read_to_string(folder.path().join("out/bench.svg")).unwrap();
+    assert!(svg.contains("tops") && svg.contains("free rk4, order"));
+    // Files keep to the rows of this program.
+    assert!(!std::fs::read_to_string(folder.path().join("out/bench.csv")).unwrap().contains("tops"));
+    let wrong = |text: &str, says: &str| {
+        let others = file("wrong.csv", text);
+        let (code, _, err) = run(&["bench", &config, "--with", &others, "--out", &out]);
+        assert!(code == 2 && err.contains(says), "{code} {err}");
+    };
+    wrong(
+        &format!("{head}\nelsewhere,tops,RK4,0.01,200,1e-3,angle_rad,1,1\n"),
+        "no rows of this scene; it has elsewhere",
+    );
+    wrong(&format!("{head}\nmy_spin,tops,RK4,0.01,200,1e-3,position_m,1,1\n"), "another unit (`position_m`)");
+    wrong("scene,engine\nmy_spin,tops\n", "missing field");
+}

@@ -133,7 +133,7 @@ fn latin_square() -> Vec<String> {
 fn falls_of_cans_hold_at_every_tolerance() {
     let falls = latin_square();
     let left = falls.par_iter().map(|text| {
-        let ended = measured(text, &[]);
+        let ended = measured(text, &["measure=[sensitivity]"]);
         is_sound(&ended);
         let [fine, coarse] = ["1e-9", "1e-6"]
             .map(|tolerance| end(&experiment(text, &[&format!("method.event-driven.tolerance={tolerance}")])));

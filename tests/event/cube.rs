@@ -44,7 +44,7 @@ fn its_end_is_right_to_the_tolerance() {
         .map(|(e, mu, seed)| {
             let sets = sets(e, mu, seed);
             let [a, b, c] = sets.each_ref().map(String::as_str);
-            let rough = run(&experiment(CUBE, &[a, b, c]));
+            let rough = run(&experiment(CUBE, &[a, b, c, "measure=[sensitivity]"]));
             let fine = run(&experiment(CUBE, &[a, b, c, "method.event-driven.tolerance=1e-11"]));
             assert_eq!([rough.measured.outcome, fine.measured.outcome], [Outcome::Finished; 2]);
             apart_m(&rough.state, &fine.state) / rough.measured.sensitivity.unwrap().max(1.0)
@@ -61,7 +61,7 @@ fn its_impacts_are_right_to_the_tolerance() {
     let apart = throws().into_par_iter().map(|(e, mu, seed)| {
         let sets = sets(e, mu, seed);
         let [a, b, c] = sets.each_ref().map(String::as_str);
-        let rough = experiment(CUBE, &[a, b, c]);
+        let rough = experiment(CUBE, &[a, b, c, "measure=[sensitivity]"]);
         let grown = run(&rough).measured.sensitivity.unwrap().max(1.0);
         let [rough, fine] =
             [rough, experiment(CUBE, &[a, b, c, "method.event-driven.tolerance=1e-11"])].map(|e| impacts(&e, 10));

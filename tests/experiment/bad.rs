@@ -40,7 +40,9 @@ const ROWS: &[Row] = &[
     ("too many copies", CUBE, "      mass_kg: 1.0\n      copies: { grid: [1000, 1000, 1000], step_m: [0, 1, 0] }\n", 11, "scene.bodies.cube.copies.grid", "expected 1 to 100000 bodies, found 1000000000"),
     ("a copy too far", FRICTION, "  pairs: [{ between: ['cube[7]', container], friction: 0.5 }]\n", 2, "scene.pairs.0.between.0", "expected one of cube, point, container, found `cube[7]`"),
     ("a later key of a sweep", "seed: 7\n", "sweep: { where: [] }\n", 15, "sweep.where", "not available in this version"),
+    ("a way of making it as an axis", "seed: 7\n", "sweep: { axes: { plan.skip: [[], [bounds]] } }\n", 15, "sweep.axes.plan.skip", "expected a key that a case's id depends on"),
     // Words.
+    ("a slip in a skip", "seed: 7\n", "plan: { skip: [contact-tests] }\n", 15, "plan.skip.0", "expected one of contact-test, bounds, friction-rows, gyroscopic-term, kept-impulses, closed-forms, found `contact-tests`; did you mean `contact-test`?"),
     ("an unknown word", LECTURE, "method: lectur\n", 16, "method", "expected one of free, lecture, penalty, time-stepping, event-driven, auto, found `lectur`; did you mean `lecture`?"),
     ("an unknown word with settings", LECTURE, "method:\n  lectur: {}\n", 17, "method.lectur", "did you mean `lecture`?"),
     ("an underscore for a hyphen", LECTURE, "method: time_stepping\n", 16, "method", "did you mean `time-stepping`?"),

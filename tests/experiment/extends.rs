@@ -109,9 +109,9 @@ fn what_is_said_in_another_way_is_replaced_as_a_whole() {
     let sphere = cube("shape: { sphere: { radius_m: 0.2 } }, mesh: { subdivisions: 1 }");
     assert_eq!(sphere.shape, Shape::Sphere(Sphere { radius_m: 0.2 }));
     assert_eq!(sphere.mesh, Some(MeshSpec { nodes_per_edge: None, subdivisions: Some(1) }));
-    let container = case("scene: { container: { plane: { normal: [0, 1, 0] } } }\n").scene.container.unwrap();
+    let container = case("scene: { container: { plane: { normal: [0, 1, 0] } } }\n").scene.container.clone().unwrap();
     assert_eq!(container, Container::Plane(Plane { normal: [0.0, 1.0, 0.0], offset_m: 0.0 }));
-    let boxed = case("scene: { container: { box: { center_m: [0, 0, 0] } } }\n").scene.container.unwrap();
+    let boxed = case("scene: { container: { box: { center_m: [0, 0, 0] } } }\n").scene.container.clone().unwrap();
     assert_eq!(boxed, Container::Box(ContainerBox { size_m: [4.0; 3], center_m: Some([0.0; 3]) }));
 
     let twice = |first: &str, second: &str| {

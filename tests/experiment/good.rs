@@ -58,7 +58,7 @@ fn the_complete_example_is_read() {
     assert_eq!(cube.mesh, Some(MeshSpec { nodes_per_edge: six, subdivisions: None }));
     assert_eq!(cube.inertia_from, InertiaFrom::Lumped);
     assert_eq!(last.record.to, Some(RecordTo::Both));
-    assert_eq!(last.scene.random.unwrap().spin_rad_s, Some(6.0));
+    assert_eq!(last.scene.random.as_ref().unwrap().spin_rad_s, Some(6.0));
 }
 
 #[test]

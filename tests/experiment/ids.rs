@@ -50,6 +50,7 @@ fn an_id_is_of_the_experiment_alone() {
     for more in [
         "question: why?\n",
         "record: { every_s: 0 }\n",
+        "plan: { skip: [] }\n",
         "expect: [{ column: steps, min: 1 }]\n",
         "bench: { repeats: 2, error: steps }\n",
         "sweep: { axes: { seed: [0, 1] } }\n",

@@ -17,7 +17,7 @@ fn a_value_is_set_by_its_path() {
 #[test]
 fn list_items_are_found_by_name_and_by_index() {
     let masses = |path: &str| {
-        let bodies = experiment(BASE, &[&format!("scene.bodies.{path}.mass_kg=2")]).unwrap().scene.bodies;
+        let bodies = &experiment(BASE, &[&format!("scene.bodies.{path}.mass_kg=2")]).unwrap().scene.bodies;
         [bodies[0].mass_kg, bodies[1].mass_kg]
     };
     assert_eq!(masses("cube"), [Some(2.0), Some(0.5)]);
@@ -31,7 +31,7 @@ fn list_items_are_found_by_name_and_by_index() {
 #[test]
 fn a_name_goes_before_an_index() {
     let text = BASE.replace("name: point", "name: 0").replace("name: 0", "name: '0'");
-    let bodies = experiment(&text, &["scene.bodies.0.mass_kg=9"]).unwrap().scene.bodies;
+    let bodies = &experiment(&text, &["scene.bodies.0.mass_kg=9"]).unwrap().scene.bodies;
     assert_eq!([bodies[0].mass_kg, bodies[1].mass_kg], [Some(1.0), Some(9.0)]);
 }
 

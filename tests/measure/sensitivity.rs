@@ -32,16 +32,19 @@ fn sensitivity(text: &str, sets: &[&str]) -> Option<f64> {
 #[test]
 fn a_free_flight_adds_the_errors_of_place_and_velocity() {
     // measured: 2.3e-10 from 2: coordinates of some metres in units of ε
-    let kappa = sensitivity(FLYING, &[]).unwrap();
+    let kappa = sensitivity(FLYING, &["measure=[sensitivity]"]).unwrap();
     assert!((kappa - 2.0).abs() < 2e-9, "{kappa}");
     let asked = sensitivity(FLYING, &["method=time-stepping", "measure=[sensitivity]"]).unwrap();
     assert!((asked - 2.0).abs() < 2e-9, "{asked}");
 }
 
 #[test]
-fn only_who_follows_events_is_told_unasked() {
-    assert_eq!(sensitivity(FLYING, &["method=time-stepping"]), None);
-    assert_eq!(sensitivity(FLYING, &["method=free"]), None);
+fn nobody_pays_for_it_unasked_but_who_compares_ends() {
+    for method in ["event-driven", "time-stepping", "free"] {
+        assert_eq!(sensitivity(FLYING, &[&format!("method={method}")]), None);
+    }
+    assert!(sensitivity(FLYING, &["method=auto"]).is_some());
+    assert!(sensitivity(FLYING, &["method=event-driven", "reference={}"]).is_some());
 }
 
 #[test]

@@ -4,7 +4,7 @@ use crate::yaml::experiment;
 use gotai::collide::approach::Approach;
 use gotai::collide::{Contact, SolvedContact};
 use gotai::deadline::Deadline;
-use gotai::experiment::types::{Cone, Correction, Diverge, Iteration, Solver};
+use gotai::experiment::types::{Cone, Correction, Diverge, Iteration, Skips, Solver};
 use gotai::measure::Judge;
 use gotai::model::Model;
 use gotai::plan::Plan;
@@ -155,7 +155,7 @@ impl Gathered {
     /// From impulses `p`.
     pub fn solve_from(&self, mut p: Vec<Impulse>, solver: Solver, most: u32, tolerance: f64) -> Solved {
         let sweeps = sweeps(most, tolerance, self.assembly.friction > 0.0);
-        let (mut solver, mut work) = (ContactSolver::new(solver, 0, 0), Work::default());
+        let (mut solver, mut work) = (ContactSolver::new(solver, 0, 0, true), Work::default());
         let says = solver.solve(&self.problem, &sweeps, &mut p, &mut work);
         Solved { says, p, work }
     }
@@ -182,6 +182,8 @@ impl Gathered {
             approach: Approach::Inside,
             newton: true,
             stiffness_n_m: None,
+            looks: true,
+            skips: Skips::default(),
             stages: Vec::new(),
         };
         let mut judge = Judge::new(&self.model, &self.state, &Diverge::default(), &plan);

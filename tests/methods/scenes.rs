@@ -167,7 +167,7 @@ time: { step_s: 0.001, end_s: 1 }
 #[test]
 fn copies_are_the_bodies_that_they_stand_for() {
     let grid = STACK.replace("count: 10, step_m: [0, 1, 0]", "grid: [2, 1, 2], step_m: [2, 1, 3]");
-    let written = experiment(&grid, &["scene.bodies.cube.mass_kg=3"]).scene.bodies;
+    let written = &experiment(&grid, &["scene.bodies.cube.mass_kg=3"]).scene.bodies;
     let shown: Vec<_> = written.iter().map(|body| (body.name.as_str(), body.position_m, body.mass_kg)).collect();
     let mass = Some(3.0);
     let expected = [

@@ -1,5 +1,6 @@
 //! Sweeps: resume, threads, panics, tables, recordings.
 
+mod likes;
 mod names;
 mod recordings;
 mod stopped;

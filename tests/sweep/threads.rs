@@ -9,7 +9,7 @@ use gotai::rows::Row;
 fn hash(rows: &[Row]) -> String {
     let bits: Vec<Row> = rows
         .iter()
-        .map(|row| Row { measured: row.measured.without_wall_time(), recording: None, ..row.clone() })
+        .map(|row| Row { measured: row.measured.without_wall_time().into(), recording: None, ..row.clone() })
         .collect();
     sha256(serde_json::to_vec(&bits).unwrap(), 32)
 }

@@ -189,7 +189,7 @@ impl Moving {
         let q_BP = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
         let [p, v, w, q] = [(); 4].map(|()| tape.series());
         let I = axes.tr_mul(&(body.I_B * axes)).diagonal();
-        Moving { p, v, w, q, q_BP, gyroscopic: !body.isotropic, I, gravity, invariants: None }
+        Moving { p, v, w, q, q_BP, gyroscopic: !body.spins_steadily, I, gravity, invariants: None }
     }
 
     fn start(&mut self, at: &BodyState, tape: &mut Tape) {

@@ -12,8 +12,11 @@ use super::proximal::Problem;
 use nalgebra::DVector;
 
 /// η of contacts, whose blocks have a trace of 1; and those that lead there from nothing.
-const ETA: f64 = 1e-4;
-const FALLING: [f64; 3] = [1e-1, 1e-2, 1e-3];
+const ETA: f64 = 1e-5;
+const FALLING: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
+
+/// Those of problems about what was found, where faces that are not quite flat bear on a part of their points.
+const LESS: [f64; 3] = [1e-6, 1e-7, 1e-8];
 
 /// Linear systems of a problem whose contacts go on as they are, and of others.
 const FEW: usize = 8;
@@ -44,7 +47,22 @@ pub(super) fn solve(island: &Island, p: &[Impulse], tolerance: f64, steps: &mut 
     };
     let is_known = p.iter().any(|p| *p != Impulse::zeros());
     let found = if is_known { goes_on(steps) } else { None };
-    let mut p = found.or_else(|| from_nothing(steps))?.p;
-    let residual = active_set::improve(island, &mut p, tolerance, steps);
-    Some((p, residual))
+    let mut found = found.or_else(|| from_nothing(steps))?;
+    let mut best = found.p.clone();
+    let mut residual = active_set::try_to_improve(island, &mut best, tolerance, steps);
+    for eta in LESS {
+        if island.is_enough(residual, tolerance, &best) {
+            break;
+        }
+        let etas = etas(eta);
+        let problem = Problem { etas: &etas, centre: &found.p, ..problem };
+        let Some(next) = problem.solve(found.y.clone(), MOST, steps) else { break };
+        let mut tried = next.p.clone();
+        let reached = active_set::try_to_improve(island, &mut tried, tolerance, steps);
+        if reached < residual {
+            (best, residual) = (tried, reached);
+        }
+        found = next;
+    }
+    Some((best, residual))
 }

@@ -29,7 +29,7 @@ const MORE_SWEEPS: u32 = 300;
 /// of it); what it is multiplied by when the problem was solved, and when it was not.
 const FIRST_ETA: f64 = 0.1;
 const LEAST_ETA: f64 = 1e-8;
-const ON: f64 = 0.5;
+const ON: f64 = 0.25;
 const BACK: f64 = 4.0;
 
 /// The least η of the way to impulses shared evenly.
@@ -152,7 +152,7 @@ pub(super) fn solve_island(
     let mut best = island.residual(p);
     let is_enough = |residual: f64, p: &[Impulse]| island.is_enough(residual, goal.tolerance, p);
     let keep = |best: &mut f64, p: &mut Vec<Impulse>, mut tried: Vec<Impulse>, work: &mut Work| {
-        let mut residual = active_set::improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
+        let mut residual = active_set::try_to_improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
         if residual <= NEARLY && !is_enough(residual, &tried) {
             residual = active_set::improve_near(island, &mut tried, goal.tolerance, &mut work.newton_steps);
         }

@@ -49,6 +49,7 @@ pub mod exact;
 pub mod plan;
 pub mod scene;
 pub mod shown;
+pub mod skips;
 pub mod solve;
 
 pub mod event;

@@ -6,6 +6,7 @@ use crate::experiment::types::{
     Approach, ContactModel, Facts, Impact, Method, PositionCorrection, Solver, rule_of_auto,
 };
 use crate::model::Model;
+use crate::skips::Skips;
 
 /// Stages of a run, decided once.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +26,8 @@ pub struct Plan {
     pub newton: bool,
     /// Stiffness of the springs that a method has in place of a law of contact.
     pub stiffness_n_m: Option<f64>,
+    /// What its steps leave out.
+    pub skips: Skips,
     pub stages: Vec<Stage>,
 }
 
@@ -63,6 +66,7 @@ impl Plan {
             approach: facts.approach,
             newton,
             stiffness_n_m: method.stiffness_n_m().filter(|_| has_contact),
+            skips: Skips::default(),
             stages,
         }
     }

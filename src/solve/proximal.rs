@@ -45,9 +45,8 @@ impl Problem<'_> {
     fn at(&self, y: DVector<f64>) -> At {
         let u = self.island.velocities(&y);
         let touches = || self.island.touches.iter();
-        let point = |(((touch, p), u), eta): (((&Share, &Impulse), &Vector3<f64>), &f64)| {
-            p - law::dual(u, touch.law) / *eta
-        };
+        let point =
+            |(((touch, p), u), eta): (((&Share, &Impulse), &Vector3<f64>), &f64)| p - law::dual(u, touch.law) / *eta;
         let z: Vec<_> = touches().zip(self.centre).zip(&u).zip(self.etas).map(point).collect();
         let p: Vec<_> = touches().zip(&z).map(|(touch, z)| law::in_cone(z, touch.law)).collect();
         let missing = &y - self.island.pushed(&p);

@@ -9,6 +9,7 @@ use gotai::measure::Judge;
 use gotai::model::Model;
 use gotai::plan::Plan;
 use gotai::shown::{Acted, Shown};
+use gotai::skips::Skips;
 use gotai::solve::Impulse;
 use gotai::solve::block::Block;
 use gotai::solve::gauss_seidel::{Sweeps, Variant};
@@ -182,6 +183,7 @@ impl Gathered {
             approach: Approach::Inside,
             newton: true,
             stiffness_n_m: None,
+            skips: Skips::default(),
             stages: Vec::new(),
         };
         let mut judge = Judge::new(&self.model, &self.state, &Diverge::default(), &plan);

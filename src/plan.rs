@@ -93,6 +93,8 @@ impl Plan {
         ]);
         stages.extend(facts.solver.map(|solver| contact_solver(solver, has_contact)));
         stages.extend((facts.solver == Some(Solver::Auto) && has_contact).then(|| kept_impulses(skips)));
+        let steps_alike = has_contact && facts.solver.is_some() && facts.approach == Approach::Start;
+        stages.extend(steps_alike.then(|| [flight(skips), rest(skips)]).into_iter().flatten());
         stages.extend(facts.follows_events.then(|| events(model, skips)));
         stages.extend(facts.tolerance.filter(|_| facts.chooses).map(choice));
         let newton = method.impact() == Impact::Newton;
@@ -228,6 +230,16 @@ fn contact_solver(solver: Solver, contact: bool) -> Stage {
 fn kept_impulses(skips: Skips) -> Stage {
     let why = "last step's impulses that still obey the law are taken as they are".to_string();
     Stage::skippable("solving what stays the same", Skip::KeptImpulses, skips, Err(why))
+}
+
+fn flight(skips: Skips) -> Stage {
+    let why = "faces that a body cannot have come to yet, by gravity alone, are not looked for".to_string();
+    Stage::skippable("faces far from a flight", Skip::Flight, skips, Err(why))
+}
+
+fn rest(skips: Skips) -> Stage {
+    let why = "a step that would be the one before over again, to the last bit, is not made".to_string();
+    Stage::skippable("steps at rest", Skip::Rest, skips, Err(why))
 }
 
 /// Stage between the events of a method that follows them.

@@ -5,7 +5,7 @@ use super::sweeping::Swept;
 use crate::check::{Failing, Judged, MOST};
 use crate::record::story::shortest;
 use crate::record::writer::Target;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::path::PathBuf;
 
@@ -60,7 +60,7 @@ impl Checked {
         let rows = &swept.rows;
         let first = rows.first().map(|row| &row.axes);
         let tells = |path: &&String| rows.iter().any(|row| row.axes.get(*path) != first.and_then(|f| f.get(*path)));
-        let telling = first.into_iter().flat_map(Map::keys).filter(tells).cloned().collect();
+        let telling = first.into_iter().flat_map(|axes| axes.keys()).filter(tells).cloned().collect();
         let ids: HashSet<&str> = rows.iter().map(|row| row.case.as_str()).collect();
         let short: HashSet<&str> = ids.iter().map(|id| &id[..DIGITS.min(id.len())]).collect();
         let named = Names { telling, are_short: short.len() == ids.len() };

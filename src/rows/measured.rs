@@ -16,8 +16,8 @@ columns! {
         /// fault of the program.
         pub outcome: Outcome,
         /// Reason why the run stopped: `not-finite`, `energy`, `escape`, `speed` or `penetration` (diverged),
-        /// `not-converged`, `painleve`, `limit` or `interrupted` (stalled), or a panic's message (failed). Null when it has
-        /// finished.
+        /// `not-converged`, `painleve`, `limit` or `interrupted` (stalled), or a panic's message (failed). Null when it
+        /// has finished.
         pub criterion: Option<String>,
         /// Time that was reached.
         pub end_time_s: Option<f64>,

@@ -7,13 +7,14 @@ use super::compared::{at, brief, cell, changed, described, factor, finding, inte
 use super::error::CliError;
 use super::output::{Hue, counted, print, print_json, width, wrapped};
 use crate::check::{Change, CompareBy, Compared, Regression, Side, TOLERATED, compare};
+use crate::experiment::ExperimentFile;
 use crate::files::{FileError, read, write_whole};
 use crate::rows::columns::OLDEST;
 use crate::rows::plan_file::{FORMAT, PlanAxis};
 use crate::rows::table::rows_of_parquet;
 use crate::sweep::build::build;
 use crate::sweep::folder::{Folder, FolderError};
-use crate::sweep::kept::PLAN;
+use crate::sweep::kept::{EXPERIMENT, PLAN};
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -95,9 +96,10 @@ fn side(dir: &Path) -> Result<Side, CliError> {
 
 /// Size of the bodies of a folder's first case; None where this program cannot build it.
 fn size_m(dir: &Path) -> Option<f64> {
-    let folder = Folder::read(dir).ok()?;
-    let first = folder.cases.first()?;
-    let (model, _) = build(&folder.file, &first.point, &first.case.experiment).ok()?;
+    // Not the folder: what it has stored may be long, and of another build.
+    let file = ExperimentFile::load(&dir.join(EXPERIMENT), &[]).ok()?;
+    let point = file.axes().point(0);
+    let (model, _) = build(&file, &point, &file.case(&point).ok()?).ok()?;
     Some(model.largest_radius_m())
 }
 

@@ -93,6 +93,8 @@ impl Plan {
         ]);
         stages.extend(facts.solver.map(|solver| contact_solver(solver, has_contact)));
         stages.extend((facts.solver == Some(Solver::Auto) && has_contact).then(|| kept_impulses(skips)));
+        stages.extend((facts.solver.is_some() && has_contact).then(|| flight(skips)));
+        stages.extend((facts.solver.is_some() && has_contact).then(|| rest(skips)));
         stages.extend(facts.follows_events.then(|| events(model, skips)));
         stages.extend(facts.tolerance.filter(|_| facts.chooses).map(choice));
         let newton = method.impact() == Impact::Newton;
@@ -228,6 +230,16 @@ fn contact_solver(solver: Solver, contact: bool) -> Stage {
 fn kept_impulses(skips: Skips) -> Stage {
     let why = "last step's impulses that still obey the law are taken as they are".to_string();
     Stage::skippable("solving what stays the same", Skip::KeptImpulses, skips, Err(why))
+}
+
+fn flight(skips: Skips) -> Stage {
+    let why = "until a body can have come to something nothing is held against it".to_string();
+    Stage::skippable("contact test in flight", Skip::Flight, skips, Err(why))
+}
+
+fn rest(skips: Skips) -> Stage {
+    let why = "a step that would be the one before over again, bit for bit, is not made".to_string();
+    Stage::skippable("steps at rest", Skip::Rest, skips, Err(why))
 }
 
 /// Stage between the events of a method that follows them.

@@ -17,6 +17,18 @@ impl BodyState {
         let sum = self.p_WB.sum() + self.q_WB.coords.sum() + self.v_WB.sum() + self.w_WB.sum();
         sum.is_finite()
     }
+
+    /// Whether position and attitude are the other one's, to the last bit.
+    pub fn is_placed_as(&self, other: &BodyState) -> bool {
+        let places = |at: &BodyState| [at.p_WB.x, at.p_WB.y, at.p_WB.z, at.q_WB.i, at.q_WB.j, at.q_WB.k, at.q_WB.w];
+        places(self).map(f64::to_bits) == places(other).map(f64::to_bits)
+    }
+
+    /// The same of all of it.
+    pub fn has_bits_of(&self, other: &BodyState) -> bool {
+        let speeds = |at: &BodyState| [at.v_WB.x, at.v_WB.y, at.v_WB.z, at.w_WB.x, at.w_WB.y, at.w_WB.z];
+        self.is_placed_as(other) && speeds(self).map(f64::to_bits) == speeds(other).map(f64::to_bits)
+    }
 }
 
 /// Motion of all bodies, in the order of the model's.

@@ -39,6 +39,12 @@ columns! {
         /// Linear systems of an island's velocities that the exact contact solver (`newton`) solved.
         #[serde(rename = "work_newton_steps")]
         pub newton_steps: u64,
+        /// Steps of bodies in flight that were not held against anything: they could not have come to it yet.
+        #[serde(rename = "work_flight_steps")]
+        pub flight_steps: u64,
+        /// Steps of bodies at rest that were not made: they would have been the one before over again.
+        #[serde(rename = "work_rest_steps")]
+        pub rest_steps: u64,
         /// Evaluations of the gyroscopic term, or of the momentum-conserving rotation in its place.
         #[serde(rename = "work_gyroscopic")]
         pub gyroscopic: u64,

@@ -29,6 +29,10 @@ pub enum Skip {
     GyroscopicTerm,
     /// Solving contacts whose last impulses still obey the law.
     KeptImpulses,
+    /// Contact tests of bodies in flight that cannot have come to anything yet.
+    Flight,
+    /// Steps of bodies at rest that would be the one before over again.
+    Rest,
     /// The integrator of `event-driven` where the motion between events has a closed form.
     ClosedForms,
 }
@@ -48,6 +52,8 @@ impl Skip {
             Skip::FrictionRows => "work_tangent_rows",
             Skip::GyroscopicTerm => "work_gyroscopic",
             Skip::KeptImpulses => "work_kept_solves",
+            Skip::Flight => "work_flight_steps",
+            Skip::Rest => "work_rest_steps",
             Skip::ClosedForms => "work_inner_steps",
         }
     }
@@ -55,7 +61,7 @@ impl Skip {
     /// How far the motion with it is from the one without.
     pub fn bound(self) -> &'static str {
         match self {
-            Skip::ContactTest | Skip::Bounds | Skip::FrictionRows => "the same bits",
+            Skip::ContactTest | Skip::Bounds | Skip::FrictionRows | Skip::Flight | Skip::Rest => "the same bits",
             Skip::GyroscopicTerm => {
                 "exact; without it the method's rule errs, the implicit midpoint by (|ω|Δt)³/12 a step"
             }

@@ -1,6 +1,7 @@
 //! The judge of a run, who watches it step by step.
 
-use super::dissipation::{Dissipation, Law};
+use super::again::Again;
+use super::dissipation::{Dissipation, Law, Taken};
 use super::divergence::Divergence;
 use super::energy::EnergyLedger;
 use super::exchange::{Exchange, Over};
@@ -47,6 +48,10 @@ pub struct Judge {
     exchange: Exchange,
     dissipation: Dissipation,
     impacts: Impacts,
+    /// None: loads, pins or springs make something of every step.
+    again: Option<Again>,
+    /// What contacts took in the last step.
+    taken: Taken,
     /// Between two steps.
     middle: State,
 }
@@ -97,6 +102,8 @@ impl Judge {
             exchange: Exchange::with_capacity(bodies, plan.contacts),
             dissipation: Dissipation::with_capacity(bodies),
             impacts: Impacts { is_empty: true, before: start.clone(), contacts: Vec::new() },
+            again: (!model.has_loads() && model.pins.is_empty() && plan.stiffness_n_m.is_none()).then(Again::default),
+            taken: Taken::default(),
             middle: start.clone(),
         }
     }
@@ -109,6 +116,10 @@ impl Judge {
         let Shown { before, after, .. } = *shown;
         if !matches!(shown.acted, Acted::Blow { .. }) {
             self.end_instant(model, before);
+        }
+        if self.again.as_ref().is_some_and(|again| again.is(shown, self.geometry.period())) {
+            self.observe_again(model, shown);
+            return None;
         }
         let done = match shown.acted {
             Acted::Kick { kicked, contacts, step_s, approach } => {
@@ -123,7 +134,21 @@ impl Judge {
         let gap_m = model.pin_gap_m(&after.bodies);
         self.pin_gap_max_m = self.pin_gap_max_m.zip(gap_m).map(|(max, gap)| max.max(gap));
         let depth_m = self.geometry.observe(model, shown);
-        self.divergence.judge(model, after, &self.energy, depth_m)
+        let diverged = self.divergence.judge(model, after, &self.energy, depth_m);
+        if let Some(again) = &mut self.again {
+            again.note(shown);
+        }
+        diverged
+    }
+
+    /// A step that is the one before over again: sums grow by what it added, nothing else is new.
+    fn observe_again(&mut self, model: &Model, shown: &Shown) {
+        let Acted::Kick { kicked, contacts, step_s, .. } = shown.acted else { return };
+        self.energy.add_taken(&self.taken, 1.0);
+        self.momentum.observe_pushes(model, kicked, &self.exchange.pushes, 1.0);
+        self.watched.observe(kicked, contacts);
+        self.watched.observe_step(shown.before, shown.after, step_s);
+        self.momentum.observe(model, shown.after, &Done::NOTHING, shown.after.time_s - shown.before.time_s);
     }
 
     /// Impulses at the state `kicked`; what loads and driven bodies did.
@@ -230,6 +255,7 @@ impl Judge {
     fn take(&mut self, contacts: &[SolvedContact], step_s: f64) {
         let taken = self.dissipation.of(&self.exchange, contacts, &self.law(step_s));
         self.energy.observe_contacts(&taken, &self.exchange.moved);
+        self.taken = taken;
     }
 
     /// Judges what is left to judge when the run has come to its end: impacts at its last instant.

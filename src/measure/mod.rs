@@ -3,6 +3,7 @@
 //! Nothing here imports a method or takes a solver's word: what an impulse did to a body is worked out again from the
 //! impulse, the arm and the mass properties.
 
+mod again;
 pub mod contact_matrix;
 pub mod critical_step;
 mod difference;

@@ -147,6 +147,11 @@ impl Foreseen {
         self.ask(&mut scratch.found);
     }
 
+    /// Whether nothing was near in the step looked at.
+    pub(super) fn is_empty(&self) -> bool {
+        self.contacts.is_empty() && self.doubts.list().is_empty()
+    }
+
     /// When the step is to end, of which so much is left after its kick: where bodies hit each other, or have turned
     /// too far.
     pub(super) fn cut_s(&self, after_s: f64) -> Option<f64> {

@@ -15,6 +15,7 @@ mod penalty;
 mod push_out;
 mod scratch;
 mod stepper;
+mod still;
 mod stretch;
 mod time_stepping;
 

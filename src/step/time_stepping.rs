@@ -14,13 +14,16 @@ use super::drift::drift;
 use super::foreseen::Foreseen;
 use super::push_out::push_out;
 use super::scratch::Scratch;
+use super::still;
 use crate::clock::Clock;
 use crate::collide::approach::Approach;
 use crate::collide::lasting::{Hold, Lasting};
 use crate::collide::reduce::Reduction;
 use crate::collide::{Contact, Key, SolvedContact};
 use crate::deadline::Deadline;
-use crate::experiment::types::{Cone, Correction, Iteration, PositionCorrection, Skip, TimeStepping as Settings};
+use crate::experiment::types::{
+    Cone, Correction, Iteration, PositionCorrection, Skip, Skips, TimeStepping as Settings,
+};
 use crate::model::pins::Pin as Joint;
 use crate::model::{Body, Model};
 use crate::plan::Plan;
@@ -77,6 +80,15 @@ pub struct TimeStepping {
     blow: Option<Blow>,
     /// Where the last step's impulses acted, if not where the step began.
     pub(super) kicked: Option<State>,
+    skips: Skips,
+    /// Nothing changes with time but what moves freely.
+    is_steady: bool,
+    /// The bodies where the last step began, in flight where it ended; and whether it led back there, with the impulses
+    /// of the one before.
+    began: Vec<BodyState>,
+    is_at_rest: bool,
+    /// Steps ahead in which nothing can be touched.
+    flight: u64,
     /// The last step was left when time was up.
     pub(super) is_cut: bool,
     pub(super) scratch: Scratch,
@@ -122,6 +134,11 @@ impl TimeStepping {
             push: Push::new(sweeps.tolerance, scratch.contacts(), scratch.free.capacity()),
             blow: Blow::new(settings.impact, plan.approach, start),
             kicked: (plan.approach == Approach::Middle).then(|| start.clone()),
+            skips: plan.skips,
+            is_steady: false,
+            began: Vec::with_capacity(scratch.free.capacity()),
+            is_at_rest: false,
+            flight: 0,
             is_cut: false,
             scratch,
         }
@@ -140,7 +157,14 @@ impl TimeStepping {
     /// A step of the clock, or a part of it: up to where bodies hit each other that would be through by its end. What
     /// is left of a step goes on with a kick at its start, whatever the scheme.
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
+        if self.is_skipped(model, state, clock) {
+            return;
+        }
+        let unsolved = self.scratch.work.unsolved;
+        self.began.clear();
+        self.began.extend_from_slice(&state.bodies);
         if state.step == 0 {
+            self.is_steady = still::is_steady(model, state);
             let widths_m = model.bodies.iter().filter_map(|body| Some(body.solid()?.0.least_width_m()));
             self.width_m = widths_m.fold(f64::INFINITY, f64::min);
             if self.scheme == Approach::Middle && self.may_last {
@@ -199,8 +223,53 @@ impl TimeStepping {
         self.left_s = (self.made_s < left_s).then_some(left_s - self.made_s);
         if self.left_s.is_none() {
             self.parts = 0;
+            let is_solved = self.scratch.work.unsolved == unsolved && !self.is_cut;
+            self.look_for_rest(model, state, self.made_s == clock.step_s && is_solved);
             clock.advance(state);
         }
+    }
+
+    /// Makes a step of which the end is known, or that touches nothing. Whether it is one.
+    fn is_skipped(&mut self, model: &Model, state: &mut State, clock: &Clock) -> bool {
+        let is_here = || state.bodies.iter().zip(&self.began).all(|(at, began)| at.has_bits_of(began));
+        let may_be = (self.is_at_rest || self.flight > 0) && clock.step_s == self.made_s && is_here();
+        if !may_be {
+            return false;
+        }
+        if self.is_at_rest {
+            self.scratch.work.rest_steps += 1;
+        } else {
+            self.flight -= 1;
+            let s = &mut self.scratch;
+            s.work.flight_steps += 1;
+            s.free_velocities(model, state, clock.step_s);
+            for (at, free) in state.bodies.iter_mut().zip(&s.free) {
+                (at.v_WB, at.w_WB) = (free.v + Twist::ZERO.v, free.w + Twist::ZERO.w);
+            }
+            drift(model, state, clock.step_s, &mut s.work);
+            self.began.copy_from_slice(&state.bodies);
+        }
+        clock.advance(state);
+        true
+    }
+
+    /// After a step of the clock, `is_plain`: made in one part and solved.
+    fn look_for_rest(&mut self, model: &Model, state: &mut State, is_plain: bool) {
+        (self.is_at_rest, self.flight) = (false, 0);
+        if self.scheme != Approach::Start || !is_plain {
+            return;
+        }
+        let s = &self.scratch;
+        if self.last.is_empty() {
+            if self.skips.has(Skip::Flight) && self.foreseen.is_empty() && model.pins.is_empty() {
+                self.flight = still::steps_of_flight(model, state, self.made_s);
+                self.began.copy_from_slice(&state.bodies);
+            }
+            return;
+        }
+        let is_same = still::put_to_rest(model, state, &self.began, (&s.free, &s.response));
+        // Since the solution was taken, `solved` has the impulses of the step before.
+        self.is_at_rest = is_same && self.is_steady && self.skips.has(Skip::Rest) && self.last == self.solved;
     }
 
     /// Whether bodies that are fast hit each other in the step, or turn too far beside each other: a kick half-way

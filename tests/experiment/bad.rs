@@ -42,7 +42,7 @@ const ROWS: &[Row] = &[
     ("a later key of a sweep", "seed: 7\n", "sweep: { where: [] }\n", 15, "sweep.where", "not available in this version"),
     ("a way of making it as an axis", "seed: 7\n", "sweep: { axes: { plan.skip: [[], [bounds]] } }\n", 15, "sweep.axes.plan.skip", "expected a key that a case's id depends on"),
     // Words.
-    ("a slip in a skip", "seed: 7\n", "plan: { skip: [contact-tests] }\n", 15, "plan.skip.0", "expected one of contact-test, bounds, friction-rows, gyroscopic-term, kept-impulses, closed-forms, found `contact-tests`; did you mean `contact-test`?"),
+    ("a slip in a skip", "seed: 7\n", "plan: { skip: [contact-tests] }\n", 15, "plan.skip.0", "expected one of contact-test, bounds, friction-rows, gyroscopic-term, kept-impulses, flight, rest, closed-forms, found `contact-tests`; did you mean `contact-test`?"),
     ("an unknown word", LECTURE, "method: lectur\n", 16, "method", "expected one of free, lecture, penalty, time-stepping, event-driven, auto, found `lectur`; did you mean `lecture`?"),
     ("an unknown word with settings", LECTURE, "method:\n  lectur: {}\n", 17, "method.lectur", "did you mean `lecture`?"),
     ("an underscore for a hyphen", LECTURE, "method: time_stepping\n", 16, "method", "did you mean `time-stepping`?"),

@@ -24,6 +24,7 @@ mod residual;
 mod scenes;
 mod seams;
 mod skipping;
+mod skips;
 mod symmetries;
 mod taylor;
 

@@ -60,6 +60,11 @@ impl GeometryLedger {
         }
     }
 
+    /// Steps of which one at least is looked at in full.
+    pub fn period(&self) -> u64 {
+        self.every
+    }
+
     /// Judges a step; the depth of the deepest overlap at its end, if no step before had a deeper one, else 0.
     pub fn observe(&mut self, model: &Model, shown: &Shown) -> f64 {
         let Some(known_m) = self.penetration_max_m else { return 0.0 };

@@ -1,0 +1,79 @@
+//! Steps that need not be worked out: of bodies that rest, and of bodies that fly where nothing is near.
+//!
+//! A body that contacts hold, that keeps every bit of its place, and whose velocities are what rounding leaves of the
+//! step's forces, rests: they are set to 0. So a step from there may be the one before over again, and needs not be
+//! made. A body in flight is not held against the faces before it can have come to one.
+
+use crate::collide::closed::MARGIN;
+use crate::model::Model;
+use crate::solve::twist::Twist;
+use crate::state::{BodyState, State};
+
+/// Of the speed that the step's forces give a body: what contacts leave of it when they hold it.
+const NOTHING: f64 = 1e-13;
+
+/// Whether nothing changes with time but what moves freely.
+pub(super) fn is_steady(model: &Model, start: &State) -> bool {
+    let moves = |(body, at): (&crate::model::Body, &BodyState)| body.driven && (at.v_WB.norm() + at.w_WB.norm()) > 0.0;
+    model.pins.is_empty()
+        && model.forces.iter().all(|force| force.cosine.is_none())
+        && !model.bodies.iter().zip(&start.bodies).any(moves)
+}
+
+/// Puts to rest what stands still. `began`: before the step; `free`: velocities with its forces; `response`: what
+/// contacts did to them. Whether all bodies are as they were, to the last bit.
+pub(super) fn put_to_rest(
+    model: &Model,
+    state: &mut State,
+    began: &[BodyState],
+    (free, response): (&[Twist], &[Twist]),
+) -> bool {
+    let mut is_same = true;
+    for (i, (at, before)) in state.bodies.iter_mut().zip(began).enumerate() {
+        let body = &model.bodies[i];
+        if body.driven {
+            is_same &= at.has_bits_of(before);
+            continue;
+        }
+        let stays = at.is_placed_as(before) && response[i] != Twist::ZERO;
+        if stays {
+            let speed = |v: f64, w: f64| v + w * body.bounding_radius_m;
+            let gained = speed((free[i].v - before.v_WB).norm(), (free[i].w - before.w_WB).norm());
+            if speed(at.v_WB.norm(), at.w_WB.norm()) <= NOTHING * gained {
+                (at.v_WB, at.w_WB) = (Twist::ZERO.v, Twist::ZERO.w);
+            }
+        }
+        is_same &= at.has_bits_of(before);
+    }
+    is_same
+}
+
+/// Number of steps from a state in which no body can come to a face of the container: by gravity alone, whatever way
+/// bodies turn. None are pairs of bodies that may touch.
+pub(super) fn steps_of_flight(model: &Model, state: &State, step_s: f64) -> u64 {
+    /// Of a way that is the most: rounding, with some to spare.
+    const SURE: f64 = 0.99;
+    /// Falls of a step that a contact test looks beyond the way of a body.
+    const FALLS: f64 = 4.0;
+    let is_simple = !model.touching_pairs
+        && model.pins.is_empty()
+        && model.forces.is_empty()
+        && model.bodies.iter().all(|body| body.drag.is_none());
+    let (Some(container), true) = (&model.container, is_simple) else { return 0 };
+    let fall_m = model.gravity_m_s2.norm() * step_s * step_s;
+    let mut most = f64::INFINITY;
+    for (body, at) in model.bodies.iter().zip(&state.bodies).filter(|(body, _)| body.feels_container()) {
+        let L_W = body.I_W(at) * at.w_WB;
+        let turning_m = step_s * body.bounding_radius_m * (body.I_B_inverse.norm() * L_W.norm()).max(at.w_WB.norm());
+        let beside_m = body.bounding_radius_m * (1.0 + 4.0 * MARGIN) + turning_m + FALLS * fall_m;
+        let way_m = step_s * at.v_WB.norm();
+        for face in &container.faces {
+            let left_m = SURE * (face.gap_m(&at.p_WB) - 4.0 * MARGIN * at.p_WB.amax()) - beside_m;
+            // n (way + n fall) is left.
+            let root = (way_m * way_m + 4.0 * fall_m * left_m.max(0.0)).sqrt();
+            most = most.min(if left_m > 0.0 { 2.0 * left_m / (way_m + root) } else { 0.0 });
+        }
+    }
+    // The first of them is this one, the last is where it may touch.
+    if most.is_finite() && most > 2.0 { (most as u64) - 2 } else { 0 }
+}

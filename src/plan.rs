@@ -233,12 +233,12 @@ fn kept_impulses(skips: Skips) -> Stage {
 }
 
 fn flight(skips: Skips) -> Stage {
-    let why = "faces that a body cannot have come to yet, by gravity alone, are not looked for".to_string();
-    Stage::skippable("faces far from a flight", Skip::Flight, skips, Err(why))
+    let why = "until a body can have come to something nothing is held against it".to_string();
+    Stage::skippable("contact test in flight", Skip::Flight, skips, Err(why))
 }
 
 fn rest(skips: Skips) -> Stage {
-    let why = "a step that would be the one before over again, to the last bit, is not made".to_string();
+    let why = "a step that would be the one before over again, bit for bit, is not made".to_string();
     Stage::skippable("steps at rest", Skip::Rest, skips, Err(why))
 }
 

@@ -8,8 +8,8 @@ use gotai::state::State;
 use gotai::step::Stepper;
 use gotai::work::Work;
 
-/// Neither of the two.
-fn full() -> Skips {
+/// Neither flight nor rest is skipped.
+fn worked_out() -> Skips {
     Skips::default().without(Skip::Flight).without(Skip::Rest)
 }
 
@@ -49,7 +49,7 @@ fn flight_and_rest_are_skipped_to_the_same_bits() {
                 let seed = format!("seed={seed}");
                 let sets = [method.as_str(), mesh.as_str(), seed.as_str(), "time.end_s=4", "time.step_s=0.004"];
                 let (skipped, work) = way(CUBE_IN_BOX, &sets, Skips::default());
-                let (full, all) = way(CUBE_IN_BOX, &sets, full());
+                let (full, all) = way(CUBE_IN_BOX, &sets, worked_out());
                 assert!(bits(&skipped) == bits(&full), "{sets:?}");
                 assert!(work.flight_steps > 50, "{sets:?}: {work:?}");
                 assert_eq!([all.flight_steps, all.rest_steps], [0, 0]);
@@ -73,7 +73,7 @@ time: { step_s: 0.002, end_s: 4 }
 #[test]
 fn what_rests_is_not_worked_out_again() {
     let (skipped, work) = way(RESTING, &[], Skips::default());
-    let (full, _) = way(RESTING, &[], full());
+    let (full, _) = way(RESTING, &[], worked_out());
     assert!(bits(&skipped) == bits(&full));
     // measured: see below
     assert!(work.rest_steps > 1000, "{work:?}");
@@ -84,7 +84,7 @@ fn what_changes_with_time_wakes_what_rests() {
     let force =
         "scene.forces=[{ body: crate, force_n: [30, 0, 0], as: { cosine: { frequency_rad_s: 2, phase_rad: 1.5 } } }]";
     let (skipped, work) = way(RESTING, &[force], Skips::default());
-    let (full, _) = way(RESTING, &[force], full());
+    let (full, _) = way(RESTING, &[force], worked_out());
     assert!(bits(&skipped) == bits(&full));
     assert_eq!(work.rest_steps, 0);
     let moved_m = full.last().unwrap().bodies[0].p_WB.x - 0.3;

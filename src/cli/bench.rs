@@ -16,7 +16,7 @@ use crate::heading::unit_of;
 use crate::report::pareto;
 use crate::report::subject::{Ground, Subject};
 use crate::report::tried;
-use crate::rows::trials::{self, Trial, best_of_each_engine, methods, of_others, order, to_csv};
+use crate::rows::trials::{self, Trial, best_of_each_engine, methods, order, to_csv};
 use crate::study::reference;
 use crate::sweep::runner::Progress;
 use clap::Args;
@@ -114,9 +114,7 @@ impl Command {
     fn others(&self) -> Result<Vec<Trial>, CliError> {
         let mut all = Vec::new();
         for path in &self.with {
-            let said = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-            let csv = std::fs::read(path).map_err(|error| CliError::Input(said(&error)))?;
-            all.extend(of_others(&csv).map_err(|error| CliError::Input(said(&error)))?);
+            all.extend(others_of(path)?.into_iter().filter(|row| row.point().is_some()));
         }
         Ok(all)
     }

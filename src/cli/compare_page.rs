@@ -1,5 +1,6 @@
 //! A comparison as one page of HTML that needs nothing else.
 
+use crate::report::svg::escaped;
 use super::compared::{at, brief, cell, changed, described, factor, finding, interval, joined, others, outcomes};
 use crate::check::{Change, Compared, Regression, Side};
 use std::fmt::Write;
@@ -73,9 +74,4 @@ fn table(html: &mut String, caption: &str, header: &[&str], rows: &[Vec<String>]
         let _ = writeln!(html, "<tr>{cells}</tr>");
     }
     html.push_str("</table></div>\n");
-}
-
-/// A text that no browser takes for markup.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;").replace('\'', "&#39;")
 }

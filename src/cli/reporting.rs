@@ -135,11 +135,7 @@ impl Reported {
             _ => (Path::new(given), None),
         };
         let wrong = |why: &str| CliError::Input(format!("--with {}: {why}", path.display()));
-        let content = files::read(path).map_err(|error| wrong(&error.reason))?;
-        let frame = RowFrame::of_csv(&content).map_err(|why| wrong(&why))?;
-        let mut others = trials_of(&frame).ok_or_else(|| {
-            wrong("expected rows of a bench: engine, method, dt or step_s, error, error_kind, wall_s as columns")
-        })?;
+        let mut others = others_of(path)?;
         if let Some(scene) = scene {
             others.retain(|trial| trial.scene == scene);
         }
@@ -444,4 +440,17 @@ fn add_conditions(subject: &mut Subject) {
     }
     said.push(("report by".to_string(), format!("{PROGRAM}, build {BUILD}")));
     subject.conditions.extend(said);
+}
+
+/// Rows of other programs, as `--with` gives them.
+///
+/// # Errors
+/// They cannot be read, or are none.
+pub(super) fn others_of(path: &Path) -> Result<Vec<Trial>, CliError> {
+    let wrong = |why: &str| CliError::Input(format!("--with {}: {why}", path.display()));
+    let content = files::read(path).map_err(|error| wrong(&error.reason))?;
+    let frame = RowFrame::of_csv(&content).map_err(|why| wrong(&why))?;
+    trials_of(&frame).ok_or_else(|| {
+        wrong("expected rows of a bench: engine, method, dt or step_s, error, error_kind, wall_s as columns")
+    })
 }

@@ -3,7 +3,8 @@
 
 use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, GridCell, Mark, Shading};
 use super::number::{counted, percent, plain, short};
-use super::stats::{crossing, explained, median, wilson};
+use super::stats::{crossing, explained, median};
+use crate::math::interval::{Interval, of_share};
 use super::subject::{Ground, Levels};
 use crate::heading::unit_of;
 
@@ -284,7 +285,7 @@ fn cells(
                 _ if n == 0 => (None, (if count.failed > 0 { "failed" } else { "–" }).to_string()),
                 Painted::Share(outcome) => {
                     let k = count.values.iter().filter(|value| **value > 0.0).count();
-                    let (low, high) = wilson(k, n);
+                    let Interval { low, high } = of_share(k, n);
                     said += &format!(": {k} of {n} {outcome} (95 % interval {} to {})", percent(low), percent(high));
                     let share = k as f64 / n as f64;
                     (Some(share), percent(share))
@@ -405,7 +406,7 @@ fn finding(ground: &Ground, painted: &Painted, cells: &[GridCell]) -> String {
                 return "No run has ended, so that nothing can be said.".to_string();
             }
             if k == 0 {
-                let (_, high) = wilson(0, n);
+                let high = of_share(0, n).high;
                 return format!(
                     "None of {} {} (95 % interval up to {:.2} %).",
                     counted(n, "run"),
@@ -413,7 +414,7 @@ fn finding(ground: &Ground, painted: &Painted, cells: &[GridCell]) -> String {
                     100.0 * high
                 );
             }
-            let (low, high) = wilson(k, n);
+            let Interval { low, high } = of_share(k, n);
             let most = largest.map(|cell| cell.said.split(" (95").next().unwrap_or_default().to_string());
             let most = most.map(|said| format!("; most where {said}")).unwrap_or_default();
             format!(

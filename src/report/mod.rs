@@ -30,7 +30,7 @@ mod share;
 pub mod sheet;
 pub mod stats;
 pub mod subject;
-mod svg;
+pub mod svg;
 mod text;
 pub mod tried;
 mod work;

@@ -4,7 +4,7 @@ use super::ensemble::along;
 use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, Mark};
 use super::map::{Painted, sides, telling, verb};
 use super::number::percent;
-use super::stats::wilson;
+use crate::math::interval::{Interval, of_share};
 use super::subject::{Ground, Levels};
 
 /// Most lines that can be told apart.
@@ -36,7 +36,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     let mark = |(series, counts): (usize, &Vec<(usize, usize)>)| {
         let name = y.map_or("all".to_string(), |y| y.names[series].clone());
         let dot = |(level, (k, n)): (usize, &(usize, usize))| {
-            let (low, high) = wilson(*k, *n);
+            let Interval { low, high } = of_share(*k, *n);
             let place = x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
             let said = format!(
                 "{name}, {}: {k} of {n} {outcome} (95 % interval {} to {})",

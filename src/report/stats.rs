@@ -1,19 +1,7 @@
 //! Statistics of figures: intervals of shares, quantiles, how much an axis says, where a share crosses a half, laws of
 //! powers.
 
-/// Interval of a share of `k` in `n` with 95 % confidence (E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209).
-pub fn wilson(k: usize, n: usize) -> (f64, f64) {
-    const Z: f64 = 1.959963984540054;
-    if n == 0 {
-        return (0.0, 1.0);
-    }
-    let (k, n) = (k as f64, n as f64);
-    let (p, z2) = (k / n, Z * Z);
-    let middle = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
-    let half = Z / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
-    // Exact at the ends, where rounding would leave 1e-17.
-    (if k == 0.0 { 0.0 } else { middle - half }, if k == n { 1.0 } else { middle + half })
-}
+use crate::math::interval::of_share;
 
 /// The value that this share of sorted numbers does not exceed, interpolated between neighbours.
 pub fn quantile(sorted: &[f64], q: f64) -> f64 {
@@ -82,7 +70,7 @@ pub fn crossing(levels: &[(f64, usize, usize)]) -> Option<(f64, Option<f64>, Opt
         Some(a + (b - a) * (0.5 - shares[up]) / (shares[up + 1] - shares[up]))
     };
     let middle = of(&|k, n| k as f64 / n as f64)?;
-    Some((middle, of(&|k, n| wilson(k, n).1), of(&|k, n| wilson(k, n).0)))
+    Some((middle, of(&|k, n| of_share(k, n).high), of(&|k, n| of_share(k, n).low)))
 }
 
 /// Law y = a xᵇ through points, by least squares of the logarithms.

@@ -33,49 +33,6 @@ impl Trial {
     }
 }
 
-/// Row of another engine, as the columns of a comparison are called.
-#[derive(Deserialize)]
-struct Other {
-    scene: String,
-    engine: String,
-    method: String,
-    #[serde(alias = "dt")]
-    step_s: Option<f64>,
-    #[serde(default)]
-    tolerance: Option<f64>,
-    steps: Option<f64>,
-    error: Option<f64>,
-    error_kind: String,
-    wall_s: Option<f64>,
-    #[serde(default)]
-    wall_median_s: Option<f64>,
-}
-
-/// Rows of other engines, from CSV with the columns scene, engine, method, step_s or dt, steps, error, error_kind and
-/// wall_s, and any others; those that have no error or no time are left out.
-///
-/// # Errors
-/// A column is missing, or holds something else.
-pub fn of_others(csv: &[u8]) -> Result<Vec<Trial>, csv::Error> {
-    let trial = |row: Other| Trial {
-        scene: row.scene,
-        engine: row.engine,
-        method: row.method,
-        step_s: row.step_s,
-        tolerance: row.tolerance,
-        steps: row.steps.unwrap_or_default() as u64,
-        error: row.error,
-        error_kind: row.error_kind,
-        wall_s: row.wall_s,
-        wall_median_s: row.wall_median_s,
-        outcome: "finished".to_string(),
-        criterion: None,
-    };
-    let rows = csv::Reader::from_reader(csv).into_deserialize::<Other>().collect::<Result<Vec<_>, _>>()?;
-    let is_whole = |row: &Trial| row.point().is_some_and(|(error, wall_s)| error.is_finite() && wall_s.is_finite());
-    Ok(rows.into_iter().map(trial).filter(is_whole).collect())
-}
-
 /// The rows of each engine that no other row of it beats, engines in the order of their first rows, the fastest first.
 pub fn best_of_each_engine(rows: &[Trial]) -> Vec<Trial> {
     let mut engines: Vec<&str> = Vec::new();

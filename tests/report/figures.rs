@@ -4,20 +4,22 @@ use super::{axis, of_rows, row, subject};
 use gotai::report::choose::{figures, map_in_characters};
 use gotai::report::figure::Drawn;
 use gotai::report::page::Page;
-use gotai::report::stats::{PowerLaw, crossing, explained, quantile, wilson};
+use gotai::report::stats::{PowerLaw, crossing, explained, quantile};
+use gotai::math::interval::of_share;
 use gotai::report::subject::Subject;
 use serde_json::json;
 
 #[test]
 fn intervals_of_shares_are_wilsons() {
+    let share = |k, n| (of_share(k, n).low, of_share(k, n).high);
     // By hand from the formula, with z = 1.96.
     let near =
         |(a, b): (f64, f64), (c, d): (f64, f64)| assert!((a - c).abs() < 5e-4 && (b - d).abs() < 5e-4, "{a} {b}");
-    near(wilson(0, 20), (0.0, 0.1611));
-    near(wilson(10, 20), (0.2993, 0.7007));
-    near(wilson(20, 20), (0.8389, 1.0));
-    near(wilson(1, 1), (0.2065, 1.0));
-    assert_eq!(wilson(0, 0), (0.0, 1.0));
+    near(share(0, 20), (0.0, 0.1611));
+    near(share(10, 20), (0.2993, 0.7007));
+    near(share(20, 20), (0.8389, 1.0));
+    near(share(1, 1), (0.2065, 1.0));
+    assert_eq!(share(0, 0), (0.0, 1.0));
 }
 
 #[test]

@@ -26,7 +26,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("model", &["shared", "experiment", "shape", "state"]),
     ("case", &["shared", "digest", "experiment"]),
     ("check", &["experiment", "rows", "heading", "outcome", "math"]),
-    ("report", &["check", "rows", "heading"]),
+    ("report", &["check", "rows", "heading", "math"]),
     ("collide", &["experiment", "model", "shape", "state", "work"]),
     ("integrate", &["deadline", "model", "experiment", "math", "state", "work"]),
     ("plan", &["experiment", "model"]),

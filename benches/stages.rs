@@ -1,5 +1,5 @@
-//! Time of every stage of a run, one by one: the contact test, its manifolds, what is gathered, the solvers, the judges,
-//! a step of each method, a case beside its stepping, a recording.
+//! Time of every stage of a run, one by one: the contact test, its manifolds, what is gathered, the solvers, the
+//! judges, a step of each method, a case beside its stepping, a recording.
 //!
 //!     cargo bench --locked --bench stages            # all
 //!     cargo bench --locked --bench stages -- solver  # those whose name holds it
@@ -171,7 +171,11 @@ scene:
   allow_overlap: true
   bodies:
     - {{ name: a, shape: {{ box: {{ size_m: [2, 1, 2] }} }}, mass_kg: 1 }}
-    - {{ name: b, shape: {shape}, mass_kg: 1, position_m: [0.3, 0.99, 0.2], orientation: {{ axis: [0, 1, 0], angle_deg: 20 }} }}
+    - name: b
+      shape: {shape}
+      mass_kg: 1
+      position_m: [0.3, 0.99, 0.2]
+      orientation: {{ axis: [0, 1, 0], angle_deg: 20 }}
 time: {{ step_s: 1, end_s: 1 }}
 "
     );

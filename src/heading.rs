@@ -151,7 +151,7 @@ impl Serialize for Heading {
 
 /// Content of a cell, borrowed from its row.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell<'a> {
+pub enum Datum<'a> {
     Null,
     Text(&'a str),
     Count(u64),
@@ -160,23 +160,23 @@ pub enum Cell<'a> {
     Other(&'a Value),
 }
 
-impl Cell<'_> {
+impl Datum<'_> {
     /// The number in it, if there is one.
     pub fn as_f64(self) -> Option<f64> {
         match self {
-            Cell::Count(count) => Some(count as f64),
-            Cell::Number(x) => Some(x),
-            Cell::Other(value) => value.as_f64(),
-            Cell::Null | Cell::Text(_) => None,
+            Datum::Count(count) => Some(count as f64),
+            Datum::Number(x) => Some(x),
+            Datum::Other(value) => value.as_f64(),
+            Datum::Null | Datum::Text(_) => None,
         }
     }
 
     /// The whole number in it, if there is one.
     pub fn as_i64(self) -> Option<i64> {
         match self {
-            Cell::Count(count) => i64::try_from(count).ok(),
-            Cell::Other(value) => value.as_i64(),
-            Cell::Null | Cell::Text(_) | Cell::Number(_) => None,
+            Datum::Count(count) => i64::try_from(count).ok(),
+            Datum::Other(value) => value.as_i64(),
+            Datum::Null | Datum::Text(_) | Datum::Number(_) => None,
         }
     }
 
@@ -184,21 +184,21 @@ impl Cell<'_> {
     pub fn write_json(self, to: &mut Vec<u8>) {
         // Writing into memory cannot fail, and JSON has all of these.
         let _ = match self {
-            Cell::Null => serde_json::to_writer(to, &()),
-            Cell::Text(text) => serde_json::to_writer(to, text),
-            Cell::Count(count) => serde_json::to_writer(to, &count),
-            Cell::Number(x) => serde_json::to_writer(to, &x),
-            Cell::Other(value) => serde_json::to_writer(to, value),
+            Datum::Null => serde_json::to_writer(to, &()),
+            Datum::Text(text) => serde_json::to_writer(to, text),
+            Datum::Count(count) => serde_json::to_writer(to, &count),
+            Datum::Number(x) => serde_json::to_writer(to, &x),
+            Datum::Other(value) => serde_json::to_writer(to, value),
         };
     }
 
     /// Appends its text as tables have it: null is nothing, and texts are without quotes.
     pub fn write_text(self, to: &mut Vec<u8>) {
         match self {
-            Cell::Null | Cell::Other(Value::Null) => {}
-            Cell::Text(text) => to.extend_from_slice(text.as_bytes()),
-            Cell::Other(Value::String(text)) => to.extend_from_slice(text.as_bytes()),
-            Cell::Count(_) | Cell::Number(_) | Cell::Other(_) => self.write_json(to),
+            Datum::Null | Datum::Other(Value::Null) => {}
+            Datum::Text(text) => to.extend_from_slice(text.as_bytes()),
+            Datum::Other(Value::String(text)) => to.extend_from_slice(text.as_bytes()),
+            Datum::Count(_) | Datum::Number(_) | Datum::Other(_) => self.write_json(to),
         }
     }
 }
@@ -207,22 +207,22 @@ impl Cell<'_> {
 pub trait InCell {
     const KIND: CellKind;
 
-    fn cell(&self) -> Cell<'_>;
+    fn cell(&self) -> Datum<'_>;
 }
 
 impl InCell for String {
     const KIND: CellKind = CellKind::Text;
 
-    fn cell(&self) -> Cell<'_> {
-        Cell::Text(self)
+    fn cell(&self) -> Datum<'_> {
+        Datum::Text(self)
     }
 }
 
 impl InCell for u64 {
     const KIND: CellKind = CellKind::Count;
 
-    fn cell(&self) -> Cell<'_> {
-        Cell::Count(*self)
+    fn cell(&self) -> Datum<'_> {
+        Datum::Count(*self)
     }
 }
 
@@ -230,16 +230,16 @@ impl InCell for f64 {
     const KIND: CellKind = CellKind::Number;
 
     /// A number that JSON cannot hold is null there, too.
-    fn cell(&self) -> Cell<'_> {
-        if self.is_finite() { Cell::Number(*self) } else { Cell::Null }
+    fn cell(&self) -> Datum<'_> {
+        if self.is_finite() { Datum::Number(*self) } else { Datum::Null }
     }
 }
 
 impl<T: InCell> InCell for Option<T> {
     const KIND: CellKind = T::KIND;
 
-    fn cell(&self) -> Cell<'_> {
-        self.as_ref().map_or(Cell::Null, T::cell)
+    fn cell(&self) -> Datum<'_> {
+        self.as_ref().map_or(Datum::Null, T::cell)
     }
 }
 
@@ -249,7 +249,7 @@ pub trait Headings {
     fn headings() -> Vec<Heading>;
 
     /// Shows the cells in the same order, each with the name of its column.
-    fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, Cell<'a>));
+    fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, Datum<'a>));
 }
 
 /// Columns whose names are known only when an experiment is there.
@@ -258,8 +258,8 @@ impl Headings for Map<String, Value> {
         Vec::new()
     }
 
-    fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, Cell<'a>)) {
-        self.iter().for_each(|(name, value)| visit(name, Cell::Other(value)));
+    fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, Datum<'a>)) {
+        self.iter().for_each(|(name, value)| visit(name, Datum::Other(value)));
     }
 }
 
@@ -268,7 +268,7 @@ impl<T: Headings> Headings for Shared<T> {
         T::headings()
     }
 
-    fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, Cell<'a>)) {
+    fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, Datum<'a>)) {
         T::each_cell(self, visit);
     }
 }
@@ -302,7 +302,7 @@ macro_rules! columns {
                 ),+].concat()
             }
 
-            fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, $crate::heading::Cell<'a>)) {
+            fn each_cell<'a>(&'a self, visit: &mut dyn FnMut(&'a str, $crate::heading::Datum<'a>)) {
                 $($crate::heading::columns!(@cell self, visit, $field, $type, [$($($how)+)?]);)+
             }
         }

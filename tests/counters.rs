@@ -4,7 +4,7 @@
 
 use crate::yaml::{CUBE_IN_BOX, measured};
 use gotai::experiment::ExperimentFile;
-use gotai::heading::{Cell, Headings};
+use gotai::heading::{Datum, Headings};
 use gotai::study::{self, Place};
 use gotai::sweep::build::build;
 use rayon::prelude::*;
@@ -71,7 +71,7 @@ fn line((config, sets): &(&str, &str)) -> String {
     let measured = study::measure(&experiment, &model, start, &Place::default()).ended.measured;
     let mut counted = vec![format!("steps={}", measured.steps)];
     measured.work.each_cell(&mut |name, cell| {
-        if let Cell::Count(count @ 1..) = cell {
+        if let Datum::Count(count @ 1..) = cell {
             counted.push(format!("{}={count}", name.trim_start_matches("work_")));
         }
     });

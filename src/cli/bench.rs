@@ -158,7 +158,7 @@ impl Command {
     }
 }
 
-/// Best rows of every other engine on the scene of a file: rows belong to it by its name, in which `-` and `_` are alike.
+/// Best rows of every other engine on the scene of a file: rows belong to it by its name, where `-` and `_` are alike.
 fn beside(planned: &PlannedBench, others: &[Trial]) -> Result<Vec<Trial>, CliError> {
     if others.is_empty() {
         return Ok(Vec::new());

@@ -1,6 +1,6 @@
 //! Measurements of a run: the columns of every row, one line each.
 
-use crate::heading::{Cell, CellKind, InCell, columns};
+use crate::heading::{CellKind, Datum, InCell, columns};
 use crate::outcome::Outcome;
 use crate::work::Work;
 use serde::{Deserialize, Serialize};
@@ -143,8 +143,8 @@ columns! {
 impl InCell for Outcome {
     const KIND: CellKind = CellKind::Text;
 
-    fn cell(&self) -> Cell<'_> {
-        Cell::Text(self.name())
+    fn cell(&self) -> Datum<'_> {
+        Datum::Text(self.name())
     }
 }
 

@@ -3,7 +3,7 @@
 use super::plan_file::{PlanAxis, PlanFile};
 use super::{Row, cells, columns};
 use crate::digest::hex;
-use crate::heading::{Cell, CellKind, Headings, unit_of};
+use crate::heading::{CellKind, Datum, Headings, unit_of};
 use arrow_array::builder::{Float64Builder, Int64Builder, StringBuilder};
 use arrow_array::{Array, ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use parquet::arrow::ArrowWriter;
@@ -28,7 +28,7 @@ pub struct Table<'a> {
 }
 
 /// A table as text, and the hash of its rows.
-pub struct Written {
+pub struct TableText {
     pub csv: Vec<u8>,
     pub hash: String,
 }
@@ -66,11 +66,11 @@ impl<'a> Table<'a> {
     }
 
     /// Shows every row's cells in the order of the columns.
-    fn each_row(&self, mut visit: impl FnMut(&[Cell<'a>])) {
+    fn each_row(&self, mut visit: impl FnMut(&[Datum<'a>])) {
         let mut cells = Vec::new();
         for row in self.rows {
             cells.clear();
-            cells.resize(self.columns.len(), Cell::Null);
+            cells.resize(self.columns.len(), Datum::Null);
             let mut next = 0;
             row.each_cell(&mut |name, cell| {
                 // Mostly the one behind the last; what only some rows have may stand in another order.
@@ -91,7 +91,7 @@ impl<'a> Table<'a> {
     }
 
     /// The table as CSV, null as nothing, and its hash.
-    pub fn written(&self) -> Written {
+    pub fn written(&self) -> TableText {
         let is_hashed: Vec<bool> = self.names().map(|name| !columns::is_beside_the_run(name)).collect();
         let (mut csv, mut hash, mut hashed) = (Vec::new(), Sha256::new(), Vec::new());
         for (at, name) in self.names().enumerate() {
@@ -115,7 +115,7 @@ impl<'a> Table<'a> {
             csv.push(b'\n');
             hash.update(&hashed);
         });
-        Written { csv, hash: hex(&hash.finalize()) }
+        TableText { csv, hash: hex(&hash.finalize()) }
     }
 
     /// The table as Parquet, with the plan's question, the units, program, format and the rows' hash in its metadata.
@@ -171,11 +171,11 @@ impl Filled {
         }
     }
 
-    fn append(&mut self, cell: Cell) {
+    fn append(&mut self, cell: Datum) {
         match self {
             Filled::Text(column) => match cell {
-                Cell::Null | Cell::Other(Value::Null) => column.append_null(),
-                Cell::Text(text) => column.append_value(text),
+                Datum::Null | Datum::Other(Value::Null) => column.append_null(),
+                Datum::Text(text) => column.append_value(text),
                 other => {
                     let mut text = Vec::new();
                     other.write_text(&mut text);

@@ -8,7 +8,7 @@ use super::recorded::Recorded;
 use crate::build_info::BUILD;
 use crate::digest::{seal, sealed, unsealed};
 use crate::files::{self, FileError, write_whole};
-use crate::heading::{Cell, Headings};
+use crate::heading::{Datum, Headings};
 use crate::rows::Measured;
 use crate::shared::Shared;
 use serde::{Deserialize, Serialize};
@@ -168,16 +168,16 @@ pub fn open_alone(dir: &Path, path: &Path) -> Result<File, FileError> {
 /// Row on a line of its own, sealed, without the columns of every row that are null.
 fn row_line(Entry { case, build, measured }: &Entry) -> Vec<u8> {
     let mut said = Vec::with_capacity(1 << 11);
-    let mut say = |name: &str, cell: Cell| {
-        if cell != Cell::Null {
+    let mut say = |name: &str, cell: Datum| {
+        if cell != Datum::Null {
             said.push(if said.is_empty() { b'{' } else { b',' });
-            Cell::Text(name).write_json(&mut said);
+            Datum::Text(name).write_json(&mut said);
             said.push(b':');
             cell.write_json(&mut said);
         }
     };
-    say("case", Cell::Text(case));
-    say("build", Cell::Text(build));
+    say("case", Datum::Text(case));
+    say("build", Datum::Text(build));
     measured.each_cell(&mut say);
     let mut line = seal(said);
     line.push(b'\n');

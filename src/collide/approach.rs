@@ -3,7 +3,7 @@
 //! as in D. E. Stewart, J. C. Trinkle, Int. J. Numer. Meth. Engng 39 (1996) 2673).
 
 use super::Contact;
-use super::closed::{is_closed_to_rounding, left_m, rounding_m};
+use super::closed::{is_closed_to_rounding, rounding_m};
 use super::lasting::Hold;
 pub use crate::experiment::types::Approach;
 use crate::model::Model;
@@ -73,7 +73,7 @@ impl Approach {
     pub fn least(&self, model: &Model, contact: &Contact, [before, gained]: [f64; 2], step_s: f64) -> Option<f64> {
         let gap_m = if is_closed_to_rounding(model, contact) { 0.0 } else { contact.gap_m };
         // The new velocity lasts until the next step's contacts are seen: the gap may close until then.
-        let closing = if *self == Approach::Start { -left_m(model, contact) } else { -gap_m } / step_s;
+        let closing = -gap_m / step_s;
         let rebound = -contact.restitution * before.min(0.0);
         let falling = gained.min(0.0);
         match self {
@@ -83,10 +83,7 @@ impl Approach {
             Approach::Start if rebound > 0.0 && before + gained < closing => Some(closing.max(rebound + falling)),
             // What opens may come back with its part e of that speed: so Moreau's form u⁺ + e u⁻ ≥ 0 has it of all
             // contacts that are closed, and one e for all of them gains no energy without friction.
-            Approach::Start => {
-                let opens = -contact.restitution * (before + gained).max(0.0);
-                Some(if closing > 0.0 { closing + opens } else { closing.min(opens) })
-            }
+            Approach::Start => Some(closing.min(-contact.restitution * (before + gained).max(0.0))),
             // What forces take back within the step comes to rest.
             Approach::Middle if gap_m == 0.0 && before < 0.0 => {
                 Some(if contact.restitution < 1.0 && rebound <= -falling { 0.0 } else { rebound })

@@ -47,14 +47,6 @@ pub fn is_closed_to_rounding(model: &Model, contact: &Contact) -> bool {
     contact.gap_m <= rounding_m(model, contact)
 }
 
-/// The gap that a step of equal length closes. What rounding has left is closed from either side: else points of one
-/// face that lies flat but for that would be asked for velocities that no rigid body has, and one or two of them would
-/// bear it all. What coordinates cannot resolve is no gap, and what is deeper inside is moved out elsewhere.
-pub fn left_m(model: &Model, contact: &Contact) -> f64 {
-    let is_none = contact.gap_m.abs() <= unresolved_m(contact.p_WC.amax());
-    if is_none || contact.gap_m < -rounding_m(model, contact) { 0.0 } else { contact.gap_m }
-}
-
 /// δ of a body of this size, at such a coordinate: a gap beyond it is never stepped over.
 pub fn delta_m(radius_m: f64, coordinate_m: f64) -> f64 {
     DELTA * radius_m + unresolved_m(coordinate_m)

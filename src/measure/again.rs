@@ -27,6 +27,12 @@ fn rests<'a>(shown: &Shown<'a>) -> Option<(&'a [SolvedContact], f64)> {
 }
 
 impl Again {
+    /// With room for so many bodies and contacts.
+    pub fn with_capacity(bodies: usize, contacts: usize) -> Self {
+        let (bodies, contacts) = (Vec::with_capacity(bodies), Vec::with_capacity(contacts));
+        Again { bodies, contacts, ..Again::default() }
+    }
+
     /// Whether this step has been judged so many times in all that its judges need not look.
     pub fn is(&self, shown: &Shown, enough: u64) -> bool {
         self.times >= enough && rests(shown).is_some_and(|(contacts, step_s)| self.is_known(shown, contacts, step_s))

@@ -102,7 +102,8 @@ impl Judge {
             exchange: Exchange::with_capacity(bodies, plan.contacts),
             dissipation: Dissipation::with_capacity(bodies),
             impacts: Impacts { is_empty: true, before: start.clone(), contacts: Vec::new() },
-            again: (!model.has_loads() && model.pins.is_empty() && plan.stiffness_n_m.is_none()).then(Again::default),
+            again: (!model.has_loads() && model.pins.is_empty() && plan.stiffness_n_m.is_none())
+                .then(|| Again::with_capacity(bodies, plan.contacts)),
             taken: Taken::default(),
             middle: start.clone(),
         }

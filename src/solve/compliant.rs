@@ -2,18 +2,16 @@
 //! Σ|p|², at once with the velocities that these make, where contacts slip different ways.
 //!
 //! The proximal problem about nothing (`proximal.rs`) is that of such contacts. From one step to the next they mostly
-//! go on as they are, so that one linear system comes near; else a falling η leads there from nothing. What giving
-//! leaves is taken away by Newton's method on the law itself (`active_set.rs`), which keeps the shares.
+//! go on as they are, so that one linear system comes near. What giving leaves is taken away by Newton's method on the
+//! law itself (`active_set.rs`), which keeps the shares.
 
 use super::Impulse;
 use super::active_set;
 use super::island::{Island, Share};
 use super::proximal::Problem;
-use nalgebra::DVector;
 
-/// η of contacts, whose blocks have a trace of 1; and those that lead there from nothing.
+/// η of contacts, whose blocks have a trace of 1.
 const ETA: f64 = 1e-5;
-const FALLING: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
 
 /// Those of problems about what was found, where faces that are not quite flat bear on a part of their points.
 const LESS: [f64; 3] = [1e-6, 1e-7, 1e-8];
@@ -22,8 +20,7 @@ const LESS: [f64; 3] = [1e-6, 1e-7, 1e-8];
 const FEW: usize = 8;
 const MOST: usize = 15;
 
-/// Of |y| what may be missing: on the way, and of the last one.
-const ROUGH: f64 = 1e-3;
+/// Of |y| what may be missing.
 const FINE: f64 = 1e-4;
 
 /// The impulses, and their residual. None: not found.
@@ -36,18 +33,7 @@ pub(super) fn solve(island: &Island, p: &[Impulse], tolerance: f64, steps: &mut 
     };
     let fine = etas(ETA);
     let problem = Problem { island, centre: &nothing, etas: &fine, tolerance: FINE };
-    let goes_on = |steps: &mut u64| problem.solve(problem.as_before(p, steps)?, FEW, steps);
-    let from_nothing = |steps: &mut u64| {
-        let mut y = DVector::zeros(island.unknowns());
-        for eta in FALLING {
-            let etas = etas(eta);
-            y = Problem { etas: &etas, tolerance: ROUGH, ..problem }.solve(y, MOST, steps)?.y;
-        }
-        problem.solve(y, MOST, steps)
-    };
-    let is_known = p.iter().any(|p| *p != Impulse::zeros());
-    let found = if is_known { goes_on(steps) } else { None };
-    let mut found = found.or_else(|| from_nothing(steps))?;
+    let mut found = problem.solve(problem.as_before(p, steps)?, FEW, steps)?;
     let mut best = found.p.clone();
     let mut residual = active_set::try_to_improve(island, &mut best, tolerance, steps);
     for eta in LESS {

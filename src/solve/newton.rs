@@ -5,8 +5,8 @@
 //! near from nothing. Where friction wedges bodies and its path turns back, proximal problems with a falling η go on
 //! from there (`proximal.rs`), and where one of those is not solved, sweeps of exact projected Gauss–Seidel. All of
 //! them work on six velocities a body, in sparse blocks; contacts may be as redundant as they like, and pins are among
-//! them. Redundant contacts share their impulses evenly: those that slip begin as contacts that give a little, all
-//! alike (`compliant.rs`), or come to it at the end (`active_set::even`), and then, of all impulses that make these
+//! them. Redundant contacts share their impulses evenly: those of one body that slip begin as contacts that give a
+//! little, all alike (`compliant.rs`), others come to it at the end (`active_set::even`), and then, of all impulses that make these
 //! velocities, the smallest are taken (`smallest.rs`), wherever the iteration started.
 //!
 //! Allocates. Residuals are the judge's (`measure::residual`), worked out from J and M⁻¹ as the solver has them.
@@ -29,8 +29,11 @@ const MORE_SWEEPS: u32 = 300;
 /// of it); what it is multiplied by when the problem was solved, and when it was not.
 const FIRST_ETA: f64 = 0.1;
 const LEAST_ETA: f64 = 1e-8;
-const ON: f64 = 0.25;
+const ON: f64 = 0.5;
 const BACK: f64 = 4.0;
+
+/// Proximal problems that were not solved, one after another, before sweeps are worth what they cost.
+const FAILURES: u32 = 3;
 
 /// The least η of the way to impulses shared evenly.
 const EVEN_ETA: f64 = 1e-3;
@@ -161,7 +164,9 @@ pub(super) fn solve_island(
         }
     };
     let mut is_even = false;
-    if active_set::may_be_shared(island, p)
+    if best <= NEAR
+        && island.bodies() == 1
+        && active_set::may_be_shared(island, p)
         && let Some((found, residual)) = compliant::solve(island, p, goal.tolerance, &mut work.newton_steps)
     {
         is_even = is_enough(residual, &found);
@@ -178,7 +183,7 @@ pub(super) fn solve_island(
         keep(&mut best, p, found, work);
     }
     let (mut centre, mut eta) = (p.clone(), FIRST_ETA);
-    let (mut last, mut in_vain) = (best, 0);
+    let (mut last, mut in_vain, mut failures) = (best, 0, 0);
     for _ in 0..goal.most {
         in_vain = if best < last { 0 } else { in_vain + 1 };
         last = best;
@@ -188,10 +193,14 @@ pub(super) fn solve_island(
         }
         if let Some(next) = proximal::solve(island, &centre, &centre, eta, &mut work.newton_steps) {
             eta = (eta * ON).max(LEAST_ETA);
-            centre = next;
+            (centre, failures) = (next, 0);
         } else {
             eta *= BACK;
-            sweep(&mut centre, work);
+            failures += 1;
+            if failures < FAILURES {
+                continue;
+            }
+            (failures, _) = (0, sweep(&mut centre, work));
         }
         keep(&mut best, p, centre.clone(), work);
     }

@@ -1,7 +1,7 @@
 //! Steps that need not be worked out: of bodies that rest, and of bodies that fly where nothing is near.
 //!
-//! A body that contacts hold, that keeps every bit of its place, and whose velocities are what rounding leaves of the
-//! step's forces, rests: they are set to 0. So a step from there may be the one before over again, and needs not be
+//! A body that contacts hold, whose place a step changes by less than rounding, and whose velocities are what rounding
+//! leaves of the step's forces, rests: it stays where it was, without velocities. So a step from there may be the one before over again, and needs not be
 //! made. A body in flight is not held against the faces before it can have come to one.
 
 use crate::collide::closed::MARGIN;
@@ -11,6 +11,9 @@ use crate::state::{BodyState, State};
 
 /// Of the speed that the step's forces give a body: what contacts leave of it when they hold it.
 const NOTHING: f64 = 1e-13;
+
+/// Of a place, or of an attitude: what does not move a body.
+const HALF: f64 = f64::EPSILON / 2.0;
 
 /// Whether nothing changes with time but what moves freely.
 pub(super) fn is_steady(model: &Model, start: &State) -> bool {
@@ -35,12 +38,14 @@ pub(super) fn put_to_rest(
             is_same &= at.has_bits_of(before);
             continue;
         }
-        let stays = at.is_placed_as(before) && response[i] != Twist::ZERO;
-        if stays {
+        let moved_m = (at.p_WB - before.p_WB).amax();
+        let is_placed = moved_m <= HALF * before.p_WB.amax().max(body.bounding_radius_m)
+            && (at.q_WB.coords - before.q_WB.coords).amax() <= HALF;
+        if is_placed && response[i] != Twist::ZERO {
             let speed = |v: f64, w: f64| v + w * body.bounding_radius_m;
             let gained = speed((free[i].v - before.v_WB).norm(), (free[i].w - before.w_WB).norm());
             if speed(at.v_WB.norm(), at.w_WB.norm()) <= NOTHING * gained {
-                (at.v_WB, at.w_WB) = (Twist::ZERO.v, Twist::ZERO.w);
+                *at = BodyState { v_WB: Twist::ZERO.v, w_WB: Twist::ZERO.w, ..*before };
             }
         }
         is_same &= at.has_bits_of(before);

@@ -52,8 +52,8 @@ fn a_stack_stands_and_mostly_costs_a_look() {
     assert!(m.error_position_m.unwrap() < 1e-11, "{:?}", m.error_position_m);
     assert!(m.residual_max.unwrap() < 1e-11, "{:?}", m.residual_max);
     assert_eq!(m.work.unsolved, 0);
-    // measured: 205 of 300
-    assert!(m.work.kept_solves > 150, "{}", m.work.kept_solves);
+    let looked = m.work.kept_solves + m.work.rest_steps;
+    assert!(looked > 150, "{looked}"); // measured: 205 of 300 without rest
 }
 
 /// The same motion, whether impulses are kept or solved for anew (`newton` always solves).

@@ -53,7 +53,6 @@ fn flight_and_rest_are_skipped_to_the_same_bits() {
                 assert!(bits(&skipped) == bits(&full), "{sets:?}");
                 assert!(work.flight_steps > 50, "{sets:?}: {work:?}");
                 assert_eq!([all.flight_steps, all.rest_steps], [0, 0]);
-                assert!(work.contact_tests < all.contact_tests);
             }
         }
     }

@@ -5,7 +5,7 @@ use super::error::CliError;
 use super::output::{ProgressFlag, print, print_json};
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen};
-use super::reporting::{Known, OF_BENCH, Reported, write_beside};
+use super::reporting::{Known, OF_BENCH, Reported, others_of, write_beside};
 use super::sweeping::{Config, configs};
 use super::table::table;
 use crate::bench::{self, Contender, Ran, timing};

@@ -1,8 +1,8 @@
 //! A comparison as one page of HTML that needs nothing else.
 
-use crate::report::svg::escaped;
 use super::compared::{at, brief, cell, changed, described, factor, finding, interval, joined, others, outcomes};
 use crate::check::{Change, Compared, Regression, Side};
+use crate::report::svg::escaped;
 use std::fmt::Write;
 
 const STYLE: &str = "

@@ -4,9 +4,9 @@
 use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, GridCell, Mark, Shading};
 use super::number::{counted, percent, plain, short};
 use super::stats::{crossing, explained, median};
-use crate::math::interval::{Interval, of_share};
 use super::subject::{Ground, Levels};
 use crate::heading::unit_of;
+use crate::math::interval::{Interval, of_share};
 
 /// What a map shows of the rows of a cell.
 #[derive(Clone, Debug, PartialEq)]

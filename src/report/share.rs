@@ -4,8 +4,8 @@ use super::ensemble::along;
 use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, Mark};
 use super::map::{Painted, sides, telling, verb};
 use super::number::percent;
-use crate::math::interval::{Interval, of_share};
 use super::subject::{Ground, Levels};
+use crate::math::interval::{Interval, of_share};
 
 /// Most lines that can be told apart.
 const MOST: usize = 7;

@@ -1,11 +1,11 @@
 //! What figures find in rows: intervals, critical values, laws, pooling, what is missing or failed.
 
 use super::{axis, of_rows, row, subject};
+use gotai::math::interval::of_share;
 use gotai::report::choose::{figures, map_in_characters};
 use gotai::report::figure::Drawn;
 use gotai::report::page::Page;
 use gotai::report::stats::{PowerLaw, crossing, explained, quantile};
-use gotai::math::interval::of_share;
 use gotai::report::subject::Subject;
 use serde_json::json;
 

@@ -17,9 +17,8 @@ const LARGEST_ETA: f64 = 1e-2;
 /// Some units of rounding of a velocity, of what residuals are compared with.
 const NOISE: f64 = 1e-15;
 
-/// Steps without an improvement before it is given up, when others will be tried, and after the tolerance is met.
+/// Steps without an improvement before it is given up, and after the tolerance is met.
 const PATIENCE: usize = 6;
-const TRY_PATIENCE: usize = 2;
 const SOLVED_PATIENCE: usize = 1;
 const MOST: usize = 15;
 
@@ -28,24 +27,18 @@ const ROUNDING: f64 = 1e-14;
 
 /// Improves `p`, or leaves it. Its residual.
 pub fn improve(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
-    improve_with(|_| ETA, PATIENCE, island, p, tolerance, steps)
-}
-
-/// The same of one of many tries.
-pub fn try_to_improve(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
-    improve_with(|_| ETA, TRY_PATIENCE, island, p, tolerance, steps)
+    improve_with(|_| ETA, island, p, tolerance, steps)
 }
 
 /// The same from impulses that are near already. What rounds a velocity is felt as 1/η of it in impulses that redundant
 /// contacts share, and pushes those at the side of their cone out of it: η is so large that this is less than what is
 /// to be mended.
 pub fn improve_near(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
-    improve_with(|residual| (NOISE / residual).clamp(ETA, LARGEST_ETA), PATIENCE, island, p, tolerance, steps)
+    improve_with(|residual| (NOISE / residual).clamp(ETA, LARGEST_ETA), island, p, tolerance, steps)
 }
 
 fn improve_with(
     eta: impl Fn(f64) -> f64,
-    patience: usize,
     island: &Island,
     p: &mut Vec<Impulse>,
     tolerance: f64,
@@ -54,7 +47,7 @@ fn improve_with(
     let mut best = island.residual(p);
     let (mut now, mut worse) = (p.clone(), 0);
     for _ in 0..MOST {
-        if best <= ROUNDING || worse > patience || (worse > SOLVED_PATIENCE && best <= tolerance) {
+        if best <= ROUNDING || worse > PATIENCE || (worse > SOLVED_PATIENCE && best <= tolerance) {
             break;
         }
         *steps += 1;

@@ -3,7 +3,6 @@
 mod active_set;
 pub mod auto;
 pub mod block;
-mod compliant;
 mod coupling;
 pub mod end;
 pub mod exact_contact;

@@ -5,16 +5,15 @@
 //! near from nothing. Where friction wedges bodies and its path turns back, proximal problems with a falling η go on
 //! from there (`proximal.rs`), and where one of those is not solved, sweeps of exact projected Gauss–Seidel. All of
 //! them work on six velocities a body, in sparse blocks; contacts may be as redundant as they like, and pins are among
-//! them. Redundant contacts share their impulses evenly: those of one body that slip begin as contacts that give a
-//! little, all alike (`compliant.rs`), others come to it at the end (`active_set::even`), and then, of all impulses that make these
-//! velocities, the smallest are taken (`smallest.rs`), wherever the iteration started.
+//! them. Last, redundant contacts share their impulses evenly: those that slip (`active_set::even`), and then, of all
+//! impulses that make these velocities, the smallest are taken (`smallest.rs`), wherever the iteration started.
 //!
 //! Allocates. Residuals are the judge's (`measure::residual`), worked out from J and M⁻¹ as the solver has them.
 
 use super::gauss_seidel::{self, Sweeps, Variant};
 use super::island::{Island, islands};
 use super::problem::ContactProblem;
-use super::{Impulse, active_set, compliant, interior, proximal, smallest};
+use super::{Impulse, active_set, interior, proximal, smallest};
 use crate::deadline::Deadline;
 use crate::experiment::types::{Cone, Correction, Iteration, Local, Order};
 use crate::work::Work;
@@ -31,9 +30,6 @@ const FIRST_ETA: f64 = 0.1;
 const LEAST_ETA: f64 = 1e-8;
 const ON: f64 = 0.5;
 const BACK: f64 = 4.0;
-
-/// Proximal problems that were not solved, one after another, before sweeps are worth what they cost.
-const FAILURES: u32 = 3;
 
 /// The least η of the way to impulses shared evenly.
 const EVEN_ETA: f64 = 1e-3;
@@ -155,7 +151,7 @@ pub(super) fn solve_island(
     let mut best = island.residual(p);
     let is_enough = |residual: f64, p: &[Impulse]| island.is_enough(residual, goal.tolerance, p);
     let keep = |best: &mut f64, p: &mut Vec<Impulse>, mut tried: Vec<Impulse>, work: &mut Work| {
-        let mut residual = active_set::try_to_improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
+        let mut residual = active_set::improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
         if residual <= NEARLY && !is_enough(residual, &tried) {
             residual = active_set::improve_near(island, &mut tried, goal.tolerance, &mut work.newton_steps);
         }
@@ -163,18 +159,7 @@ pub(super) fn solve_island(
             (*best, *p) = (residual, tried);
         }
     };
-    let mut is_even = false;
-    if best <= NEAR
-        && island.bodies() == 1
-        && active_set::may_be_shared(island, p)
-        && let Some((found, residual)) = compliant::solve(island, p, goal.tolerance, &mut work.newton_steps)
-    {
-        is_even = is_enough(residual, &found);
-        if is_even || residual < best {
-            (best, *p) = (residual, found);
-        }
-    }
-    if !is_even && best <= NEAR {
+    if best <= NEAR {
         keep(&mut best, p, p.clone(), work);
     }
     if !is_enough(best, p)
@@ -183,7 +168,7 @@ pub(super) fn solve_island(
         keep(&mut best, p, found, work);
     }
     let (mut centre, mut eta) = (p.clone(), FIRST_ETA);
-    let (mut last, mut in_vain, mut failures) = (best, 0, 0);
+    let (mut last, mut in_vain) = (best, 0);
     for _ in 0..goal.most {
         in_vain = if best < last { 0 } else { in_vain + 1 };
         last = best;
@@ -193,18 +178,14 @@ pub(super) fn solve_island(
         }
         if let Some(next) = proximal::solve(island, &centre, &centre, eta, &mut work.newton_steps) {
             eta = (eta * ON).max(LEAST_ETA);
-            (centre, failures) = (next, 0);
+            centre = next;
         } else {
             eta *= BACK;
-            failures += 1;
-            if failures < FAILURES {
-                continue;
-            }
-            (failures, _) = (0, sweep(&mut centre, work));
+            sweep(&mut centre, work);
         }
         keep(&mut best, p, centre.clone(), work);
     }
-    if !is_even && is_enough(best, p) && active_set::may_be_shared(island, p) {
+    if is_enough(best, p) && active_set::may_be_shared(island, p) {
         best = active_set::even(island, p, shares.rounds, goal.tolerance, &mut work.newton_steps);
     }
     // A velocity that so exact impulses leave is rounding.

@@ -1,8 +1,8 @@
 //! Steps that need not be worked out: of bodies that rest, and of bodies that fly where nothing is near.
 //!
 //! A body that contacts hold, whose place a step changes by less than rounding, and whose velocities are what rounding
-//! leaves of the step's forces, rests: it stays where it was, without velocities. So a step from there may be the one before over again, and needs not be
-//! made. A body in flight is not held against the faces before it can have come to one.
+//! leaves of the step's forces, rests: it stays where it was, without velocities. So a step from there may be the one
+//! before over again, and needs not be made. A body in flight is not held against the faces before it can have come to one.
 
 use crate::collide::closed::MARGIN;
 use crate::model::Model;

@@ -19,7 +19,7 @@ mod out;
 pub mod rounded;
 mod seen;
 
-use self::crowd::{Drawn, drawn_as};
+use self::crowd::{DrawnBodies, drawn_as};
 use self::live::Live;
 use self::names::{CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path};
 use self::out::{Appended, Out, Sink, Times, times};
@@ -41,7 +41,7 @@ pub struct RerunRecorder {
     path: PathBuf,
     header: Header,
     arrows: ForceArrows,
-    bodies: Vec<Drawn>,
+    bodies: Vec<DrawnBodies>,
     seen: Seen,
     pictures: Pictures,
     /// Energy of the first sample, if the energies of others can be held against it.

@@ -71,22 +71,27 @@ pub fn is_sound_whatever_the_seed(experiment: &file::Experiment) -> bool {
     scene.pins.is_empty() && random.place.is_none() && !may_overlap
 }
 
+/// Bodies that have been built, and what of.
+struct Built {
+    scene: Shared<file::Scene>,
+    skips: file::Skips,
+    bodies: Shared<Vec<Body>>,
+}
+
 thread_local! {
     /// Bodies that this thread has built last, and of which scene: the cases of a sweep that differ by seed or step
     /// alone have one.
-    static LAST: RefCell<Option<(Shared<file::Scene>, file::Skips, Shared<Vec<Body>>)>> = const { RefCell::new(None) };
+    static LAST: RefCell<Option<Built>> = const { RefCell::new(None) };
 }
 
 fn build_bodies(scene: &Shared<file::Scene>, skips: file::Skips) -> Result<Shared<Vec<Body>>, BuildError> {
-    let is_it = |(of, with, _): &&(Shared<file::Scene>, file::Skips, Shared<Vec<Body>>)| {
-        of.is_one_with(scene) && *with == skips
-    };
-    if let Some(bodies) = LAST.with_borrow(|last| last.as_ref().filter(is_it).map(|(.., bodies)| bodies.clone())) {
+    let is_it = |built: &&Built| built.scene.is_one_with(scene) && built.skips == skips;
+    if let Some(bodies) = LAST.with_borrow(|last| last.as_ref().filter(is_it).map(|built| built.bodies.clone())) {
         return Ok(bodies);
     }
     let bodies = scene.bodies.iter().map(|described| build_body(described, scene, skips));
     let bodies = Shared::new(bodies.collect::<Result<Vec<_>, _>>()?);
-    LAST.set(Some((scene.clone(), skips, bodies.clone())));
+    LAST.set(Some(Built { scene: scene.clone(), skips, bodies: bodies.clone() }));
     Ok(bodies)
 }
 

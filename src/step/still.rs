@@ -2,7 +2,8 @@
 //!
 //! A body that contacts hold, whose place a step changes by less than rounding, and whose velocities are what rounding
 //! leaves of the step's forces, rests: it stays where it was, without velocities. So a step from there may be the one
-//! before over again, and needs not be made. A body in flight is not held against the faces before it can have come to one.
+//! before over again, and needs not be made. A body in flight is not held against the faces before it can have come to
+//! one.
 
 use crate::collide::closed::MARGIN;
 use crate::model::Model;

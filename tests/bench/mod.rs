@@ -212,5 +212,5 @@ fn other_engines_stand_beside_the_rows_in_table_and_diagram() {
         "no rows of this scene; it has elsewhere",
     );
     wrong(&format!("{head}\nmy_spin,tops,RK4,0.01,200,1e-3,position_m,1,1\n"), "another unit (`position_m`)");
-    wrong("scene,engine\nmy_spin,tops\n", "missing field");
+    wrong("scene,engine\nmy_spin,tops\n", "expected rows of a bench");
 }

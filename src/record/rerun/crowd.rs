@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub const EDGED_BODIES: usize = 400;
 
 /// An entity, and the bodies that it shows.
-pub struct Drawn {
+pub struct DrawnBodies {
     pub path: EntityPath,
     pub bodies: Vec<usize>,
     pub colour: schema::Rgb,
@@ -21,9 +21,9 @@ type Look<'a> = (Vec<[u64; 3]>, &'a [[u32; 3]], usize);
 
 /// Entities of the bodies: one each, up to as many as have their edges drawn; of more, one for all of a shape and
 /// colour.
-pub fn drawn_as(header: &Header) -> Vec<Drawn> {
+pub fn drawn_as(header: &Header) -> Vec<DrawnBodies> {
     let colours = schema::BODY_COLOURS;
-    let own = |(i, body): (usize, &crate::record::sample::BodyHeader)| Drawn {
+    let own = |(i, body): (usize, &crate::record::sample::BodyHeader)| DrawnBodies {
         path: body_path(&body.name),
         bodies: vec![i],
         colour: colours[i % colours.len()],
@@ -45,7 +45,7 @@ pub fn drawn_as(header: &Header) -> Vec<Drawn> {
             return own((only, &header.bodies[only]));
         }
         let name = format!("{} and {} more", header.bodies[first].name, bodies.len() - 1);
-        Drawn { path: EntityPath::from(BODIES).join(&EntityPath::from_single_string(name)), bodies, colour }
+        DrawnBodies { path: EntityPath::from(BODIES).join(&EntityPath::from_single_string(name)), bodies, colour }
     });
     drawn.collect()
 }

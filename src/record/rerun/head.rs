@@ -1,7 +1,7 @@
 //! Head of an .rrd, once, before the first sample: layout, names, surfaces, colours, configuration.
 
 use super::camera::{Camera, camera, scale};
-use super::crowd::{Drawn, EDGED_BODIES};
+use super::crowd::{DrawnBodies, EDGED_BODIES};
 use super::names::{
     CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, ENERGY_UNIT, FLIGHT, FORCES, FRICTION_USE, GAINS,
     GROUND, HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, SIM_TIME, STEP, STRETCH, TRAILS, WORLD, application,
@@ -54,14 +54,14 @@ const AXES_COLOURS: [Rgb; 3] = [[235, 80, 80], [100, 210, 90], [90, 140, 250]];
 ///
 /// # Errors
 /// Rerun's own.
-pub fn messages(header: &Header, bodies: &[Drawn]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
+pub fn messages(header: &Header, bodies: &[DrawnBodies]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
     let (stream, memory) = stream(header)?;
     let store = memory.store_id().ok_or("Rerun made no recording")?;
 
     let mut messages = layout::messages(header, None)?;
     describe(header, &stream)?;
     if header.streams.bodies {
-        for Drawn { path, bodies, colour } in bodies {
+        for DrawnBodies { path, bodies, colour } in bodies {
             let body = &header.bodies[bodies[0]];
             stream.log_static(path.clone(), &surface(body, *colour, u8::MAX))?;
             if header.bodies.len() <= EDGED_BODIES {

@@ -104,6 +104,9 @@ impl Reported {
                 subject.frame = RowFrame::of_csv(&files::read(path)?).map_err(|why| wrong(&why))?;
             }
         }
+        if ending != "json" && subject.frame.rows() == 0 {
+            return Err(wrong("it has none"));
+        }
         if subject.frame.has("outcome") && subject.frame.has("case") {
             subject.axes = axes_of(&subject.frame);
             subject.planned = subject.frame.rows();

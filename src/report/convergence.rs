@@ -2,7 +2,7 @@
 
 use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, Mark};
 use super::number::{counted, plain, short};
-use super::pareto::{in_words, unit};
+use super::pareto::{IS_AN_ORDER, in_words, unit};
 use super::tried::Tried;
 use crate::rows::trials::{Trial, methods, order};
 
@@ -21,7 +21,7 @@ pub fn figure(tried: &[Tried]) -> Option<Figure> {
         rows += of_method().map(|tried| tried.rows).sum::<usize>();
         let mut label = plain(method);
         // An error that does not fall with the step is rounding, or of another origin.
-        if let Some(order) = order(&trials, method).filter(|order| order.slope > 0.2) {
+        if let Some(order) = order(&trials, method).filter(|order| order.slope > IS_AN_ORDER) {
             label += &format!(", order {:.2}", order.slope);
             let floor = if order.left_out > 0 { format!(" ({} in rounding)", order.left_out) } else { String::new() };
             orders.push((order.slope, format!("{} {:.2}{floor}", plain(method), order.slope)));
@@ -32,11 +32,11 @@ pub fn figure(tried: &[Tried]) -> Option<Figure> {
         return None;
     }
     let finding = match orders.len() {
-        0 => "No method has an order above its rounding.".to_string(),
+        0 => format!("No method has an order of the {} above its rounding.", in_words(column)),
         n => {
             let most = orders.iter().take(6).map(|(_, said)| said.clone()).collect::<Vec<_>>().join(", ");
             let more = if n > 6 { format!(" and {} more", n - 6) } else { String::new() };
-            format!("Orders, as slopes of the error in the step: {most}{more}.")
+            format!("Orders, as slopes of the {} in the step: {most}{more}.", in_words(column))
         }
     };
     let triangles = triangles(&marks, &orders);

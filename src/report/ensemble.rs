@@ -12,6 +12,9 @@ const LEAST: usize = 5;
 const MOST: usize = 7;
 const BANDS: usize = 3;
 
+/// Medians that differ by less are alike.
+const ALIKE: f64 = 1e-9;
+
 /// The figure of a ground with seeds. None without them, or without an axis beside them.
 pub fn figure(ground: &Ground) -> Option<Figure> {
     ground.axes.iter().find(|axis| axis.is_of_seeds() && axis.len() >= LEAST)?;
@@ -45,15 +48,16 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
                 zeros += 1;
                 continue;
             }
+            let of = y.map_or(String::new(), |_| format!("{name}, "));
             let said = format!(
-                "{name}, {}: median {}, 5 to 95 % {} to {}, {} runs",
+                "{of}{}: median {}, 5 to 95 % {} to {}, {} runs",
                 x.says(level),
                 short(middle),
                 short(low),
                 short(high),
                 sizes.len()
             );
-            if largest.as_ref().is_none_or(|(largest, _)| middle > *largest) {
+            if largest.as_ref().is_none_or(|(largest, _)| middle > *largest * (1.0 + ALIKE)) {
                 largest = Some((middle, said.clone()));
             }
             // What is zero lies below any logarithm: the band ends where the smallest number is.

@@ -416,7 +416,12 @@ fn finding(ground: &Ground, painted: &Painted, cells: &[GridCell]) -> String {
             }
             let Interval { low, high } = of_share(k, n);
             let most = largest.map(|cell| cell.said.split(" (95").next().unwrap_or_default().to_string());
-            let most = most.map(|said| format!("; most where {said}")).unwrap_or_default();
+            let alike = cells.iter().filter(|cell| cell.value == largest.and_then(|largest| largest.value)).count();
+            let most = match alike {
+                _ if cells.iter().filter(|cell| cell.value.is_some()).count() == alike => String::new(),
+                0 | 1 => most.map(|said| format!("; most where {said}")).unwrap_or_default(),
+                n => most.map(|said| format!("; most in {n} cells, such as {said}")).unwrap_or_default(),
+            };
             format!(
                 "{k} of {} {} ({:.1} %, 95 % interval {:.1} to {:.1} %){most}.",
                 counted(n, "run"),
@@ -434,7 +439,12 @@ fn finding(ground: &Ground, painted: &Painted, cells: &[GridCell]) -> String {
                     let [smallest, largest] =
                         [smallest, cell.value.unwrap_or_default()].map(|x| with_unit(&short(x), unit));
                     let place = cell.said.split(": median").next().unwrap_or_default();
-                    format!("The median {name} of a cell goes from {smallest} to {largest}, where {place}.")
+                    match smallest == largest {
+                        true => format!("The median {name} of every cell is {largest}."),
+                        false => {
+                            format!("The median {name} of a cell goes from {smallest} to {largest}, where {place}.")
+                        }
+                    }
                 }
                 _ => format!("No row has a number in {column}."),
             }

@@ -146,7 +146,7 @@ pub fn log_ticks(low: f64, high: f64) -> Vec<(f64, String)> {
         let tidy = |x: f64| shown(format!("{x:.1e}").parse().unwrap_or(x));
         return all.filter(|x| inside(*x)).map(|x| (x, tidy(x))).collect();
     }
-    let every = (to - from + MOST - 1) / MOST;
+    let every = ((to - from + MOST - 1) / MOST).max(1);
     let decades = (from..=to).filter(|d| d % every == 0).map(|d| (libm::exp10(f64::from(d)), power_of_ten(d)));
     decades.filter(|(x, _)| inside(*x)).collect()
 }

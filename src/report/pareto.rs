@@ -6,23 +6,28 @@ use super::tried::Tried;
 use crate::heading::unit_of;
 use crate::rows::trials::{Trial, methods, order, pareto};
 
+/// A slope of the error in the step that is none: rounding, or an error of another origin.
+pub const IS_AN_ORDER: f64 = 0.2;
+
 /// The figure of trials.
 pub fn figure(title: &str, tried: &[Tried]) -> Figure {
     let trials: Vec<Trial> = tried.iter().map(|tried| tried.trial.clone()).collect();
     let column = trials.first().map_or("error", |row| row.error_kind.as_str());
-    let on_front = pareto(&trials);
+    let is_one_problem = tried.iter().all(|other| other.problem == tried[0].problem);
+    let on_front = if is_one_problem { pareto(&trials) } else { vec![false; trials.len()] };
     let mut front: Vec<Dot> =
         trials.iter().zip(&on_front).filter(|(_, on_it)| **on_it).filter_map(|(row, _)| dot(row, None)).collect();
     front.sort_by(|a, b| a.x.total_cmp(&b.x));
-    let mut marks = vec![Mark { label: "Pareto front".to_string(), drawn: Drawn::Front, colour: 4, dots: front }];
+    let front = Mark { label: "Pareto front".to_string(), drawn: Drawn::Front, colour: 4, dots: front };
+    let mut marks = if is_one_problem { vec![front] } else { Vec::new() };
     let mut without = 0;
     for (colour, method) in methods(&trials).into_iter().enumerate() {
         let of_method: Vec<&Tried> = tried.iter().filter(|tried| tried.trial.method == method).collect();
         let dots: Vec<Dot> = of_method.iter().filter_map(|tried| dot(&tried.trial, tried.row)).collect();
         let mut label = plain(method);
-        // Of another engine's best rows, which are of several methods, there is none.
-        let is_ours = of_method.iter().all(|tried| tried.trial.engine == "gotai");
-        if let Some(order) = order(&trials, method).filter(|_| is_ours) {
+        // None of another engine's best rows, which are of several methods, nor of what chooses its own steps.
+        let has_steps = of_method.iter().all(|Tried { trial, .. }| trial.engine == "gotai" && trial.step_s.is_some());
+        if let Some(order) = order(&trials, method).filter(|order| has_steps && order.slope > IS_AN_ORDER) {
             label += &format!(", order {:.2}", order.slope);
         }
         // What a logarithm cannot show is said in words.
@@ -45,15 +50,22 @@ pub fn figure(title: &str, tried: &[Tried]) -> Figure {
         (if is_repeated { "bars: from the best of the repeats to their median" } else { "times of steps in a sweep" })
             .to_string(),
     );
+    if trials.iter().any(|trial| trial.step_s.or(trial.tolerance).is_none()) {
+        notes.push("closed forms, which errors are measured against, do not compete".to_string());
+    }
     if without > 0 {
         notes.push(format!("{} without an end or a number", counted(without, "point")));
     }
     Figure {
         name: "pareto".to_string(),
         title: plain(title),
-        finding: finding(&trials, &on_front, column),
+        finding: if is_one_problem { finding(&trials, &on_front, column) } else { of_problems(tried) },
         x: FigureAxis { label: in_words(column), unit: unit(column), scale: FigureScale::Logarithmic },
-        y: FigureAxis { label: "run time, best".to_string(), unit: "s".to_string(), scale: FigureScale::Logarithmic },
+        y: FigureAxis {
+            label: (if is_repeated { "run time, best" } else { "run time" }).to_string(),
+            unit: "s".to_string(),
+            scale: FigureScale::Logarithmic,
+        },
         field: None,
         marks,
         notes,
@@ -79,14 +91,14 @@ fn finding(trials: &[Trial], on_front: &[bool], column: &str) -> String {
             best.push(&trial.method);
         }
     }
-    let point = |trial: &Trial| trial.point().filter(|(error, _)| *error > 0.0);
     let accurate = trials.iter().zip(on_front).filter(|(_, on_it)| **on_it).filter_map(|(trial, _)| {
-        let (error, wall_s) = point(trial)?;
+        let (error, wall_s) = trial.point()?;
         Some((error, wall_s, trial))
     });
     let accurate = accurate.min_by(|a, b| a.0.total_cmp(&b.0));
     let most = accurate.map(|(error, wall_s, trial)| {
-        format!("; the smallest error, {} {}, is {}'s in {} s", short(error), unit(column), trial.method, short(wall_s))
+        let method = &trial.method;
+        format!("; its smallest error, {} {}, is {method}'s in {} s", short(error), unit(column), short(wall_s))
     });
     plain(&format!(
         "{} of {} on the Pareto front: {}{}.",
@@ -94,6 +106,24 @@ fn finding(trials: &[Trial], on_front: &[bool], column: &str) -> String {
         trials.len(),
         best.join(", "),
         most.unwrap_or_default()
+    ))
+}
+
+/// What there is to say where the trials are of several problems.
+fn of_problems(tried: &[Tried]) -> String {
+    let mut problems: Vec<&str> = Vec::new();
+    for Tried { problem, .. } in tried {
+        if !problems.contains(&problem.as_str()) {
+            problems.push(problem);
+        }
+    }
+    let shown: Vec<&str> = problems.iter().take(4).copied().collect();
+    let more = if problems.len() > shown.len() { ", …" } else { "" };
+    plain(&format!(
+        "{} of {}, which do not compete with each other: {}{more}.",
+        counted(tried.len(), "point"),
+        counted(problems.len(), "problem"),
+        shown.join("; ")
     ))
 }
 

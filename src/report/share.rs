@@ -79,10 +79,16 @@ fn finding(marks: &[Mark], x: &Levels, outcome: &str) -> Option<String> {
     let level = (0..x.len()).max_by(|a, b| spread(*a).total_cmp(&spread(*b)))?;
     let (low, high) = at(level)?;
     let verb = verb(outcome);
+    let sizes = || marks.iter().flat_map(|mark| mark.dots.iter().map(|dot| dot.y));
+    if let Some(first) = sizes().next()
+        && sizes().all(|y| y == first)
+    {
+        return Some(format!("Everywhere {} of the runs {verb}.", percent(first)));
+    }
     Some(match marks.len() {
         1 => format!("At {} {} of the runs {verb}, the most anywhere.", x.says(level), percent(high.1)),
         _ => format!(
-            "At {} it is from {} ({}) to {} ({}) of the runs that {verb}.",
+            "At {} between {} ({}) and {} ({}) of the runs {verb}.",
             x.says(level),
             percent(low.1),
             low.0.label,

@@ -123,6 +123,11 @@ impl Levels {
         self.path.ends_with("tolerance")
     }
 
+    /// Whether its values are methods, or settings of one.
+    pub fn is_of_methods(&self) -> bool {
+        self.path == "method" || self.path.starts_with("method.")
+    }
+
     /// `path = value unit`.
     pub fn says(&self, level: usize) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };

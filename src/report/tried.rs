@@ -1,7 +1,7 @@
 //! What a method did at one step or tolerance: rows of a bench as they are, of a sweep the medians over its other axes.
 
 use super::frame::RowFrame;
-use super::stats::{explained, median};
+use super::stats::median;
 use super::subject::{Ground, Levels};
 use crate::rows::trials::Trial;
 
@@ -13,11 +13,16 @@ pub struct Tried {
     pub row: Option<usize>,
     /// Number of rows that it is the median of.
     pub rows: usize,
+    /// What it was tried on, where that differs: only trials of one problem compete.
+    pub problem: String,
 }
 
 /// Errors that a sweep's rows are compared by, the first of which there is one.
 const ERRORS: [&str; 4] =
     ["error_position_m", "error_orientation_rad", "error_velocity_m_s", "error_angular_velocity_rad_s"];
+
+/// Of the largest error of any kind: one that nowhere exceeds it is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Most series of a figure.
 const MOST_SERIES: usize = 10;
@@ -28,7 +33,7 @@ pub fn trials(ground: &Ground) -> Vec<Tried> {
     if !known.is_empty() {
         let tried = |(row, trial): (usize, &Trial)| {
             let row = (ground.subject.is_bench && row < ground.frame().rows()).then_some(row);
-            Tried { trial: labelled(trial.clone()), row, rows: 1 }
+            Tried { trial: labelled(trial.clone()), row, rows: 1, problem: String::new() }
         };
         return known.iter().enumerate().map(tried).collect();
     }
@@ -45,21 +50,17 @@ fn labelled(mut trial: Trial) -> Trial {
 
 fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
     let frame = ground.frame();
-    let has_sizes = |name: &&&str| frame.numbers(name).is_some_and(|x| x.iter().any(|x| x.is_finite() && *x != 0.0));
     let accuracy: Vec<&Levels> = ground.axes.iter().filter(|axis| axis.is_step() || axis.is_tolerance()).collect();
     if accuracy.is_empty() {
         return None;
     }
-    // The error that follows the step, not one that is rounding alone.
-    let follows = |name: &&&str| {
-        let log =
-            |row: usize| frame.number(name, row).map(f64::abs).filter(|x| *x > 0.0 && x.is_finite()).map(libm::log10);
-        let of = accuracy[0].of_row.iter().enumerate();
-        explained(accuracy[0].len(), of.filter_map(|(row, level)| Some(((*level)? as usize, log(row)?))))
+    // The first error that is not rounding beside the others.
+    let largest = |name: &&str| {
+        let sizes = frame.numbers(name).into_iter().flatten().map(|x| x.abs()).filter(|x| x.is_finite());
+        sizes.fold(0.0, f64::max)
     };
-    let known: Vec<&&str> = ERRORS.iter().filter(has_sizes).collect();
-    let best = known.iter().map(follows).fold(0.0, f64::max);
-    let error = **known.iter().find(|name| follows(name) >= 0.5 * best)?;
+    let of_all = ERRORS.iter().map(largest).fold(0.0, f64::max);
+    let error = *ERRORS.iter().find(|name| largest(name) > ROUNDING * of_all)?;
     let errors = frame.numbers(error)?;
     // One series for what the other axes are, where these are few.
     let mut by: Vec<&Levels> = ground.chosen().filter(|axis| !axis.is_step() && !axis.is_tolerance()).collect();
@@ -86,6 +87,8 @@ fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
             let at = accuracy.iter().position(|axis| of(axis))?;
             accuracy[at].numbers.as_ref().map(|numbers| numbers[key[by.len() + at] as usize])
         };
+        let of_problem = by.iter().zip(&names).filter(|(axis, _)| !axis.is_of_methods());
+        let problem = of_problem.map(|(_, name)| name.as_str()).collect::<Vec<_>>().join(", ");
         let method = if names.is_empty() { ground.subject.methods.join(", ") } else { names.join(", ") };
         let step_s = value(Levels::is_step).map(|step_s| of(used).unwrap_or(step_s));
         Tried {
@@ -105,6 +108,7 @@ fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
             },
             row: (rows.len() == 1).then(|| rows[0]),
             rows: rows.len(),
+            problem,
         }
     };
     Some(groups.into_iter().map(tried).collect())

@@ -26,18 +26,21 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
         explained(axis.len(), of.filter_map(|(level, y)| Some(((*level)? as usize, libm::log1p(y.max(0.0))))))
     };
     let x = ground.chosen().max_by(|a, b| score(a).total_cmp(&score(b)))?;
+    let place = |level: usize| x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
     let mut said = Vec::new();
     let mut marks = Vec::new();
     for (colour, (name, _)) in counters.iter().enumerate() {
         let dot = |(level, values): (usize, &Vec<f64>)| {
             let middle = median(values).filter(|middle| *middle > 0.0)?;
-            let place = x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
             let said =
                 format!("{name}, {}: median {} of {}", x.says(level), short(middle), counted(values.len(), "run"));
-            Some(Dot::at(place, middle).saying(said))
+            Some(Dot::at(place(level), middle).saying(said))
         };
         let dots: Vec<Dot> = ground.grouped(x, None, name)[0].iter().enumerate().filter_map(dot).collect();
-        if let (Some(a), Some(b)) = (dots.first(), dots.last()) {
+        let is_whole = |a: &Dot, b: &Dot| x.len() > 1 && [a.x, b.x] == [place(0), place(x.len() - 1)];
+        if let (Some(a), Some(b)) = (dots.first(), dots.last())
+            && is_whole(a, b)
+        {
             said.push(format!("{name} {} to {}", short(a.y), short(b.y)));
         }
         let drawn = if x.numbers.is_some() { Drawn::Line } else { Drawn::Points };
@@ -49,7 +52,10 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     Some(Figure {
         name: "work".to_string(),
         title: "Work".to_string(),
-        finding: format!("Medians from {} to {}: {}.", x.says(0), x.says(x.len() - 1), said.join(", ")),
+        finding: match said.len() {
+            0 => format!("Medians along {}.", x.path),
+            _ => format!("Medians from {} to {}: {}.", x.says(0), x.says(x.len() - 1), said.join(", ")),
+        },
         x: along(x, x.is_logarithmic()),
         y: FigureAxis {
             label: "count in a run, median".to_string(),

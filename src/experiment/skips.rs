@@ -61,7 +61,8 @@ impl Skip {
     /// How far the motion with it is from the one without.
     pub fn bound(self) -> &'static str {
         match self {
-            Skip::ContactTest | Skip::Bounds | Skip::FrictionRows | Skip::Flight | Skip::Rest => "the same bits",
+            Skip::ContactTest | Skip::Bounds | Skip::Flight | Skip::Rest => "the same bits",
+            Skip::FrictionRows => "to rounding; of `pgs` and `nncg` the same bits",
             Skip::GyroscopicTerm => {
                 "exact; without it the method's rule errs, the implicit midpoint by (|ω|Δt)³/12 a step"
             }

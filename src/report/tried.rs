@@ -22,7 +22,7 @@ const ERRORS: [&str; 4] =
     ["error_position_m", "error_orientation_rad", "error_velocity_m_s", "error_angular_velocity_rad_s"];
 
 /// Of the largest error of any kind: one that nowhere exceeds it is rounding.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING: f64 = 1e-6;
 
 /// Most series of a figure.
 const MOST_SERIES: usize = 10;

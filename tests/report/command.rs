@@ -108,8 +108,8 @@ fn what_holds_no_rows_is_one_clear_line() {
         assert!(code == 2 && out.is_empty() && err.lines().count() == 1 && err.contains(name), "{name}: {err}");
     }
     std::fs::write(at("rows.csv"), "case,a,outcome\n").unwrap();
-    let (code, text, _) = run(&["report", &at("rows.csv")]);
-    assert!(code == 0 && text.contains("rows-report.html"), "{text}");
+    let (code, _, err) = run(&["report", &at("rows.csv")]);
+    assert!(code == 2 && err.contains("it has none"), "{err}");
 }
 
 #[test]
@@ -143,4 +143,49 @@ fn the_map_is_of_the_column_that_is_asked_for() {
     // In characters, all of them.
     let (_, all, _) = run(&["report", &dir, "-v"]);
     assert!(all.contains("Error against step") && all.contains(" |") && all.contains("a  "), "{all}");
+}
+
+/// The error that is shown is one, and not what rounding leaves of another.
+#[test]
+fn an_error_that_is_rounding_has_no_order() {
+    let folder = scratch::folder();
+    let slide = "question: q
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  friction: 0.3
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies: [{ name: b, shape: { box: { size_m: [0.4, 0.2, 0.4] } }, mass_kg: 1, position_m: [0, 0.1, 0], velocity_m_s: [2, 0, 1] }]
+exact: sliding
+method: time-stepping
+time: { end_s: 0.5 }
+sweep:
+  axes:
+    time.step_s: [0.02, 0.01, 0.005]
+    method.time-stepping.scheme: [semi-implicit, moreau]
+";
+    let config = folder.path().join("slide.yaml");
+    std::fs::write(&config, slide).unwrap();
+    let out = folder.path().join("out").display().to_string();
+    let (code, _, err) = run(&["sweep", config.to_str().unwrap(), "--out", &out, "--record", "none", "--quiet"]);
+    assert_eq!(code, 0, "{err}");
+    let (_, text, _) = run(&["report", &out]);
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("slopes of the position error in the step: semi-implicit 1.0"), "{text}");
+}
+
+/// A step of equal length or many orders of magnitude: some ticks.
+#[test]
+fn numbers_of_any_size_have_ticks() {
+    let folder = scratch::folder();
+    let mut rows = "case,seed,time.step_s,outcome,energy_drift_rel\n".to_string();
+    for seed in 0..6 {
+        for (k, step) in ["0.1", "0.2"].iter().enumerate() {
+            let drift = ["1e308", "1e-320", "0", "1", "2", "-3"][(seed + k) % 6];
+            rows += &format!("{seed}{k},{seed},{step},finished,{drift}\n");
+        }
+    }
+    let file = folder.path().join("rows.csv");
+    std::fs::write(&file, rows).unwrap();
+    let (code, text, err) = run(&["report", file.to_str().unwrap()]);
+    assert!(code == 0 && text.contains("rows-report.html"), "{text}{err}");
 }

@@ -127,12 +127,14 @@ impl GhostJudge<'_> {
     /// Without the impulses the bodies come as much nearer as they should, up to what a step does not see of their
     /// turning. `legs`: with the impulses and without.
     fn is_early(&mut self, group: &Group, gains: &[Gain; 2], [with, without]: [&[Leg; 2]; 2], over_s: f64) -> bool {
-        let turning_m = |(leg, i): (&Leg, usize)| {
+        let turning_m = |(leg, i): (&Leg, usize)| -> f64 {
             let body = &self.model.bodies[i];
             if body.is_centred_ball() { 0.0 } else { 0.5 * leg.turned.norm_squared() * self.figures[i].radius_m }
         };
         let bodies = [Some(group.bodies.0), group.bodies.1];
-        let unseen_m: f64 = with.iter().zip(bodies.into_iter().flatten()).map(turning_m).sum();
+        // A step looks at its motion without them.
+        let unseen_m = |legs: &[Leg; 2]| legs.iter().zip(bodies.into_iter().flatten()).map(turning_m).sum::<f64>();
+        let unseen_m = unseen_m(with).max(unseen_m(without));
         if unseen_m == 0.0 {
             return false;
         }

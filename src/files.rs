@@ -18,13 +18,14 @@ impl FileError {
     }
 }
 
-/// Writes a file under a temporary name first: a file with the final name is whole.
+/// Writes a file under a temporary name first: a file with the final name is whole. An error names the
+/// file that was asked for.
 ///
 /// # Errors
 /// The machine failed.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FileError> {
     let partial = path.with_extension("partial");
-    std::fs::write(&partial, content).map_err(|error| FileError::new(&partial, error))?;
+    std::fs::write(&partial, content).map_err(|error| FileError::new(path, error))?;
     std::fs::rename(&partial, path).map_err(|error| FileError::new(path, error))
 }
 

@@ -34,7 +34,11 @@ pub struct Compared {
     pub cells: usize,
     pub cells_of_a: usize,
     pub cells_of_b: usize,
-    /// Values of the first cells that one side alone has.
+    /// Number of cells of A that B's plan has and its rows have not, or not all of whose rows are there: an interrupted
+    /// sweep.
+    pub missing: usize,
+    pub places_missing: Vec<Map<String, Value>>,
+    /// Values of the first cells that one side alone has, B's plan included.
     pub places_of_a: Vec<Map<String, Value>>,
     pub places_of_b: Vec<Map<String, Value>>,
     pub outcomes: Vec<OutcomeShare>,
@@ -43,6 +47,9 @@ pub struct Compared {
     /// Number of cells that finished on both sides, in which columns are compared.
     pub finished: usize,
     pub columns: Vec<Change>,
+    /// Columns with a better that have numbers on one side alone, where both have finished, with the number of cells.
+    pub missing_in_b: Vec<(String, usize)>,
+    pub missing_in_a: Vec<(String, usize)>,
     /// Columns that differ and of which nothing says what is better, with the number of cells.
     pub differing: Vec<(String, usize)>,
     /// Columns that cannot be compared, with the format in which their meaning has changed.
@@ -87,11 +94,23 @@ pub struct Change {
     /// Geometric mean of B / A over the cells, what is below the floor taken for the floor, and its interval.
     pub factor: Option<f64>,
     pub interval: Option<Interval>,
+    /// Side of the factor on which B / A is, where a floor has decided it.
+    pub bound: Option<FactorBound>,
     /// Size up to which a number is rounding.
     pub floor: f64,
 }
 
-/// A cell in which B is worse.
+/// What a geometric mean says in which a number was taken for the floor that it is below.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FactorBound {
+    /// B is at the floor: the ratio is smaller.
+    Below,
+    /// A is at the floor: the ratio is larger.
+    Above,
+}
+
+/// A cell in which B is worse, or a column that B has no more.
 #[derive(Clone, Debug, Serialize)]
 pub struct Regression {
     pub axes: Map<String, Value>,
@@ -151,9 +170,12 @@ pub fn compare(a: &Side, b: &Side, asked: &CompareBy) -> Result<Compared, Incomp
     if both.is_empty() {
         return Err(no_case(a, b, &axes));
     }
-    let of_a: Vec<&Cell> = single.iter().copied().filter(|cell| cell.b.is_empty()).collect();
-    let of_b: Vec<&Cell> = single.iter().copied().filter(|cell| cell.a.is_empty()).collect();
+    let (of_b, alone): (Vec<&Cell>, Vec<&Cell>) = single.iter().copied().partition(|cell| cell.a.is_empty());
     let place = |cell: &Cell| place(cell, &axes);
+    let (absent, of_a): (Vec<&Cell>, Vec<&Cell>) = alone.iter().copied().partition(|cell| b.plans(&place(cell)));
+    let planned = b.planned_in_a_cell(&axes).unwrap_or(0);
+    let short = both.iter().copied().filter(|cell| cell.b.len() < planned);
+    let missing: Vec<&Cell> = absent.into_iter().chain(short).collect();
     let other = |side: &Side, other: &Side| {
         side.axes.iter().filter(|axis| other.axis(&axis.path).is_none()).map(|axis| axis.path.clone()).collect()
     };
@@ -161,6 +183,12 @@ pub fn compare(a: &Side, b: &Side, asked: &CompareBy) -> Result<Compared, Incomp
     let (names, refused) = compared_columns(a, b, &axes, asked)?;
     let scale = Scale::of(a, b, &finished);
     let (mut columns, mut regressions) = (Vec::new(), outcome_regressions(&both, &axes));
+    regressions.extend(missing.iter().filter_map(|cell| Regression::of_missing(cell, &axes, planned)));
+    let missing_in_b = vanished(a, &finished, &axes, &refused, |cell| (&cell.a, &cell.b));
+    let is_asked = |name: &str| columns::aim(name) != Some(Aim::Cheap) || asked.with_cost;
+    for (name, count) in missing_in_b.iter().filter(|(name, _)| asked.columns.is_empty() && is_asked(name)) {
+        regressions.push(Regression::of_column(name, *count));
+    }
     for name in names {
         if let Some((change, worse)) = change(&name, &finished, &axes, &scale) {
             // What is named is asked for.
@@ -177,6 +205,10 @@ pub fn compare(a: &Side, b: &Side, asked: &CompareBy) -> Result<Compared, Incomp
         cells: both.len(),
         cells_of_a: of_a.len(),
         cells_of_b: of_b.len(),
+        missing: missing.len(),
+        places_missing: missing.iter().take(LISTED).map(|cell| place(cell)).collect(),
+        missing_in_a: vanished(b, &finished, &axes, &refused, |cell| (&cell.b, &cell.a)),
+        missing_in_b,
         places_of_a: of_a.iter().take(LISTED).map(|cell| place(cell)).collect(),
         places_of_b: of_b.iter().take(LISTED).map(|cell| place(cell)).collect(),
         outcomes: shares(&both),
@@ -304,6 +336,18 @@ fn change(name: &str, cells: &[&Cell], axes: &[String], scale: &Scale) -> Option
         .filter(|x| x.is_finite())
         .collect();
     let has_ratios = logs.len() == pairs.len();
+    let is_floored = |x: f64| x <= floor || x < least;
+    let floored =
+        |pick: fn(bool, bool) -> bool| pairs.iter().filter(|(_, a, b)| pick(is_floored(*a), is_floored(*b))).count();
+    let (low_a, low_b, low) = (floored(|a, b| a && !b), floored(|a, b| b && !a), floored(|a, b| a && b));
+    // Below on both sides there is no ratio, and the mean of bounds to both sides is none.
+    let has_factor = has_ratios && low < pairs.len() && (low_a == 0 || low_b == 0);
+    let bound = match (low_a, low_b) {
+        _ if !has_factor => None,
+        (0, 0) => None,
+        (0, _) => Some(FactorBound::Below),
+        _ => Some(FactorBound::Above),
+    };
     let exp = |Interval { low, high }| Interval { low: libm::exp(low), high: libm::exp(high) };
     let worse = pairs.iter().filter(|(_, a, b)| is_worse(*a, *b));
     let regressions: Vec<Regression> = worse
@@ -324,8 +368,9 @@ fn change(name: &str, cells: &[&Cell], axes: &[String], scale: &Scale) -> Option
         worse: regressions.len(),
         median_a: of(|(_, a, _)| *a),
         median_b: of(|(_, _, b)| *b),
-        factor: has_ratios.then(|| libm::exp(logs.iter().sum::<f64>() / logs.len() as f64)),
-        interval: of_mean(&logs).filter(|_| has_ratios).map(exp),
+        factor: has_factor.then(|| libm::exp(logs.iter().sum::<f64>() / logs.len() as f64)),
+        interval: of_mean(&logs).filter(|_| has_factor && bound.is_none()).map(exp),
+        bound,
         floor,
     };
     Some((change, regressions))
@@ -348,11 +393,37 @@ impl Regression {
             by,
         }
     }
+
+    /// A cell that has finished in A and of which rows of B's plan are missing.
+    fn of_missing(cell: &Cell, axes: &[String], planned: usize) -> Option<Self> {
+        let count = finished(&cell.a);
+        let a = match cell.a.len() {
+            _ if count == 0 => return None,
+            1 => Value::from(Outcome::Finished.name()),
+            n => Value::from(format!("{count} of {n} finished")),
+        };
+        let b = match cell.b.len() {
+            0 => Value::from("missing"),
+            n => Value::from(format!("{} of {planned} missing", planned.saturating_sub(n))),
+        };
+        Some(Regression { column: "outcome".into(), a, b, ..Regression::of(cell, axes, f64::INFINITY) })
+    }
+
+    /// A column with a better that has numbers in so many cells of A, and none in B.
+    fn of_column(name: &str, cells: usize) -> Self {
+        let said = format!("a number in {cells} case{}", if cells == 1 { "" } else { "s" });
+        let (a, b) = (Value::from(said), Value::from("missing"));
+        let (axes, column) = (Map::new(), name.to_string());
+        Regression { axes, column, a, b, case_a: None, case_b: None, by: f64::INFINITY }
+    }
+}
+
+fn finished(rows: &[&Cells]) -> usize {
+    rows.iter().filter(|row| outcome(row) == Outcome::Finished.name()).count()
 }
 
 /// Cells that finished in A and not in B; of several rows, if the intervals of their shares lie apart.
 fn outcome_regressions(cells: &[&Cell], axes: &[String]) -> Vec<Regression> {
-    let finished = |rows: &[&Cells]| rows.iter().filter(|row| outcome(row) == Outcome::Finished.name()).count();
     let worse = cells.iter().filter(|cell| {
         let (a, b) = (finished(&cell.a), finished(&cell.b));
         let (n, m) = (cell.a.len(), cell.b.len());
@@ -408,6 +479,26 @@ fn moved(cells: &[&Cell]) -> Vec<Moved> {
     all
 }
 
+/// Columns with a better that have a number in a cell of one side, and in none of both; with the number of those cells.
+fn vanished(
+    side: &Side,
+    cells: &[&Cell],
+    axes: &[String],
+    refused: &[(String, u32)],
+    sides: for<'a, 'b> fn(&'a Cell<'b>) -> (&'a [&'b Cells], &'a [&'b Cells]),
+) -> Vec<(String, usize)> {
+    let names = side.rows.first().into_iter().flat_map(Map::keys).filter(|name| {
+        columns::aim(name).is_some() && !axes.contains(name) && !refused.iter().any(|(refused, _)| refused == *name)
+    });
+    let counted = names.map(|name| {
+        let has = cells.iter().map(|cell| sides(cell)).map(|(here, there)| (size(here, name), size(there, name)));
+        let has: Vec<_> = has.filter(|(here, _)| here.is_some()).collect();
+        let is_there = has.iter().any(|(_, there)| there.is_some());
+        (name.clone(), if is_there { 0 } else { has.len() })
+    });
+    counted.filter(|(_, count)| *count > 0).collect()
+}
+
 /// Columns without a better, of cells with one row each, that are not the same.
 fn differing(
     a: &Side,
@@ -419,6 +510,7 @@ fn differing(
     let names = a.rows.first().into_iter().flat_map(Map::keys).filter(|name| {
         !["case", "build", "outcome"].contains(&name.as_str())
             && !columns::is_beside_the_run(name)
+            && columns::aim(name).is_none()
             && !axes.contains(name)
             && a.axis(name).is_none()
             && !compared.iter().any(|change| change.column == **name)

@@ -1,6 +1,7 @@
 //! Rows of two folders of results side by side: joined by the values on the axes that both have.
 
 use super::schema::Cells;
+use crate::experiment::filter::is_same;
 use crate::rows::plan_file::PlanAxis;
 use serde_json::Value;
 use std::collections::HashMap;
@@ -33,6 +34,22 @@ const SAME: f64 = 1e-9;
 impl Side {
     pub(super) fn axis(&self, path: &str) -> Option<&PlanAxis> {
         self.axes.iter().find(|axis| axis.path == path)
+    }
+
+    /// Whether its plan has all values of a place: a row of another one that is not there is missing then.
+    pub(super) fn plans(&self, place: &Cells) -> bool {
+        place.iter().all(|(path, value)| {
+            let planned = self.axis(path).into_iter().flat_map(|axis| &axis.values);
+            planned.chain(self.rows.iter().filter_map(|row| row.get(path))).any(|known| is_same(known, value))
+        })
+    }
+
+    /// Number of rows that its plan has wherever the values on these axes are given; None where axes advance side by
+    /// side, or where rows have been counted otherwise.
+    pub(super) fn planned_in_a_cell(&self, axes: &[String]) -> Option<usize> {
+        let count = |axis: &PlanAxis| axis.values.len();
+        let is_grid = self.axes.iter().map(count).product::<usize>() == self.planned;
+        is_grid.then(|| self.axes.iter().filter(|axis| !axes.contains(&axis.path)).map(count).product())
     }
 }
 

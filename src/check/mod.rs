@@ -14,7 +14,7 @@ mod numbers;
 mod schema;
 mod signed;
 
-pub use compare::{Change, CompareBy, Compared, Incomparable, Regression, TOLERATED, compare};
+pub use compare::{Change, CompareBy, Compared, FactorBound, Incomparable, Regression, TOLERATED, compare};
 pub use failing::{Failing, MOST, broken};
 pub use join::Side;
 pub use judge::{Judged, in_turn, judge};

@@ -2,7 +2,7 @@
 
 use super::args::{ExperimentArgs, OutputArgs};
 use super::error::CliError;
-use super::output::{ProgressFlag, print, print_json};
+use super::output::{ProgressFlag, print, print_json, say};
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen};
 use super::reporting::{Known, OF_BENCH, Reported, others_of, write_beside};
@@ -135,7 +135,7 @@ impl Command {
     fn on_one_core(&self, planned: &PlannedBench, dir: &Path) -> Result<Vec<(Trial, Seen)>, CliError> {
         let work = || {
             if !timing::pin() && !self.output.quiet {
-                eprintln!("gotai: this system does not let a thread stay on one core: times may scatter more");
+                say("gotai: this system does not let a thread stay on one core: times may scatter more");
             }
             let scene = planned.config.path.with_extension("").display().to_string();
             let bar = Bar::new(&planned.config.path, self.output, self.progress);
@@ -151,7 +151,7 @@ impl Command {
         };
         if self.output.verbose {
             let path = planned.config.path.display();
-            eprintln!("{path}: {} trials, each at least {} times", planned.trials.len(), planned.bench.repeats);
+            say(format!("{path}: {} trials, each at least {} times", planned.trials.len(), planned.bench.repeats));
         }
         std::thread::scope(|scope| scope.spawn(work).join())
             .unwrap_or_else(|_| Err(CliError::Machine("the thread of the bench has failed".into())))
@@ -235,7 +235,7 @@ fn write_report(dir: &Path) -> Option<PathBuf> {
     match Reported::of_folder(dir, Known::default()) {
         Ok(reported) => write_beside(&reported),
         Err(error) => {
-            eprintln!("warning: no report is written: {error}");
+            say(format!("warning: no report is written: {error}"));
             None
         }
     }

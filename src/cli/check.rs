@@ -8,7 +8,10 @@ use super::remarks::Remarks;
 use super::sweeping::{Config, PlannedSweep, SweepArgs, Swept, configs_of_each};
 use super::table::table;
 use crate::check::{Failing, Judged, one_sided};
+use crate::experiment::ExperimentFile;
+use crate::experiment::error::Kind;
 use crate::experiment::types::RecordTo;
+use crate::sweep::plan::SweepPlan;
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -16,7 +19,7 @@ use std::process::ExitCode;
 
 #[derive(Args)]
 pub struct Command {
-    /// Experiment files (YAML), or folders of them; in a folder, files without `expect:` are left out
+    /// Experiment files (YAML), or folders of them; in a folder, files without `expect:` are left out and counted
     #[arg(required = true)]
     configs: Vec<PathBuf>,
     /// Write the verdicts as a JUnit file too
@@ -37,8 +40,8 @@ impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
         let pool = self.sweep.run.pool()?;
         // Every case and every expectation of every file is checked before the first run.
-        let (planned, unchecked) = pool.install(|| self.planned());
         let mut report = Report::default();
+        let (planned, unchecked) = pool.install(|| self.planned(&mut report.without_expect));
         unchecked.into_iter().for_each(|unchecked| report.cannot_check(unchecked));
         for planned in &planned {
             if self.sweep.fail_fast && report.code() > 0 {
@@ -67,13 +70,15 @@ impl Command {
         Ok(ExitCode::from(report.code()))
     }
 
-    /// Sweeps of all files with something to check, and the files that are wrong.
-    fn planned(&self) -> (Vec<PlannedSweep>, Vec<Unchecked>) {
+    /// Sweeps of all files with something to check, and the files that are wrong; those of folders without `expect:`
+    /// are put beside.
+    fn planned(&self, without: &mut Vec<PathBuf>) -> (Vec<PlannedSweep>, Vec<Unchecked>) {
         let (mut planned, mut unchecked) = (Vec::new(), Vec::new());
         for config in configs_of_each(&self.configs) {
             let path = config.as_ref().map_or_else(|(path, _)| path.clone(), |config| config.path.clone());
             match config.map_err(|(_, error)| error).and_then(|config| self.plan_one(config)) {
-                Ok(found) => planned.extend(found),
+                Ok(Some(found)) => planned.push(found),
+                Ok(None) => without.push(path),
                 Err(error) => unchecked.push(Unchecked { path, error }),
             }
         }
@@ -88,6 +93,7 @@ impl Command {
     fn plan_one(&self, config: Config) -> Result<Option<PlannedSweep>, CliError> {
         let file = self.sweep.load(&config)?;
         if file.expect().is_empty() {
+            refuse_wrong(&file)?;
             let path = config.path.display();
             return match config.is_of_folder {
                 true => Ok(None),
@@ -114,6 +120,15 @@ impl Command {
         if checked.swept.failed() > 0 {
             print(page.broken(checked));
         }
+    }
+}
+
+/// Refuses a file without `expect:` that is wrong, as a slip in that word makes it; what others extend may lack what
+/// they bring.
+fn refuse_wrong(file: &ExperimentFile) -> Result<(), CliError> {
+    match SweepPlan::unbuilt(file, "") {
+        Err(error) if error.details().kind != Kind::Missing => Err(error.into()),
+        _ => Ok(()),
     }
 }
 
@@ -211,7 +226,7 @@ impl Page {
 }
 
 fn summary(report: &Report) -> String {
-    let Report { checked, unchecked, skipped } = report;
+    let Report { checked, unchecked, without_expect, skipped } = report;
     let all = checked.iter().map(|checked| checked.judged().len()).sum::<usize>();
     let met = checked.iter().flat_map(Checked::judged).filter(|judged| judged.met).count();
     let failed: usize = checked.iter().map(|checked| checked.swept.failed()).sum();
@@ -219,6 +234,7 @@ fn summary(report: &Report) -> String {
     for (count, thing, said) in [
         (failed, "case", "failed"),
         (unchecked.len(), "file", "could not be checked"),
+        (without_expect.len(), "file", "without `expect:` left out"),
         (skipped.len(), "file", "left out (--fail-fast)"),
     ] {
         if count > 0 {
@@ -229,7 +245,7 @@ fn summary(report: &Report) -> String {
 }
 
 fn document(report: &Report, remarks: &Remarks) -> Value {
-    let Report { checked, unchecked, skipped } = report;
+    let Report { checked, unchecked, without_expect, skipped } = report;
     let verdicts = checked.iter().flat_map(|checked| checked.judged().iter().map(move |judged| (checked, judged)));
     let cases =
         |checked: &Checked, failing| -> Vec<Value> { checked.cases(failing).iter().map(NamedCase::document).collect() };
@@ -259,7 +275,7 @@ fn document(report: &Report, remarks: &Remarks) -> Value {
         .collect();
     let mut document = json!({
         "met": report.code() == 0, "exit_code": report.code(), "expectations": expectations,
-        "experiments": experiments, "errors": errors, "left_out": skipped,
+        "experiments": experiments, "errors": errors, "left_out": skipped, "without_expect": without_expect,
     });
     remarks.put_into(&mut document);
     document

@@ -1,6 +1,7 @@
 //! A file of `gotai check` with its verdicts, and what it says of the cases that they name.
 
 use super::error::CliError;
+use super::output::say;
 use super::sweeping::Swept;
 use crate::check::{Failing, Judged, MOST};
 use crate::record::story::shortest;
@@ -26,6 +27,8 @@ pub struct Unchecked {
 pub struct Report {
     pub checked: Vec<Checked>,
     pub unchecked: Vec<Unchecked>,
+    /// Files of folders that have no `expect:`.
+    pub without_expect: Vec<PathBuf>,
     /// Files that were left out when another one was not met.
     pub skipped: Vec<String>,
 }
@@ -105,7 +108,7 @@ impl Checked {
 impl Report {
     /// Says so, and goes on.
     pub fn cannot_check(&mut self, unchecked: Unchecked) {
-        eprintln!("gotai: {}", unchecked.error);
+        say(format!("gotai: {}", unchecked.error));
         self.unchecked.push(unchecked);
     }
 

@@ -3,12 +3,15 @@
 use super::args::OutputArgs;
 use super::checked::quoted;
 use super::compare_page::page;
-use super::compared::{at, brief, cell, changed, described, factor, finding, interval, joined, others, outcomes};
+use super::compared::{
+    FACTOR, at, brief, cell, changed, described, factor, finding, interval, joined, others, outcomes,
+};
 use super::error::CliError;
 use super::output::{Hue, counted, print, print_json, width, wrapped};
 use crate::check::{Change, CompareBy, Compared, Regression, Side, TOLERATED, compare};
 use crate::experiment::ExperimentFile;
 use crate::files::{FileError, read, write_whole};
+use crate::report::cut;
 use crate::rows::columns::OLDEST;
 use crate::rows::plan_file::{FORMAT, PlanAxis};
 use crate::rows::table::rows_of_parquet;
@@ -29,7 +32,8 @@ pub struct Command {
     /// Columns to compare, with commas between them [default: all that say what is better]
     #[arg(long, value_delimiter = ',')]
     columns: Vec<String>,
-    /// Exit code 1 if B is worse: by more than 10 % and above rounding, or finished in A and not in B
+    /// Exit code 1 if B is worse: by more than 10 % and above rounding, finished in A and not in B
+    /// (or planned in B and missing), or a measure that has no number in B any more
     #[arg(long)]
     fail_on_regression: bool,
     /// What costs more is worse too: wall time, steps, counters of work
@@ -44,6 +48,10 @@ pub struct Command {
 
 /// Most regressions on the screen; JSON and -v have more.
 const SHOWN: usize = 6;
+
+/// What lines of the table begin with, and the fewest letters of a name in it.
+const MARGIN: &str = "  ";
+const LEAST_NAME: usize = 12;
 
 impl Command {
     /// Runs the command; the exit code is that of the program.
@@ -126,24 +134,32 @@ fn replay(side: &Side, case: &str) -> String {
     format!("gotai run {} --case {}", quoted(&side.name), case.get(..8).unwrap_or(case))
 }
 
-/// The columns that differ. What does not fit beside its column stands below it.
+/// The columns that differ, as wide as what they hold; where that is too wide, names are cut.
 fn table(compared: &Compared, width: usize) -> Vec<String> {
-    let (column, a, b) = ("column", "A", "B");
-    let mut lines = vec![format!("  {column:28} better worse {a:>8} {b:>8}  B / A (95 %)")];
-    for change in changed(compared) {
-        let Change { column, better, worse, cells, .. } = change;
-        let (a, b) = (brief(change.median_a), brief(change.median_b));
-        let line = format!("  {column:28} {better:6} {worse:5} {a:>8} {b:>8}  {}", factor(change));
-        let of = if *cells == compared.finished { String::new() } else { format!(" of {}", counted(*cells, "case")) };
-        let more = interval(change) + &of;
-        if line.chars().count() + 1 + more.chars().count() <= width {
-            lines.push(format!("{line} {more}").trim_end().to_string());
-        } else {
-            let indent = width.saturating_sub(more.chars().count());
-            lines.extend([line, format!("{:indent$}{more}", "")]);
-        }
-    }
-    lines
+    let is_in_all = |change: &&Change| change.cells == compared.finished;
+    let has_cells = !changed(compared).iter().all(is_in_all);
+    let head = ["column", "cases", "better", "worse", "A", "B", "B / A", "(95 %)"].map(String::from);
+    let mut rows = vec![head];
+    rows.extend(changed(compared).into_iter().map(|change| {
+        let [cells, better, worse] = [change.cells, change.better, change.worse].map(|count| count.to_string());
+        let [a, b] = [change.median_a, change.median_b].map(brief);
+        [change.column.clone(), cells, better, worse, a, b, factor(change), interval(change)]
+    }));
+    let mut widths: Vec<usize> =
+        (0..8).map(|i| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0)).collect();
+    let shown: Vec<usize> = (0..8).filter(|i| has_cells || *i != 1).collect();
+    // A space before each but the first, and the margin.
+    let taken = shown.iter().skip(1).map(|i| widths[*i] + 1).sum::<usize>() + MARGIN.len();
+    widths[0] = widths[0].min(width.saturating_sub(taken).max(LEAST_NAME));
+    let line = |row: &[String; 8]| {
+        let cells = shown.iter().map(|i| match i {
+            0 => format!("{:1$}", cut(&row[0], widths[0]), widths[0]),
+            7 => row[7].clone(),
+            i => format!("{:>1$}", row[*i], widths[*i]),
+        });
+        format!("{MARGIN}{}", cells.collect::<Vec<_>>().join(" ")).trim_end().to_string()
+    };
+    rows.iter().map(line).collect()
 }
 
 fn shown(a: &Side, b: &Side, compared: &Compared, is_colored: bool, most: usize) -> String {
@@ -160,6 +176,7 @@ fn shown(a: &Side, b: &Side, compared: &Compared, is_colored: bool, most: usize)
             counted(compared.finished, "case")
         ));
         text.extend(table(compared, width));
+        text.push(wrapped(FACTOR, width, MARGIN, MARGIN));
         text.push(String::new());
     }
     text.extend(others(compared).iter().map(|line| wrapped(line, width, "", "  ")));

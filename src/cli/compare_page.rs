@@ -1,8 +1,11 @@
 //! A comparison as one page of HTML that needs nothing else.
 
-use super::compared::{at, brief, cell, changed, described, factor, finding, interval, joined, others, outcomes};
+use super::compared::{
+    FACTOR, at, brief, cell, changed, described, factor, finding, interval, joined, others, outcomes,
+};
 use crate::check::{Change, Compared, Regression, Side};
-use crate::report::svg::escaped;
+use crate::report::plain;
+use crate::report::svg;
 use std::fmt::Write;
 
 const STYLE: &str = "
@@ -15,6 +18,11 @@ th, td { text-align: right; overflow-wrap: normal; }
 th:first-child, td:first-child, td.text { text-align: left; }
 .worse { font-weight: bold; }
 ";
+
+/// A text on a page: names are data, and hold no control and no markup.
+fn escaped(text: &str) -> String {
+    svg::escaped(&plain(text))
+}
 
 /// The page; all names are escaped.
 pub(super) fn page(a: &Side, b: &Side, compared: &Compared) -> String {
@@ -48,6 +56,7 @@ pub(super) fn page(a: &Side, b: &Side, compared: &Compared) -> String {
         let header = ["column", "unit", "cases", "better", "worse", "A", "B", "B / A", "95 %"];
         let caption = format!("Columns in {} cases that finished in both; A, B: medians of sizes", compared.finished);
         table(&mut html, &caption, &header, &rows);
+        let _ = writeln!(html, "<p>{}</p>", escaped(FACTOR));
     }
     for line in others(compared) {
         let _ = writeln!(html, "<p>{}</p>", escaped(&line));

@@ -1,7 +1,7 @@
 //! What is said of a comparison, on the screen and on a page.
 
 use super::output::counted;
-use crate::check::{Change, Compared, Side, short};
+use crate::check::{Change, Compared, FactorBound, Side, short};
 use crate::math::interval::Interval;
 use serde_json::{Map, Value};
 
@@ -34,6 +34,15 @@ pub(super) fn joined(compared: &Compared) -> Vec<String> {
             let more = if *count > shown.len() { "; …" } else { "" };
             lines.push(format!("only in {name}: {} ({}{more})", counted(*count, "case"), shown.join("; ")));
         }
+    }
+    if compared.missing > 0 {
+        let shown: Vec<String> = compared.places_missing.iter().take(3).map(at).collect();
+        let more = if compared.missing > shown.len() { "; …" } else { "" };
+        lines.push(format!(
+            "missing in B, whose plan has their values: {} of A ({}{more})",
+            counted(compared.missing, "case"),
+            shown.join("; ")
+        ));
     }
     lines
 }
@@ -69,14 +78,24 @@ fn is_same(change: &Change) -> bool {
     change.median_a == change.median_b && change.better + change.worse == 0
 }
 
-/// Factor from A to B.
+/// Factor from A to B; on one side of it where a floor has decided it, empty where floors leave none.
 pub(super) fn factor(change: &Change) -> String {
-    change.factor.map_or("-".into(), brief)
+    let bound = match change.bound {
+        None => "",
+        Some(FactorBound::Below) => "< ",
+        Some(FactorBound::Above) => "> ",
+    };
+    change.factor.map(|factor| format!("{bound}{}", brief(factor))).unwrap_or_default()
 }
+
+/// What the factor is.
+pub(super) const FACTOR: &str = "B / A: geometric mean over the cases that finished in both and have a number in both, \
+                                 with its 95 % interval; what is at or below the column's floor (rounding, zero) is \
+                                 taken for the floor: then `<` or `>`, or nothing where floors are on both sides";
 
 /// Interval of the factor, in brackets.
 pub(super) fn interval(change: &Change) -> String {
-    change.interval.map(|i: Interval| format!("({} … {})", brief(i.low), brief(i.high))).unwrap_or_default()
+    change.interval.map(|i: Interval| format!("({}…{})", brief(i.low), brief(i.high))).unwrap_or_default()
 }
 
 /// A number to three digits; a very large or small one to two.
@@ -88,13 +107,17 @@ pub(super) fn brief(x: f64) -> String {
 /// Columns that are the same everywhere, cannot be compared, or differ without a better, in sentences.
 pub(super) fn others(compared: &Compared) -> Vec<String> {
     let same: Vec<&str> = compared.columns.iter().filter(|c| is_same(c)).map(|c| c.column.as_str()).collect();
-    let differing: Vec<String> = compared.differing.iter().map(|(name, count)| format!("{name} ({count})")).collect();
+    let counts = |all: &[(String, usize)]| {
+        all.iter().map(|(name, count)| format!("{name} ({count})")).collect::<Vec<_>>().join(", ")
+    };
     let refused = compared.refused.iter();
     let refused: Vec<String> = refused.map(|(name, format)| format!("{name} (format {format})")).collect();
     let mut lines = Vec::new();
     for (said, names) in [
+        ("missing in B (numbers in A in so many cases)", counts(&compared.missing_in_b)),
+        ("missing in A (numbers in B in so many cases)", counts(&compared.missing_in_a)),
         ("the same to 10 % or rounding", same.join(", ")),
-        ("differ, and nothing says what is better (in so many cases)", differing.join(", ")),
+        ("differ, and nothing says what is better (in so many cases)", counts(&compared.differing)),
         ("not compared, because their meaning has changed", refused.join(", ")),
     ] {
         if !names.is_empty() {

@@ -1,6 +1,7 @@
 //! What is said of a recording that was cut, and of a file that is none.
 
 use super::error::CliError;
+use super::output::say;
 use crate::record::read::ReadBack;
 use crate::record::story::shortest;
 use std::path::Path;
@@ -8,7 +9,7 @@ use std::path::Path;
 /// Says on stderr that a file has lost its end, where it ends now, and what helps.
 pub(super) fn warn_of_cut(path: &Path, until_s: Option<f64>) {
     let path = path.display();
-    eprintln!("warning: {path}: the file was cut; {}; `gotai repair {path}` gives it an end", ends_at(until_s));
+    say(format!("warning: {path}: the file was cut; {}; `gotai repair {path}` gives it an end", ends_at(until_s)));
 }
 
 /// The same of a recording that was read, and of a mended one, whose run has no end in it.
@@ -18,7 +19,7 @@ pub(super) fn warn_of_end(path: &Path, recording: &ReadBack) {
         warn_of_cut(path, until_s);
     } else if !recording.said.contains_key("outcome") {
         let path = path.display();
-        eprintln!("warning: {path}: the end of the run is not in this recording; {}", ends_at(until_s));
+        say(format!("warning: {path}: the end of the run is not in this recording; {}", ends_at(until_s)));
     }
 }
 

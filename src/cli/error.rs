@@ -1,5 +1,6 @@
 //! Errors of the commands, with their exit codes.
 
+use super::output::say;
 use crate::experiment::ExperimentError;
 use crate::files::FileError;
 use crate::record::RecordError;
@@ -32,6 +33,11 @@ pub enum CliError {
 impl CliError {
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(self.code())
+    }
+
+    /// Says it on stderr.
+    pub fn say(&self) {
+        say(format!("gotai: {self}"));
     }
 
     /// The exit code as a number: 2 of wrong input, 3 of a machine that failed.

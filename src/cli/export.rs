@@ -3,7 +3,7 @@
 use super::cut::{no_recording, warn_of_end};
 use super::error::CliError;
 use super::ghosts::REPLAYS;
-use super::output::print;
+use super::output::{print, say};
 use crate::files::{FileError, make_folder, write_whole};
 use crate::record::read::{ReadBack, recording_of};
 use crate::record::series::{SeriesTable, TABLES, tables};
@@ -46,7 +46,7 @@ impl Command {
         for path in self.recordings()? {
             match self.export(&path) {
                 Err(error @ CliError::Input(_)) if first.is_ok() => first = Err(error),
-                Err(CliError::Input(more)) => eprintln!("gotai: {more}"),
+                Err(CliError::Input(more)) => say(format!("gotai: {more}")),
                 done => done?,
             }
         }
@@ -164,7 +164,7 @@ fn put_aside(file: &Path) -> Result<(), CliError> {
     let ending = file.extension().map(|ending| ending.to_string_lossy().into_owned()).unwrap_or_default();
     let aside = file.with_extension(format!("{ending}.old"));
     std::fs::rename(file, &aside).map_err(|error| FileError::new(&aside, error))?;
-    eprintln!("warning: {}: an older table, not of this file; it is now {}", file.display(), aside.display());
+    say(format!("warning: {}: an older table, not of this file; it is now {}", file.display(), aside.display()));
     Ok(())
 }
 

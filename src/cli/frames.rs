@@ -1,7 +1,7 @@
 //! `view --gif` and `--frames`: what the viewer shows of a recording as a moving picture, or as PNGs.
 
 use super::error::CliError;
-use super::output::print;
+use super::output::{print, say};
 use super::steered::Steered;
 use super::viewer::Viewer;
 use crate::files::{FileError, make_folder, write_whole};
@@ -76,11 +76,11 @@ impl FilmArgs {
                 written?;
                 print(folder.display());
                 if !quiet {
-                    eprintln!(
+                    say(format!(
                         "film: ffmpeg -framerate {} -i {}/%04d.png -pix_fmt yuv420p film.mp4",
                         self.fps,
                         folder.display()
-                    );
+                    ));
                 }
                 Ok(())
             }
@@ -117,7 +117,7 @@ impl FilmArgs {
             steered.picture(from_s + part * (to_s - from_s), &path)?;
             files.push(path);
             if !quiet && (i + 1) % 10 == 0 {
-                eprintln!("{} of {} pictures", i + 1, self.pictures);
+                say(format!("{} of {} pictures", i + 1, self.pictures));
             }
         }
         Ok(files)

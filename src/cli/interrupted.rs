@@ -2,6 +2,7 @@
 //! which signal it was.
 
 use super::error::CliError;
+use super::output::say;
 use crate::interrupt;
 use crate::record::story::shortest;
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -37,6 +38,6 @@ pub(super) fn listen() -> Result<(), CliError> {
 /// Exit code of a run that was interrupted at a time, which it says; None of another one.
 pub(super) fn code(time_s: f64) -> Option<ExitCode> {
     let signal = interrupt::asked()?;
-    eprintln!("interrupted at t = {} s: no row is kept, what was recorded is", shortest(time_s));
+    say(format!("interrupted at t = {} s: no row is kept, what was recorded is", shortest(time_s)));
     Some(ExitCode::from(128 + u8::try_from(signal).unwrap_or(0)))
 }

@@ -1,5 +1,6 @@
 //! Commands and flags that a later version brings: refused by name, so that nobody searches for a typing error.
 
+use super::output::say;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
@@ -18,7 +19,7 @@ pub fn explain_usage(error: &clap::Error) -> ExitCode {
         _ => None,
     };
     match later {
-        Some(name) => eprintln!("gotai: `{name}` is not available in this version"),
+        Some(name) => say(format!("gotai: `{name}` is not available in this version")),
         // Nowhere to report a closed terminal to.
         None => drop(error.print()),
     }

@@ -1,5 +1,6 @@
 //! `run --live`: a viewer that shows a run while it goes on. The run goes on without one.
 
+use super::output::say;
 use std::time::{Duration, Instant};
 
 /// Time in which a viewer that is started listens.
@@ -15,7 +16,7 @@ pub(super) fn viewer(port: u16, quiet: bool) -> Option<u16> {
         return Some(port);
     }
     let without = |reason: String| {
-        eprintln!("note: --live: {reason}; the run goes on without a viewer");
+        say(format!("note: --live: {reason}; the run goes on without a viewer"));
         None
     };
     let started = Viewer::find(quiet).and_then(|viewer| viewer.listen(port));
@@ -38,7 +39,7 @@ pub(super) fn viewer(port: u16, quiet: bool) -> Option<u16> {
 
 #[cfg(not(feature = "rerun"))]
 pub(super) fn viewer(_: u16, _: bool) -> Option<u16> {
-    eprintln!("note: --live: this gotai was built without Rerun; the run goes on without a viewer");
+    say("note: --live: this gotai was built without Rerun; the run goes on without a viewer");
     None
 }
 
@@ -46,7 +47,7 @@ pub(super) fn viewer(_: u16, _: bool) -> Option<u16> {
 pub(super) fn say_if_gone(port: u16) {
     #[cfg(feature = "rerun")]
     if !crate::record::rerun::live::is_there(port) {
-        eprintln!("note: the viewer at port {port} is gone; the run went on without it");
+        say(format!("note: the viewer at port {port} is gone; the run went on without it"));
     }
     #[cfg(not(feature = "rerun"))]
     let _ = port;

@@ -1,7 +1,12 @@
 //! Output of the commands.
 
+use crate::report::is_shown;
 use clap::ValueEnum;
 use std::io::{ErrorKind, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether anything has been painted: only then does an escape sequence belong to what is printed.
+static IS_PAINTED: AtomicBool = AtomicBool::new(false);
 
 /// When output has colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -34,6 +39,9 @@ pub(super) enum Hue {
     Faint,
 }
 
+/// Sequence that ends a colour.
+const END: &str = "\u{1b}[0m";
+
 /// Width in letters of what goes into a file or a CI's log.
 const WIDTH: u16 = 140;
 
@@ -54,15 +62,25 @@ impl ColorFlag {
 }
 
 impl Hue {
+    const ALL: [Hue; 4] = [Hue::Good, Hue::Bad, Hue::Doubtful, Hue::Faint];
+
+    /// Sequence that begins this colour.
+    const fn begin(self) -> &'static str {
+        match self {
+            Hue::Good => "\u{1b}[32m",
+            Hue::Bad => "\u{1b}[1;31m",
+            Hue::Doubtful => "\u{1b}[33m",
+            Hue::Faint => "\u{1b}[2m",
+        }
+    }
+
     /// A text in this colour, if there is colour.
     pub(super) fn paint(self, text: &str, is_colored: bool) -> String {
-        let code = match self {
-            Hue::Good => "32",
-            Hue::Bad => "1;31",
-            Hue::Doubtful => "33",
-            Hue::Faint => "2",
-        };
-        if is_colored { format!("\u{1b}[{code}m{text}\u{1b}[0m") } else { text.to_string() }
+        if !is_colored {
+            return text.to_string();
+        }
+        IS_PAINTED.store(true, Ordering::Relaxed);
+        format!("{}{text}{END}", self.begin())
     }
 }
 
@@ -94,8 +112,30 @@ pub(super) fn wrapped(text: &str, width: usize, first: &str, rest: &str) -> Stri
     lines.join("\n")
 }
 
-/// Prints to stdout. A reader that has gone away is no error; a disk that is full is the machine's.
+/// A text as a terminal may have it: words of files and names of folders are data, and turn no cursor, no colour and no
+/// line around. Lines, tabs and the colours of `Hue` stay.
+pub(super) fn cleaned(text: &str) -> String {
+    let is_painted = IS_PAINTED.load(Ordering::Relaxed);
+    let (mut clean, mut rest) = (String::with_capacity(text.len()), text);
+    while let Some(c) = rest.chars().next() {
+        let hue = Hue::ALL.map(Hue::begin).into_iter().chain([END]).find(|hue| is_painted && rest.starts_with(hue));
+        let length = hue.map_or(c.len_utf8(), str::len);
+        if hue.is_some() || c == '\n' || c == '\t' || is_shown(c) {
+            clean.push_str(&rest[..length]);
+        }
+        rest = &rest[length..];
+    }
+    clean
+}
+
+/// Prints to stdout, without what is no letter.
 pub(super) fn print(text: impl std::fmt::Display) {
+    print_as_it_is(cleaned(&text.to_string()));
+}
+
+/// Prints what holds no word that has not been cleaned. A reader that has gone away is no error; a disk that is full is
+/// the machine's.
+pub(super) fn print_as_it_is(text: impl std::fmt::Display) {
     let mut out = std::io::stdout();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -106,8 +146,21 @@ pub(super) fn print(text: impl std::fmt::Display) {
     }
 }
 
+/// Prints a table's text: to a terminal without what is no letter, into a file or a program as it is.
+pub(super) fn print_data(text: &str) {
+    if std::io::stdout().is_terminal() { print(text) } else { print_as_it_is(text) }
+}
+
+/// Prints a line to stderr, without what is no letter. A closed stderr is no error.
+pub fn say(text: impl std::fmt::Display) {
+    drop(writeln!(std::io::stderr(), "{}", cleaned(&text.to_string())));
+}
+
+/// Prints a document in one line; what is no letter is escaped, and so the data are whole.
 pub(super) fn print_json(value: &impl serde::Serialize) {
-    print(serde_json::to_string(value).unwrap_or_default());
+    let text = serde_json::to_string(value).unwrap_or_default();
+    let escaped = |c: char| if is_shown(c) { c.to_string() } else { format!("\\u{:04x}", u32::from(c)) };
+    print_as_it_is(text.chars().map(escaped).collect::<String>());
 }
 
 /// A number of things, whose plural ends with an s.

@@ -2,7 +2,7 @@
 //! lines.
 
 use super::args::OutputArgs;
-use super::output::{Hue, ProgressFlag};
+use super::output::{Hue, ProgressFlag, say};
 use crate::outcome::Outcome;
 use crate::sweep::runner::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -78,7 +78,7 @@ impl Bar {
             for (key, value) in more {
                 said[key] = value.clone();
             }
-            eprintln!("{said}");
+            say(said);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Warnings and notes of a command: a line each on stderr, and lists in its JSON document. What a method that claims to
 //! solve the law of contact has missed is a warning; of another one it is a note.
 
+use super::output::say;
 use crate::check::OneSided;
 use crate::experiment::types::Experiment;
 use crate::heading::Headings;
@@ -78,10 +79,10 @@ impl Remarks {
     /// Prints the lines. `--quiet` silences notes, and no warning.
     pub(super) fn say(&self, quiet: bool) {
         for warning in &self.warnings {
-            eprintln!("warning: {warning}");
+            say(format!("warning: {warning}"));
         }
         for note in self.notes.iter().filter(|_| !quiet) {
-            eprintln!("note: {note}");
+            say(format!("note: {note}"));
         }
     }
 

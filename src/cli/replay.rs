@@ -4,7 +4,7 @@ use super::args::{OutputArgs, RunArgs};
 use super::error::CliError;
 use super::interrupted;
 use super::live;
-use super::output::{print, print_json};
+use super::output::{print, print_json, say};
 use super::remarks::{Remarks, Seen};
 use super::shown::{document, say_where, summary};
 use crate::build_info::BUILD;
@@ -66,7 +66,7 @@ pub(super) fn replay(
     } else {
         print(summary(&planned.case.id, &ended.measured));
         if !output.quiet {
-            eprintln!("{}", compared(row, &differing));
+            say(compared(row, &differing));
         }
     }
     remarks.say(output.quiet);

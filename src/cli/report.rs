@@ -2,7 +2,7 @@
 
 use super::args::OutputArgs;
 use super::error::CliError;
-use super::output::{print, print_json};
+use super::output::{print, print_as_it_is, print_json, say};
 use super::reporting::Reported;
 use crate::report::choose::{figures, map_in_characters};
 use crate::report::figure::Figure;
@@ -73,7 +73,8 @@ impl Command {
             let map = map_in_characters(&reported.subject).filter(|_| !self.output.verbose);
             let drawn: Vec<&Figure> = if self.output.verbose { figures.iter().collect() } else { map.iter().collect() };
             for figure in drawn {
-                print(format!("{}\n", figure.characters(is_colored)));
+                // The figure has cleaned its words, and has colours of its own.
+                print_as_it_is(format!("{}\n", figure.characters(is_colored)));
             }
             if !self.output.verbose {
                 figures.iter().filter(|figure| map.is_none() || figure.name != "map").for_each(|figure| {
@@ -85,7 +86,7 @@ impl Command {
                 print(format!("figures: {} as SVG and PNG in {}", plots.len(), first.display()));
             }
             if let Some(left_out) = left_out.as_ref().filter(|_| !self.output.quiet) {
-                eprintln!("note: {left_out}");
+                say(format!("note: {left_out}"));
             }
         }
         let figure = |figure: &Figure| json!({ "name": figure.name, "title": figure.title, "finding": figure.finding });

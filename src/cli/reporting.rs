@@ -1,6 +1,7 @@
 //! Reports of folders and files: what they hold as a subject, and their page and pictures.
 
 use super::error::CliError;
+use super::output::say;
 use crate::build_info::{BUILD, PROGRAM};
 use crate::check::{Cells, Judged, Schema, judge};
 use crate::experiment::ExperimentFile;
@@ -215,7 +216,7 @@ pub(super) fn write_beside(reported: &Reported) -> Option<PathBuf> {
     match reported.write_page(&figures(&reported.subject)) {
         Ok(_) => Some(reported.page.clone()),
         Err(error) => {
-            eprintln!("warning: no report is written: {error}");
+            say(format!("warning: no report is written: {error}"));
             None
         }
     }

@@ -2,7 +2,7 @@
 
 use super::args::OutputArgs;
 use super::error::CliError;
-use super::output::{print, print_json};
+use super::output::{print, print_data, print_json, say};
 use crate::experiment::filter::{Condition, Filter, is_same, shown_cell};
 use crate::experiment::nearest::nearest;
 use crate::outcome::Outcome;
@@ -67,7 +67,7 @@ impl Command {
         } else if self.csv {
             let text = to_csv(&columns, chosen.iter().copied());
             let text = text.map_err(|error| CliError::Machine(format!("cannot write CSV: {error}")))?;
-            print(String::from_utf8_lossy(&text).trim_end());
+            print_data(String::from_utf8_lossy(&text).trim_end());
         } else {
             let mut table = super::table::table(&columns);
             table.load_preset(presets::NOTHING);
@@ -76,7 +76,7 @@ impl Command {
             }
             print(table);
             if !self.output.quiet {
-                eprintln!("{} of {} rows, {} planned", chosen.len(), rows.len(), folder.plan.rows);
+                say(format!("{} of {} rows, {} planned", chosen.len(), rows.len(), folder.plan.rows));
             }
         }
         Ok(ExitCode::SUCCESS)

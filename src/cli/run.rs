@@ -5,7 +5,7 @@ use super::error::CliError;
 use super::ghosts::Ghosts;
 use super::interrupted;
 use super::live;
-use super::output::{print, print_json};
+use super::output::{print, print_json, say};
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen, table_of};
 use super::replay::replay;
@@ -89,7 +89,7 @@ impl Command {
         let (model, start) = build(&file, &planned.point, &case.experiment)?;
         let mut store = Store::open(&dir, &plan, false)?;
         if let Some(edited) = store.edited().filter(|_| !self.output.quiet) {
-            eprintln!("{}: {edited}", dir.display());
+            say(format!("{}: {edited}", dir.display()));
         }
         if self.output.verbose {
             describe_plan(&Plan::new(&model, &case.experiment.method));
@@ -164,7 +164,7 @@ impl Command {
         }
         Swept::remarks(&[&swept]).say(self.output.quiet);
         if let Some(path) = shown.filter(|_| !self.output.quiet) {
-            eprintln!("wrote {}   (open: gotai view {0})", path.display());
+            say(format!("wrote {}   (open: gotai view {0})", path.display()));
         }
         Ok(ExitCode::from(u8::from(swept.failed() > 0)))
     }

@@ -1,5 +1,6 @@
 //! Output of `run` about a run: a summary, or one JSON document with its columns, bodies and contacts.
 
+use super::output::say;
 use super::remarks::Remarks;
 use crate::build_info::BUILD;
 use crate::case::Case;
@@ -110,7 +111,7 @@ pub(super) fn summary(id: &str, m: &Measured) -> String {
 pub(super) fn describe_plan(plan: &Plan) {
     for stage in &plan.stages {
         let how = if stage.runs { "runs" } else { "skipped" };
-        eprintln!("{}: {how} — {}", stage.name, stage.why);
+        say(format!("{}: {how} — {}", stage.name, stage.why));
     }
 }
 
@@ -119,8 +120,8 @@ pub(super) fn say_where(dir: &Path, name: &str, targets: &[Target]) {
     for target in targets {
         let path = target.path(dir, name);
         match target {
-            Target::Rerun => eprintln!("wrote {}   (open: gotai view {0})", path.display()),
-            Target::Mcap => eprintln!("wrote {}", path.display()),
+            Target::Rerun => say(format!("wrote {}   (open: gotai view {0})", path.display())),
+            Target::Mcap => say(format!("wrote {}", path.display())),
         }
     }
 }

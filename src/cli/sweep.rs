@@ -1,7 +1,7 @@
 //! `gotai sweep`: the axes' cases on all cores, a row each; run again, it does only what is missing.
 
 use super::error::CliError;
-use super::output::{print, print_json};
+use super::output::{cleaned, print_as_it_is, print_json, say};
 use super::reporting::{Known, Reported, write_beside};
 use super::sweeping::{SweepArgs, Swept, configs};
 use crate::outcome::Outcome;
@@ -41,7 +41,8 @@ impl Command {
             let done = pool.install(|| self.sweep.sweep(planned))?;
             let ending = self.ending(&done, planned.plan.file.axes.iter().any(|axis| axis.values.len() > 1));
             if !self.sweep.output.json {
-                print(summary(&done) + &ending);
+                // The map has cleaned its words, and has colours of its own.
+                print_as_it_is(cleaned(&summary(&done)) + &ending);
             }
             swept.push(done);
         }
@@ -64,7 +65,7 @@ impl Command {
         let reported = match Reported::of_folder(&swept.dir, Known { rows: Some(&swept.rows) }) {
             Ok(reported) => reported,
             Err(error) => {
-                eprintln!("warning: no report is written: {error}");
+                say(format!("warning: no report is written: {error}"));
                 return String::new();
             }
         };
@@ -72,10 +73,10 @@ impl Command {
         if !self.no_report
             && let Some(page) = write_beside(&reported)
         {
-            text += &format!("\n  report: {}", page.display());
+            text += &cleaned(&format!("\n  report: {}", page.display()));
         }
         if let Some(map) = map_in_characters(&reported.subject).filter(|_| has_map) {
-            text += &format!("\n\n{}\n{}", map.characters(output.is_colored()), where_to_look(swept));
+            text += &format!("\n\n{}\n{}", map.characters(output.is_colored()), cleaned(&where_to_look(swept)));
         }
         text
     }

@@ -2,6 +2,7 @@
 
 use super::args::{ExperimentArgs, OutputArgs, RunArgs, below_configs};
 use super::error::CliError;
+use super::output::say;
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen, table_of};
 use crate::check::{self, Failing, Judged, Schema, broken, cells_of, in_turn, judge, refuse_unknown};
@@ -163,12 +164,12 @@ impl SweepArgs {
             store.forget_failed();
         }
         if let Some(edited) = store.edited().filter(|_| !self.output.quiet) {
-            eprintln!("{}: {edited}", dir.display());
+            say(format!("{}: {edited}", dir.display()));
         }
         let store = Arc::new(Mutex::new(store));
         keep_rows_when_interrupted(&store, &dir)?;
         if self.output.verbose {
-            eprintln!("{}: {} cases into {}", config.path.display(), plan.cases.len(), dir.display());
+            say(format!("{}: {} cases into {}", config.path.display(), plan.cases.len(), dir.display()));
         }
         let work = |planned: &Planned, targets: &[Target]| build_and_run(planned, &dir, targets);
         let bar = Bar::new(&config.path, self.output, self.run.progress).stopping_at_failure(self.fail_fast);
@@ -309,17 +310,17 @@ fn keep_rows_when_interrupted(store: &Arc<Mutex<Store>>, dir: &Path) -> Result<(
         if let (Some(signal), Some(store)) = (signals.forever().next(), store.upgrade()) {
             let store = lock(&store);
             if let Err(error) = store.write_tables(false) {
-                eprintln!("gotai: {error}");
+                say(format!("gotai: {error}"));
             }
             // Below the bar, which is left as it stands.
             if std::io::stderr().is_terminal() {
-                eprintln!();
+                say("");
             }
-            eprintln!(
+            say(format!(
                 "interrupted: {} rows are kept in {}; run again to do the rest",
                 store.rows().len(),
                 dir.display()
-            );
+            ));
             std::process::exit(128 + signal);
         }
     });

@@ -4,6 +4,7 @@ use super::cut::{no_recording, warn_of_end};
 use super::error::CliError;
 use super::frames::FilmArgs;
 use super::ghosts::{self, Ghosts};
+use super::output::say;
 use super::rows::{filter, takes};
 use super::viewer::Viewer;
 use crate::record::name::RecordingName;
@@ -59,7 +60,7 @@ impl Command {
         }
         if !self.quiet {
             for file in &files {
-                eprintln!("opening {}", file.display());
+                say(format!("opening {}", file.display()));
             }
         }
         viewer.open(&files, self.wait)?;

@@ -1,6 +1,7 @@
 //! The Rerun Viewer: where it is, whether it can show what this program writes, and starting it.
 
 use super::error::CliError;
+use super::output::say;
 use crate::record::schema::RERUN_VERSION;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -63,7 +64,7 @@ impl Viewer {
             )));
         }
         if version[..2] > ours[..2] && !quiet {
-            eprintln!("note: the Rerun Viewer {shown} is newer than these recordings ({RERUN_VERSION})");
+            say(format!("note: the Rerun Viewer {shown} is newer than these recordings ({RERUN_VERSION})"));
         }
         Ok(Viewer { program, version: shown })
     }

@@ -34,3 +34,5 @@ pub mod svg;
 mod text;
 pub mod tried;
 mod work;
+
+pub use number::{cut, is_shown, plain};

@@ -83,9 +83,49 @@ fn a_folder_is_checked_but_for_files_without_expectations() {
     assert_eq!(code, 0, "{err}");
     assert!(text.contains("4 of 4 expectations met in 2 experiments") && !text.contains("none.yaml"), "{text}");
     assert!(out.join("a/rows.csv").exists() && out.join("b/rows.csv").exists());
+    assert!(text.contains("; 1 file without `expect:` left out\n"), "{text}");
     let (code, text, err) = run(&["check", &none]);
     assert_eq!((code, text.as_str()), (2, ""), "{err}");
     assert!(err.contains("none.yaml: expect: missing: nothing to check"), "{err}");
+    // A slip in the word leaves nothing out in silence; what lacks what its heirs bring is no slip.
+    write(folder.path(), "base.yaml", "question: What is common?\nmethod: free\n");
+    let slip = write(folder.path(), "slip.yaml", &FALL.replace("expect:", "expects:"));
+    let given = folder.path().to_str().unwrap();
+    for args in [["check", given, "--out", out.to_str().unwrap()], ["check", &slip, "--out", out.to_str().unwrap()]] {
+        let (code, text, err) = run(&args);
+        assert!(code == 2 && err.contains("slip.yaml:9: expects: unknown key") && err.lines().count() == 1, "{err}");
+        assert_eq!(text.contains("2 files without `expect:` left out"), args[1] == given, "{text}");
+    }
+}
+
+#[test]
+fn words_of_a_file_turn_no_terminal_around() {
+    let folder = scratch::folder();
+    // Conceal, clear, a bell, a title, the other way round; a control of one byte.
+    let why = r#""\e[8mhid\e[2J\a\e]0;title\a \u202e back \x9b1A end""#;
+    let text = FALL.replace("max: -4.9", "max: -40").replace("semi-implicit Euler falls farther", why);
+    let config = write(folder.path(), "fall.yaml", &text);
+    let out = folder.path().join("out");
+    for flags in [&[][..], &["-v"], &["--color", "always"]] {
+        let (code, text, err) = run(&[&["check", &config, "--out", out.to_str().unwrap()], flags].concat());
+        assert_eq!(code, 1, "{err}");
+        // The colours of the program, if they are asked for, are all that is left.
+        let own =
+            ["\u{1b}[1;31m", "\u{1b}[2m", "\u{1b}[0m"].iter().fold(text.clone(), |text, own| text.replace(own, ""));
+        assert!(!own.chars().any(|c| (c.is_control() && c != '\n') || c == '\u{202e}'), "{own:?}");
+        assert_eq!(text.contains('\u{1b}'), flags.contains(&"always"), "{text:?}");
+        assert!(text.contains("why: [8mhid[2J]0;title  back 1A end") || flags.contains(&"-v"), "{text:?}");
+    }
+    // Data are whole, and escaped.
+    let (_, text, _) = run(&["check", &config, "--out", out.to_str().unwrap(), "--json"]);
+    assert!(!text.trim_end().chars().any(|c| c.is_control() || c == '\u{202e}'), "{text:?}");
+    let document: Value = serde_json::from_str(&text).unwrap();
+    let kept = document["expectations"][0]["why"].as_str().unwrap();
+    assert_eq!(kept, "\u{1b}[8mhid\u{1b}[2J\u{7}\u{1b}]0;title\u{7} \u{202e} back \u{9b}1A end");
+    // So are errors.
+    let wrong = write(folder.path(), "wrong.yaml", "\"\\e[2Jkey\": 1\n");
+    let (code, _, err) = run(&["check", &wrong]);
+    assert!(code == 2 && err.contains("key") && !err.contains('\u{1b}'), "{err:?}");
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Two folders of results against each other.
 
-use crate::cli::{json, run};
+use crate::cli::{gotai, json, run};
 use crate::scratch;
-use gotai::check::{Cells, CompareBy, Incomparable, Side, compare};
+use gotai::check::{Cells, CompareBy, FactorBound, Incomparable, Side, compare};
 use gotai::math::interval::{of_mean, of_share};
 use gotai::rows::plan_file::PlanAxis;
 use serde_json::{Value, json};
@@ -114,6 +114,94 @@ fn finished_there_and_not_here_is_a_regression() {
     assert!((finished.interval_b.low - 0.300642).abs() < 1e-6 && (finished.interval_b.high - 0.954413).abs() < 1e-6);
 }
 
+/// A side whose plan has the whole grid, whatever rows it has.
+fn planned(name: &str, rows: Vec<Cells>) -> Side {
+    let mut side = side(name, rows);
+    side.planned = 4;
+    side.axes[1].values = vec![json!(1.0), json!(2.0)];
+    side
+}
+
+#[test]
+fn what_is_planned_and_missing_is_a_regression() {
+    let a = planned("a", grid(|_, _| 1e-3));
+    let b = planned("b", grid(|_, _| 1e-3).into_iter().take(3).collect());
+    let found = compare(&a, &b, &CompareBy::default()).unwrap();
+    assert_eq!((found.missing, found.cells_of_a, found.regression_count), (1, 0, 1));
+    let missing = &found.regressions[0];
+    assert_eq!((missing.column.as_str(), &missing.a, &missing.b), ("outcome", &json!("finished"), &json!("missing")));
+    assert_eq!(missing.axes, json!({ "step": 0.2, "mass": 2.0 }).as_object().unwrap().clone());
+    // The way back none is, and what had not finished is no loss.
+    let back = compare(&b, &a, &CompareBy::default()).unwrap();
+    assert_eq!((back.missing, back.cells_of_b, back.regression_count), (0, 1, 0));
+    let mut rows = grid(|_, _| 1e-3);
+    rows[3] = row(0.2, 2.0, "diverged", None, 0.1);
+    let found = compare(&planned("a", rows), &b, &CompareBy::default()).unwrap();
+    assert_eq!((found.missing, found.regression_count), (1, 0));
+    // A value that the other plan does not have was never asked for there.
+    let mut fewer = b.clone();
+    fewer.rows.truncate(2);
+    fewer.axes[0].values = vec![json!(0.1)];
+    fewer.planned = 2;
+    let found = compare(&a, &fewer, &CompareBy::default()).unwrap();
+    assert_eq!((found.missing, found.cells_of_a, found.regression_count), (0, 2, 0));
+    // Pooled over an axis of its own: two seeds a cell, one row of them missing.
+    let mut rows: Vec<Cells> = grid(|_, _| 1e-3).into_iter().flat_map(|row| [row.clone(), row]).collect();
+    rows.pop();
+    let mut seeds = planned("b", rows);
+    seeds.axes.push(PlanAxis { path: "seed".into(), values: vec![json!(0), json!(1)] });
+    seeds.planned = 8;
+    let found = compare(&a, &seeds, &CompareBy::default()).unwrap();
+    assert_eq!((found.missing, found.regression_count), (1, 1));
+    assert_eq!(found.regressions[0].b, json!("1 of 2 missing"));
+}
+
+#[test]
+fn a_column_that_has_no_number_any_more_is_a_regression() {
+    let with = |error: Value, wall: Value| {
+        grid(|_, _| 1e-3).into_iter().map(move |mut row| {
+            row.insert("error_position_m".into(), error.clone());
+            row["wall_s"] = wall.clone();
+            row
+        })
+    };
+    let a = side("a", with(json!(1e-3), json!(1.0)).collect());
+    let b = side("b", with(Value::Null, Value::Null).collect());
+    let found = compare(&a, &b, &CompareBy::default()).unwrap();
+    let mut names: Vec<&str> = found.missing_in_b.iter().map(|(name, _)| name.as_str()).collect();
+    names.sort_unstable();
+    assert_eq!(names, ["error_position_m", "wall_s"]);
+    // A cost counts if it is asked for.
+    assert_eq!((found.regression_count, found.regressions[0].column.as_str()), (1, "error_position_m"));
+    assert!(found.differing.is_empty(), "{:?}", found.differing);
+    let timed = CompareBy { with_cost: true, ..CompareBy::default() };
+    assert_eq!(compare(&a, &b, &timed).unwrap().regression_count, 2);
+    let back = compare(&b, &a, &CompareBy::default()).unwrap();
+    assert_eq!((back.regression_count, back.missing_in_a.len(), back.missing_in_b.len()), (0, 2, 0));
+}
+
+#[test]
+fn a_factor_that_a_floor_has_decided_is_a_bound() {
+    let change = |a: &dyn Fn(f64) -> f64, b: &dyn Fn(f64) -> f64| {
+        let (a, b) = (side("a", grid(|step, _| a(step))), side("b", grid(|step, _| b(step))));
+        let found = compare(&a, &b, &CompareBy::default()).unwrap();
+        found.columns.into_iter().find(|change| change.column == "energy_drift_rel").unwrap()
+    };
+    let half = |low: f64, high: f64| move |step: f64| if step < 0.15 { low } else { high };
+    let plain = change(&|_| 1e-3, &|_| 2e-3);
+    assert!(plain.bound.is_none() && plain.interval.is_some());
+    let below = change(&|_| 1e-3, &half(0.0, 2e-3));
+    assert_eq!((below.bound, below.interval), (Some(FactorBound::Below), None));
+    // √(floor / 1e-3 · 2): the floor in place of zero.
+    let expected = (below.floor / 1e-3 * 2.0).sqrt();
+    assert!((below.factor.unwrap() / expected - 1.0).abs() < 1e-12, "{below:?}");
+    assert_eq!(change(&half(0.0, 2e-3), &|_| 1e-3).bound, Some(FactorBound::Above));
+    // Bounds to both sides, and rounding on both, are no ratio.
+    for found in [change(&half(0.0, 1e-3), &half(1e-3, 0.0)), change(&|_| 1e-17, &|_| 3e-17)] {
+        assert_eq!((found.factor, found.interval, found.bound), (None, None, None), "{found:?}");
+    }
+}
+
 #[test]
 fn folders_are_joined_by_the_axes_that_both_have() {
     let a = side("a", grid(|_, mass| 1e-3 * mass));
@@ -133,7 +221,7 @@ fn folders_are_joined_by_the_axes_that_both_have() {
     rows[0]["step"] = json!(0.1 * (1.0 + 1e-12));
     rows[3]["step"] = json!(0.3);
     let found = compare(&a, &side("b", rows), &CompareBy::default()).unwrap();
-    assert_eq!((found.cells, found.cells_of_a, found.cells_of_b), (3, 1, 1));
+    assert_eq!((found.cells, found.missing, found.cells_of_a, found.cells_of_b), (3, 1, 0, 1));
     assert_eq!(found.places_of_b[0]["step"], json!(0.3));
     // None in common.
     let none = Side { axes: vec![axis("other")], ..side("b", grid(|_, _| 1e-3)) };
@@ -213,6 +301,16 @@ fn the_command_compares_folders_as_they_were_written() {
     let (code, text, _) = run(&args);
     assert!(code == 1 && text.contains("penetration_max_m"), "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 140), "{text}");
+    // A line a column in 80 letters too, the interval in it; and what the ratio is.
+    let output = gotai(&["compare", &stiff, &soft]).env("COLUMNS", "80").output().unwrap();
+    let narrow = String::from_utf8(output.stdout).unwrap();
+    let is_command = |line: &str| line.trim_start().starts_with("gotai run ");
+    let (first, last) = (narrow.find("\nin 4 cases").unwrap(), narrow.find("B / A: geometric mean").unwrap());
+    let table = &narrow[first..last];
+    assert!(table.lines().filter(|line| line.contains('…')).all(|line| line.contains('_')), "{table}");
+    let fits =
+        |line: &str| line.chars().count() <= 80 || is_command(line) || line.contains(&stiff) || line.contains(&soft);
+    assert!(table.lines().all(|line| line.chars().count() <= 80) && narrow.lines().all(fits), "{narrow}");
     let (code, text, _) = run(&[&args[..], &["--json"]].concat());
     let found: Value = serde_json::from_str(&text).unwrap();
     let change = found["columns"].as_array().unwrap().iter().find(|c| c["column"] == "penetration_max_m").unwrap();
@@ -222,8 +320,13 @@ fn the_command_compares_folders_as_they_were_written() {
     let worst = &found["regressions"][0];
     assert!(worst["command_b"].as_str().unwrap().starts_with(&format!("gotai run {soft} --case ")), "{worst}");
     let html = std::fs::read_to_string(&page).unwrap();
+    assert!(html.contains("geometric mean over the cases that finished in both"), "{html}");
     assert!(html.contains("penetration_max_m") && !html.contains("http"), "{html}");
     assert_eq!(html.matches("<table>").count(), html.matches("</table>").count());
+    // A page that cannot be written is called as it was asked for.
+    let nowhere = path("nowhere/page.html");
+    let (code, _, err) = run(&["compare", &stiff, &soft, "--html", &nowhere]);
+    assert!(code == 3 && err.contains(&nowhere) && !err.contains("partial"), "{err}");
     // Without the flag it is a result.
     assert_eq!(run(&["compare", &stiff, &soft]).0, 0);
     // What cannot be compared is one clear line.

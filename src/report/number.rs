@@ -128,6 +128,9 @@ pub fn linear_ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     let raw = span / 6.0;
     let power = libm::exp10(libm::floor(libm::log10(raw)));
     let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|step| *step >= raw).unwrap_or(10.0 * power);
+    if !step.is_normal() {
+        return vec![(low, short(low))];
+    }
     let first = (low / step - 1e-9).ceil() as i64;
     let last = (high / step + 1e-9).floor() as i64;
     (first..=last).map(|i| (i as f64 * step, short(i as f64 * step))).collect()
@@ -136,6 +139,7 @@ pub fn linear_ticks(low: f64, high: f64) -> Vec<(f64, String)> {
 /// Ticks of a logarithmic axis. Within one or two decades 1, 2 and 5 of each, else powers of ten.
 pub fn log_ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     const MOST: i32 = 9;
+    let (low, high) = (low.max(f64::MIN_POSITIVE), high.clamp(f64::MIN_POSITIVE, f64::MAX));
     let (from, to) = (libm::floor(libm::log10(low) + 1e-9) as i32, libm::ceil(libm::log10(high) - 1e-9) as i32);
     let inside = |x: f64| x >= low * (1.0 - 1e-9) && x <= high * (1.0 + 1e-9);
     if libm::log10(high / low) < 0.6 {

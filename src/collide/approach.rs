@@ -9,6 +9,15 @@ pub use crate::experiment::types::Approach;
 use crate::model::Model;
 use nalgebra::Vector3;
 
+/// Normal velocity of a contact: before the step, what the step's forces add to it, and what of the mean through the
+/// step is beyond that after the impulses, as bodies turn on freely (`Body::turns_on`). In m/s.
+#[derive(Clone, Copy, Debug)]
+pub struct NormalMotion {
+    pub before: f64,
+    pub gained: f64,
+    pub turning: f64,
+}
+
 /// Says of contacts which may close in the step: of every body and face (or other body) none beyond twice the way that
 /// the fastest of them closes by itself, as one that touches may turn the body toward the others, nor beyond the way
 /// that the step's forces lead the bodies, as impulses that hold one corner let another one fall. What impulses of
@@ -39,24 +48,32 @@ impl Approach {
         &self,
         model: &Model,
         contact: &Contact,
-        motion: [f64; 2],
+        motion: NormalMotion,
         step_s: f64,
         hold: Option<Hold>,
     ) -> Option<f64> {
-        hold.map_or_else(|| self.least(model, contact, motion, step_s), |_| Some(-motion[0]))
+        hold.map_or_else(|| self.least(model, contact, motion, step_s), |_| Some(-motion.before))
     }
 
     /// Whether a contact that pressed in this step lasts: it was held, or came to rest.
-    pub fn lasts(&self, model: &Model, contact: &Contact, motion: [f64; 2], step_s: f64, hold: Option<Hold>) -> bool {
+    pub fn lasts(
+        &self,
+        model: &Model,
+        contact: &Contact,
+        motion: NormalMotion,
+        step_s: f64,
+        hold: Option<Hold>,
+    ) -> bool {
         let comes_to_rest = || {
-            let rests = motion[0] >= 0.0 || contact.restitution < 1.0;
+            let rests = motion.before >= 0.0 || contact.restitution < 1.0;
             is_closed_to_rounding(model, contact) && rests && !self.strikes(model, contact, motion, step_s)
         };
         *self == Approach::Middle && (hold.is_some() || comes_to_rest())
     }
 
     /// Whether this is an impact with a rebound, by whatever law, and not a contact that comes to rest.
-    pub fn strikes(&self, model: &Model, contact: &Contact, [before, gained]: [f64; 2], step_s: f64) -> bool {
+    pub fn strikes(&self, model: &Model, contact: &Contact, motion: NormalMotion, step_s: f64) -> bool {
+        let NormalMotion { before, gained, .. } = motion;
         let gap_m = if is_closed_to_rounding(model, contact) { 0.0 } else { contact.gap_m };
         let rebounds = -contact.restitution * before.min(0.0) > -gained.min(0.0);
         match self {
@@ -70,7 +87,8 @@ impl Approach {
 
     /// The least normal velocity after the step, from the one before it and what forces add in it; none: the contact is
     /// not there in this step.
-    pub fn least(&self, model: &Model, contact: &Contact, [before, gained]: [f64; 2], step_s: f64) -> Option<f64> {
+    pub fn least(&self, model: &Model, contact: &Contact, motion: NormalMotion, step_s: f64) -> Option<f64> {
+        let NormalMotion { before, gained, turning } = motion;
         let gap_m = if is_closed_to_rounding(model, contact) { 0.0 } else { contact.gap_m };
         // The new velocity lasts until the next step's contacts are seen: the gap may close until then.
         let closing = -gap_m / step_s;
@@ -80,10 +98,12 @@ impl Approach {
             Approach::Inside => Some(rebound),
             Approach::Touching => Some(0.0),
             // Forces act during the impact's step as in any other, else it would add m g Δt v of energy.
-            Approach::Start if rebound > 0.0 && before + gained < closing => Some(closing.max(rebound + falling)),
+            Approach::Start if rebound > 0.0 && before + gained < closing - turning => {
+                Some((closing - turning).max(rebound + falling))
+            }
             // What opens may come back with its part e of that speed: so Moreau's form u⁺ + e u⁻ ≥ 0 has it of all
             // contacts that are closed, and one e for all of them gains no energy without friction.
-            Approach::Start => Some(closing.min(-contact.restitution * (before + gained).max(0.0))),
+            Approach::Start => Some(closing.min(-contact.restitution * (before + gained).max(0.0)) - turning),
             // What forces take back within the step comes to rest.
             Approach::Middle if gap_m == 0.0 && before < 0.0 => {
                 Some(if contact.restitution < 1.0 && rebound <= -falling { 0.0 } else { rebound })

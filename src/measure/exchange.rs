@@ -35,6 +35,8 @@ pub(super) struct Moved {
     /// M⁻¹ F_E Δt, and M⁻¹ Jᵀ p of the contacts.
     pub gained: Motion,
     pub changed: Motion,
+    /// What its mean angular velocity through the step is beyond that after, as it turns freely.
+    pub turning: Vector3<f64>,
     /// What of Σ|p|/m counts beside them where contacts cancel: all of an impact that goes through a body at rest, a
     /// small part of what presses one without a force of its own.
     pub pressed_m_s: f64,
@@ -67,12 +69,14 @@ impl Moved {
         if body.driven {
             let I_W_inverse = Matrix3::zeros();
             let (free, after, gained, changed, pressed_m_s) = (before, before, none, none, 0.0);
+            let turning = Vector3::zeros();
             return Moved {
                 before,
                 free,
                 after,
                 gained,
                 changed,
+                turning,
                 pressed_m_s,
                 kinetic_j: [0.0; 2],
                 mass_kg: f64::INFINITY,
@@ -95,10 +99,15 @@ impl Moved {
                 (before.plus(&v, &w), Motion { v: after.v_WB, w: w_after })
             }
         };
+        let turning = match over {
+            Over::Step(span_s) => body.turns_on(at, &after.w, span_s),
+            Over::Moment(_) => Vector3::zeros(),
+        };
         let kinetic_j = [free, after].map(|motion| kinetic_j(body, at, &motion));
         let part = if span_s == 0.0 { 1.0 } else { CANCELLING };
         let pressed_m_s = part * push.linear_size / body.mass_kg;
-        Moved { before, free, after, gained, changed, pressed_m_s, kinetic_j, mass_kg: body.mass_kg, I_W_inverse }
+        let mass_kg = body.mass_kg;
+        Moved { before, free, after, gained, changed, turning, pressed_m_s, kinetic_j, mass_kg, I_W_inverse }
     }
 
     /// Trace of E/m − [r] I⁻¹ [r].
@@ -120,6 +129,8 @@ pub(super) struct Met {
     pub before: Vector3<f64>,
     pub free: Vector3<f64>,
     pub after: Vector3<f64>,
+    /// What bodies that turn freely add to the mean through the step.
+    pub turning: Vector3<f64>,
     /// The first body of its island.
     pub island: usize,
 }
@@ -129,7 +140,9 @@ impl Met {
         let relative = |motion: fn(&Moved) -> &Motion| -> Vector3<f64> {
             contact.velocity(|i| [motion(&moved[i]).v, motion(&moved[i]).w])
         };
-        Met { before: relative(|m| &m.before), free: relative(|m| &m.free), after: relative(|m| &m.after), island }
+        let turning = contact.velocity(|i| [Vector3::zeros(), moved[i].turning]);
+        let [before, free, after] = [relative(|m| &m.before), relative(|m| &m.free), relative(|m| &m.after)];
+        Met { before, free, after, turning, island }
     }
 
     /// The largest of the three speeds.

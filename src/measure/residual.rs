@@ -18,7 +18,7 @@
 
 use super::exchange::{Exchange, Met, Motion, Moved};
 use super::push::relative;
-use crate::collide::approach::Approach;
+use crate::collide::approach::{Approach, NormalMotion};
 use crate::collide::lasting::{Hold, Lasting};
 use crate::collide::{Contact, Key, SolvedContact};
 use crate::model::Model;
@@ -36,8 +36,7 @@ struct Seen<'a> {
     through: (Approach, f64),
     /// What friction did before, where the contact lasts.
     hold: Option<Hold>,
-    /// Normal velocity before, and what the step's forces add to it.
-    motion: [f64; 2],
+    motion: NormalMotion,
     /// ρ: one over the trace of its own block of A.
     step_length: f64,
     /// What the residual is compared with: the least impulse that would do to one of its bodies, at the contact, what
@@ -65,8 +64,8 @@ impl<'a> Seen<'a> {
                 scale = scale.min(changes / compliance);
             }
         }
-        let before = contact.normal.dot(&met.before);
-        let motion = [before, contact.normal.dot(&met.free) - before];
+        let [before, free, turning] = [met.before, met.free, met.turning].map(|u| contact.normal.dot(&u));
+        let motion = NormalMotion { before, gained: free - before, turning };
         Seen { model, contact, met, through, hold, motion, step_length: 1.0 / trace, scale }
     }
 
@@ -98,12 +97,23 @@ impl<'a> Seen<'a> {
         let outside = (impulse_W - in_cone(impulse_W, normal, *friction)).norm();
         let Some(floor) = self.least(&Contact { restitution: 0.0, ..*self.contact }) else { return impulse_W.norm() };
         // After an impact half-way the step's forces may take back what rebounds.
-        let floor = if self.through.0 == Approach::Middle { floor.min(self.motion[1]) } else { floor };
+        let floor = if self.through.0 == Approach::Middle { floor.min(self.motion.gained) } else { floor };
         outside.max(self.step_length * (floor - normal.dot(&self.met.after)))
     }
 
-    /// Friction is against the velocity after, where a contact lasts against the mean.
+    /// A gap closes by the mean velocity through the step, or, where the contacts would give energy for that, by the
+    /// velocity after the impulses.
     fn missed(&self, impulse_W: &Vector3<f64>) -> f64 {
+        let missed = self.missed_by_mean(impulse_W);
+        if self.motion.turning == 0.0 {
+            return missed;
+        }
+        let motion = NormalMotion { turning: 0.0, ..self.motion };
+        missed.min(Seen { motion, ..*self }.missed_by_mean(impulse_W))
+    }
+
+    /// Friction is against the velocity after, where a contact lasts against the mean.
+    fn missed_by_mean(&self, impulse_W: &Vector3<f64>) -> f64 {
         let Contact { normal, tangential_restitution, .. } = self.contact;
         let Met { before, after, .. } = self.met;
         let Some(least) = self.least(self.contact) else { return impulse_W.norm() };

@@ -28,7 +28,7 @@ const MANY_SWEEPS: [u32; 8] = [50; 8];
 
 /// Of the tolerance: impulses that are kept. Forces that stay the same hold no body for long (one that carries others
 /// tips with e^(t √(m g/I r))): what they leave must be nothing beside the gaps that are closed, 1e-12 of a body.
-const KEPT: f64 = 1e-2;
+pub(super) const KEPT: f64 = 1e-2;
 
 /// A residual of impulses that bodies at rest keep for thousands of steps.
 const LASTING: f64 = 1e-13;

@@ -5,7 +5,7 @@ use super::law::Law;
 use super::twist::Twist;
 use super::{Impulse, corrected};
 use crate::collide::Contact;
-use crate::collide::approach::Approach;
+use crate::collide::approach::{Approach, NormalMotion};
 use crate::collide::lasting::Hold;
 use crate::experiment::types::Cone;
 use crate::model::Model;
@@ -27,6 +27,8 @@ pub struct Block {
     pub b: Vector3<f64>,
     /// The normal velocity that is asked for at least; b's normal row is relative to it.
     pub least: f64,
+    /// As `least` has it (`NormalMotion::turning`).
+    pub turning: f64,
     /// Relative velocity before the step, in the contact's frame.
     pub before: Vector3<f64>,
     /// ε_t of an impact, which b's tangents' rows are relative to; else 0.
@@ -98,7 +100,7 @@ impl Block {
             let at = &before[end.body];
             end.motion(&Twist::of(at))
         });
-        let motion = [before.x, b.x - before.x];
+        let motion = NormalMotion { before: before.x, gained: b.x - before.x, turning: 0.0 };
         let least = approach.least_of(model, contact, motion, step_s, hold)?;
         let strikes =
             hold.is_none() && contact.tangential_restitution > 0.0 && approach.strikes(model, contact, motion, step_s);
@@ -118,6 +120,7 @@ impl Block {
             tangent_step: 1.0 / largest_eigenvalue(A[(1, 1)], A[(2, 2)], A[(1, 2)]),
             b,
             least,
+            turning: 0.0,
             before,
             tangential_restitution,
             hold,
@@ -125,6 +128,16 @@ impl Block {
             frame,
             pin: None,
         })
+    }
+
+    /// Asks for what the bodies' free turning beyond their angular velocities after the step leaves of the gap.
+    pub(super) fn turn(&mut self, contact: &Contact, model: &Model, turning: f64, (approach, step_s): (Approach, f64)) {
+        let gained = self.b.x + self.least - self.before.x;
+        let motion = NormalMotion { before: self.before.x, gained, turning };
+        if let Some(least) = approach.least(model, contact, motion, step_s) {
+            self.b.x += self.least - least;
+            (self.least, self.turning) = (least, turning);
+        }
     }
 
     /// Puts friction against the velocity after the step, or against the mean of those before and after.
@@ -140,6 +153,14 @@ impl Block {
         let sent_back = if self.meant { 1.0 } else { self.tangential_restitution };
         let since = Vector3::new(-self.least, self.before.y * sent_back, self.before.z * sent_back);
         self.velocity(u) - since
+    }
+
+    /// Twice the energy that an impulse gives the bodies, from their velocities with the step's forces on, and the size
+    /// of its terms.
+    pub fn given_j(&self, p: &Impulse, u: &[Twist]) -> (f64, f64) {
+        let least = Vector3::new(self.least, 0.0, 0.0);
+        let (free, after) = (self.b + least, self.velocity(u) + least);
+        (p.dot(&(free + after)), p.norm() * (free.norm() + after.norm()))
     }
 
     /// How far the gap of a contact that lasts swings in a step, at most.

@@ -12,7 +12,7 @@ mod impulse;
 mod interior;
 pub mod island;
 pub mod law;
-mod missed;
+pub mod missed;
 pub mod newton;
 pub mod nncg;
 pub mod pins;

@@ -68,6 +68,7 @@ impl Block {
             frame,
             pin: Some(A.try_inverse().unwrap_or_default()),
             least: 0.0,
+            turning: 0.0,
             before: Vector3::zeros(),
             tangential_restitution: 0.0,
             hold: None,

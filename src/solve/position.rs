@@ -92,7 +92,7 @@ impl Push {
         work: &mut Work,
     ) -> bool {
         let wanted_m = |block: &Block, contact: &Contact| {
-            let moves_m = step_s * (block.velocity(response).x + block.least);
+            let moves_m = step_s * (block.velocity(response).x + block.least + block.turning);
             let inside_m = -(contact.gap_m + moves_m.max(0.0)) - block.swing(step_s);
             let is_pushed = contact.restitution < 1.0 && inside_m > rounding_m(model, contact);
             let at_once_m = SHALLOW * size_m(model, contact);

@@ -28,6 +28,14 @@ impl ContactSolver {
         }
     }
 
+    /// Part of the tolerance that may be missing of a solution; of an iteration that has settled all of it.
+    pub fn leaves(&self) -> f64 {
+        match self {
+            ContactSolver::Auto(_) | ContactSolver::Newton(_) => auto::KEPT,
+            ContactSolver::Pgs(_) | ContactSolver::Nncg(_) => 1.0,
+        }
+    }
+
     /// Improves `p`. Whether it is solved, or has settled.
     pub fn solve(&mut self, problem: &ContactProblem, sweeps: &Sweeps, p: &mut [Impulse], work: &mut Work) -> bool {
         match self {

@@ -3,7 +3,7 @@
 //! those just after.
 
 use crate::collide::Contact;
-use crate::collide::approach::Approach;
+use crate::collide::approach::{Approach, NormalMotion};
 use crate::collide::closed::is_closed_to_rounding;
 use crate::collide::islands::Islands;
 use crate::collide::lasting::Hold;
@@ -120,7 +120,7 @@ impl Blow {
                 let speed = |(i, r_W, _): (usize, Vector3<f64>, f64)| free[i].v.norm() + free[i].w.norm() * r_W.norm();
                 let rounding = ROUNDING * contact.ends().map(speed).fold(0.0, f64::max);
                 hold(contact).is_none()
-                    && -motion[0] > rounding
+                    && -motion.before > rounding
                     && self.approach.strikes(model, contact, motion, step_s)
             })
             .collect();
@@ -145,9 +145,9 @@ impl Blow {
     }
 }
 
-/// Normal velocity of a contact before the step, and what the step's forces add to it.
-pub(super) fn normal_motion(contact: &Contact, state: &State, free: &[Twist]) -> [f64; 2] {
+/// Normal velocity of a contact in a step in which bodies do not turn on by themselves.
+pub(super) fn normal_motion(contact: &Contact, state: &State, free: &[Twist]) -> NormalMotion {
     let before = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
     let gained = contact.normal.dot(&contact.velocity(|i| [free[i].v, free[i].w])) - before;
-    [before, gained]
+    NormalMotion { before, gained, turning: 0.0 }
 }

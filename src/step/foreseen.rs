@@ -94,10 +94,10 @@ fn note_earlier(hit_s: &mut Option<f64>, other_s: f64) {
     *hit_s = Some(hit_s.map_or(other_s, |first_s| first_s.min(other_s)));
 }
 
-/// Velocities of a body with the step's forces and impulses.
-fn moving(Scratch { free, response, .. }: &Scratch, body: usize) -> [Vector3<f64>; 2] {
+/// Mean velocities of a body through the step, with its forces and impulses.
+fn moving(Scratch { free, response, turning, .. }: &Scratch, body: usize) -> [Vector3<f64>; 2] {
     let (free, u) = (&free[body], &response[body]);
-    [free.v + u.v, free.w + u.w]
+    [free.v + u.v, free.w + u.w + turning[body]]
 }
 
 /// How far a gap opens in the step, in metres.
@@ -277,7 +277,7 @@ impl Foreseen {
     ) -> bool {
         let Foreseen { doubts, depths, points, hit_s, is_whole, is_up_to_hit, round, .. } = self;
         *hit_s = None;
-        let Scratch { free, response, problem, found, impulses, work, .. } = scratch;
+        let Scratch { free, response, turning, problem, found, impulses, work, .. } = scratch;
         let mut changed = false;
         for doubt in doubts.list_mut() {
             let [a, b] = doubt.pair;
@@ -294,7 +294,7 @@ impl Foreseen {
             if doubt.is_imposed && !pushed {
                 continue;
             }
-            let moving = without.map(|u| [u.v, u.w]);
+            let moving = [0, 1].map(|end| [without[end].v, without[end].w + turning[doubt.pair[end]]]);
             let Some(way) = Way::new(model, state, doubt.pair, moving, step_s) else { continue };
             let beside_m = depths[a].beside(Some(b)).max(depths[b].beside(Some(a)));
             let band_m = band_m(model, doubt.pair, &state.bodies[a]).max(AS_DEEP * beside_m);

@@ -18,5 +18,6 @@ mod stepper;
 mod still;
 mod stretch;
 mod time_stepping;
+mod turning;
 
 pub use stepper::Stepper;

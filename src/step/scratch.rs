@@ -10,6 +10,7 @@ use crate::solve::problem::ContactProblem;
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use crate::work::Work;
+use nalgebra::Vector3;
 
 /// What a method needs in every step and nobody outside does.
 #[derive(Debug)]
@@ -19,6 +20,8 @@ pub(super) struct Scratch {
     pub(super) problem: ContactProblem,
     /// V[n] + M⁻¹ F_E Δt of every body.
     pub(super) free: Vec<Twist>,
+    /// What the mean angular velocity of every body's free turn through the step has beyond that after the impulses.
+    pub(super) turning: Vec<Vector3<f64>>,
     pub(super) impulses: Vec<Impulse>,
     /// M⁻¹ Jᵀ p of every body.
     pub(super) response: Vec<Twist>,
@@ -36,6 +39,7 @@ impl Scratch {
             found: Vec::with_capacity(contacts),
             problem: ContactProblem::with_capacity(contacts, bodies),
             free: Vec::with_capacity(bodies),
+            turning: Vec::with_capacity(bodies),
             impulses: Vec::with_capacity(contacts),
             response: Vec::with_capacity(bodies),
             solved: Vec::with_capacity(contacts),

@@ -15,6 +15,7 @@ use super::foreseen::Foreseen;
 use super::push_out::push_out;
 use super::scratch::Scratch;
 use super::still;
+use super::turning::Turning;
 use crate::clock::Clock;
 use crate::collide::approach::Approach;
 use crate::collide::lasting::{Hold, Lasting};
@@ -37,8 +38,9 @@ use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
-/// Most solves of a step whose kick is half-way: after each, friction may be put against another velocity.
-const MOST_STOPS: u32 = 6;
+/// Most solves of a step: after each, friction may be put against another velocity where the kick is half-way, and
+/// bodies may turn on otherwise where it is not.
+const MOST_SOLVES: u32 = 6;
 
 /// A way in a step, of the least width of all bodies, or a turn in radians, from which bodies are looked at before a
 /// step whose kick is half-way.
@@ -89,6 +91,7 @@ pub struct TimeStepping {
     is_at_rest: bool,
     /// Steps ahead in which nothing can be touched.
     flight: u64,
+    turning: Turning,
     /// The last step was left when time was up.
     pub(super) is_cut: bool,
     pub(super) scratch: Scratch,
@@ -139,6 +142,7 @@ impl TimeStepping {
             began: Vec::with_capacity(scratch.free.capacity()),
             is_at_rest: false,
             flight: 0,
+            turning: Turning::with_capacity(scratch.free.capacity()),
             is_cut: false,
             scratch,
         }
@@ -191,6 +195,7 @@ impl TimeStepping {
             // Until the next kick.
             let ahead_s = if self.made_s < left_s { self.made_s - before_s } else { self.made_s };
             self.scratch.free_velocities(model, state, self.made_s);
+            self.turning.begin(model, state, &mut self.scratch, (self.approach, self.made_s));
             self.foreseen.look(model, state, &mut self.scratch, &self.last, ahead_s);
             // 2. Contact impulses, until they ask for no other contacts; displacements that remove penetration.
             self.solve_rounds(model, state, self.made_s, ahead_s);
@@ -208,6 +213,7 @@ impl TimeStepping {
         let after_s = self.made_s - before_s;
         self.note_lasting(model, state);
         self.take_solution();
+        self.turning.note(&self.scratch.solved);
         let pushed = self.find_push(model, state, self.made_s);
         // 3. Velocities. 4. Position and attitude.
         let s = &mut self.scratch;
@@ -284,6 +290,7 @@ impl TimeStepping {
             return false;
         }
         self.scratch.free_velocities(model, state, 0.0);
+        self.turning.begin(model, state, &mut self.scratch, (Approach::Middle, 0.0));
         self.foreseen.look(model, state, &mut self.scratch, &self.last, step_s);
         self.scratch.found.clear();
         self.scratch.response.clear();
@@ -357,9 +364,12 @@ impl TimeStepping {
                 blow.strike(model, state, &s.free, (&s.found, &hold), (step_s, self.sweeps.deadline), &mut plastic)?;
             s.work.unsolved += u64::from(!ended);
             self.is_cut |= !ended && self.sweeps.deadline.is_over();
-            go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s), hold);
-            Some(blow)
+            let plastic = go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s), hold);
+            Some((blow, plastic))
         });
+        let after = struck.as_ref().map(|(blow, plastic)| (&plastic[..], &blow.response[..]));
+        let through = (self.approach, step_s);
+        self.turning.ask(model, after, s, through);
         warm_start(&s.found, &s.problem, &self.last, &mut s.impulses);
         if !self.solved.is_empty() {
             warm_start(&s.found, &s.problem, &self.solved, &mut s.impulses);
@@ -368,13 +378,18 @@ impl TimeStepping {
         s.impulses.resize(s.problem.blocks.len(), Impulse::zeros());
         s.work.tangent_rows += if self.sweeps.friction { 2 * s.found.len() as u64 } else { 0 };
         let mut settled = s.problem.blocks.is_empty();
-        for _ in 0..MOST_STOPS {
+        let enough = self.solver.leaves() * self.sweeps.tolerance;
+        for _ in 0..MOST_SOLVES {
             settled = settled || self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work);
             s.problem.response(&s.impulses, &mut s.response);
-            let changes = |problem: &mut ContactProblem| {
-                problem.stop(&s.impulses, &s.response) || problem.take_mean(&s.found, model, &s.impulses, &s.response)
+            let changes = match self.approach {
+                Approach::Middle => {
+                    let (p, u) = (&s.impulses, &s.response);
+                    settled && (s.problem.stop(p, u) || s.problem.take_mean(&s.found, model, p, u))
+                }
+                _ => self.turning.revise(model, state, s, after, (through, settled, enough)),
             };
-            if !(settled && is_half_way && changes(&mut s.problem)) {
+            if !changes {
                 break;
             }
             settled = false;
@@ -386,7 +401,7 @@ impl TimeStepping {
             // That is seen here, at the end, alone: a stack needs such a start when it has just been held too well.
             s.problem.take_back(&mut s.impulses, &s.response);
         }
-        if let Some(blow) = struck {
+        if let Some((blow, _)) = struck {
             s.problem.take_off(&blow.response);
             s.impulses.iter_mut().zip(&blow.impulses).for_each(|(p, blow)| *p += blow);
         }
@@ -409,7 +424,7 @@ impl TimeStepping {
     }
 }
 
-/// The step's contact problem after a blow that took care of all restitution.
+/// The step's contact problem after a blow that took care of all restitution, and its contacts.
 fn go_on_after(
     blow: &Blow,
     model: &Model,
@@ -418,7 +433,7 @@ fn go_on_after(
     found: &[Contact],
     through: (Approach, f64),
     hold: impl Fn(&Contact) -> Option<Hold>,
-) {
+) -> Vec<Contact> {
     let free: Vec<Twist> = free.iter().zip(&blow.response).map(|(a, b)| Twist { v: a.v + b.v, w: a.w + b.w }).collect();
     let mut plastic: Vec<Contact> = found.iter().map(|contact| Contact { restitution: 0.0, ..*contact }).collect();
     let mut is_struck = blow.is_struck.iter();
@@ -427,6 +442,7 @@ fn go_on_after(
         hold(contact).filter(|_| is_struck == Some(&false))
     };
     problem.gather_held(model, &blow.after, &free, &mut plastic, through, hold);
+    plastic
 }
 
 /// Contacts that were left out are there, without an impulse.

@@ -27,6 +27,7 @@ mod skipping;
 mod skips;
 mod symmetries;
 mod taylor;
+mod turning;
 
 /// The fitted order.
 pub fn order(steps: &[f64], errors: &[f64]) -> f64 {

@@ -2,6 +2,7 @@
 //! (`text.rs`), for a page (`plotly.rs`), and as SVG and PNG (`sheet.rs` lays it out once for both).
 
 use super::number::{linear_ticks, log_ticks};
+use serde::Serialize;
 
 /// Figure of a report.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,8 +63,20 @@ pub struct GridCell {
     pub is_doubtful: bool,
     /// The row of it that tells most.
     pub row: Option<usize>,
-    /// Columns and the values in them that rows of the cell have.
-    pub pick: Vec<(String, Vec<String>)>,
+    /// Columns, and what the rows of the cell have in them.
+    pub pick: Vec<(String, Picked)>,
+}
+
+/// Values of a column that a cell stands for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Picked {
+    /// One of these.
+    OneOf(Vec<String>),
+    /// Numbers, from the first to the last.
+    Between(f64, f64),
+    /// None of these.
+    NoneOf(Vec<String>),
 }
 
 /// Series of points, drawn in one way.

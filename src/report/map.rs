@@ -1,7 +1,7 @@
 //! The map: over the two axes that tell most, the share of runs that end in one way, or the median of a column, with
 //! the curve on which half of the runs do.
 
-use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, GridCell, Mark, Shading};
+use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, GridCell, Mark, Picked, Shading};
 use super::number::{counted, percent, plain, short};
 use super::stats::{crossing, explained, median};
 use super::subject::{Ground, Levels};
@@ -93,11 +93,11 @@ pub fn telling<'a>(ground: &'a Ground, painted: &Painted) -> Vec<&'a Levels> {
 fn pooled(axis: &Levels, most: usize) -> (Vec<String>, Vec<usize>) {
     let n = axis.len();
     if n <= most {
-        return (axis.names.clone(), (0..n).collect());
+        return (axis.labels.clone(), (0..n).collect());
     }
     if axis.numbers.is_none() {
         // Words have no neighbours.
-        let mut names: Vec<String> = axis.names[..most - 1].to_vec();
+        let mut names: Vec<String> = axis.labels[..most - 1].to_vec();
         names.push(format!("{} others", n - most + 1));
         return (names, (0..n).map(|i| i.min(most - 1)).collect());
     }
@@ -105,7 +105,11 @@ fn pooled(axis: &Levels, most: usize) -> (Vec<String>, Vec<usize>) {
     let name = |g: usize| {
         let of = |mut i: Box<dyn Iterator<Item = usize>>| i.find(|i| group[*i] == g).unwrap_or_default();
         let (first, last) = (of(Box::new(0..n)), of(Box::new((0..n).rev())));
-        if first == last { axis.names[first].clone() } else { format!("{}…{}", axis.names[first], axis.names[last]) }
+        if first == last {
+            axis.labels[first].clone()
+        } else {
+            format!("{}…{}", axis.labels[first], axis.labels[last])
+        }
     };
     ((0..most).map(name).collect(), group)
 }
@@ -158,6 +162,7 @@ pub fn map(ground: &Ground, most: usize) -> Option<Figure> {
     if !beside.is_empty() {
         notes.push(format!("pooled over {}", beside.join(", ")));
     }
+    notes.extend([Some(x), y].into_iter().flatten().filter_map(Levels::note));
     for axis in [Some(x), y].into_iter().flatten().filter(|axis| axis.len() > most) {
         notes.push(format!("{} values of {} are pooled into {most}", axis.len(), axis.path));
     }
@@ -254,25 +259,37 @@ fn counts(
 
 type Named<'a> = (&'a Levels, &'a [String], &'a [usize]);
 
+/// What every group of levels stands for, and how many levels it has.
+fn picks(levels: &Levels, group: &[usize]) -> Vec<(Picked, usize)> {
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); group.iter().max().map_or(0, |last| last + 1)];
+    group.iter().enumerate().for_each(|(level, group)| members[*group].push(level));
+    // What is pooled of words is all that stands nowhere else.
+    let single = || members.iter().filter(|members| members.len() == 1).map(|members| levels.names[members[0]].clone());
+    let pick = |members: &Vec<usize>| match (&members[..], &levels.numbers) {
+        ([first, .., last], Some(numbers)) => Picked::Between(numbers[*first], numbers[*last]),
+        ([_, _, ..], None) => Picked::NoneOf(single().collect()),
+        (few, _) => Picked::OneOf(few.iter().map(|level| levels.names[*level].clone()).collect()),
+    };
+    members.iter().map(|members| (pick(members), members.len())).collect()
+}
+
 fn cells(
     ground: &Ground,
     painted: &Painted,
-    (x, x_names, x_group): (&Levels, &Vec<String>, &Vec<usize>),
+    (x, x_names, x_group): Named,
     y: Option<Named>,
     counts: &[Vec<Count>],
 ) -> Vec<GridCell> {
     let product: usize = ground.subject.axes.iter().map(|axis| axis.values.len()).product();
     let is_whole_grid = ground.subject.planned == product && ground.subject.together.is_empty();
-    let in_group = |levels: &Levels, group: &[usize], g: usize| {
-        let values = (0..levels.len()).filter(|level| group[*level] == g).map(|level| levels.names[level].clone());
-        (levels.path.clone(), values.collect::<Vec<_>>())
-    };
+    let (x_picks, y_picks) = (picks(x, x_group), y.map(|(y, _, group)| (y, picks(y, group))));
     let mut cells = Vec::new();
     for (y_at, line) in counts.iter().enumerate() {
         for (x_at, count) in line.iter().enumerate() {
-            let mut pick = vec![in_group(x, x_group, x_at)];
-            pick.extend(y.map(|(y, _, group)| in_group(y, group, y_at)));
-            let of_grid: usize = pick.iter().map(|(_, values)| values.len()).product();
+            let (x_pick, x_count) = &x_picks[x_at];
+            let mut pick = vec![(x.path.clone(), x_pick.clone())];
+            pick.extend(y_picks.as_ref().map(|(y, picks)| (y.path.clone(), picks[y_at].0.clone())));
+            let of_grid = x_count * y_picks.as_ref().map_or(1, |(_, picks)| picks[y_at].1);
             let all: usize = x.len() * y.map_or(1, |(y, ..)| y.len());
             let expected = if is_whole_grid { ground.subject.planned * of_grid / all } else { count.rows };
             let missing = expected.saturating_sub(count.rows);

@@ -34,7 +34,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
         }
     }
     let mark = |(series, counts): (usize, &Vec<(usize, usize)>)| {
-        let name = y.map_or("all".to_string(), |y| y.names[series].clone());
+        let name = y.map_or("all".to_string(), |y| y.labels[series].clone());
         let dot = |(level, (k, n)): (usize, &(usize, usize))| {
             let Interval { low, high } = of_share(*k, *n);
             let place = x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
@@ -51,6 +51,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     };
     let marks: Vec<Mark> = counts.iter().enumerate().map(mark).collect();
     let mut notes = ground.notes();
+    notes.extend([Some(x), y].into_iter().flatten().filter(|axis| axis.numbers.is_none()).filter_map(Levels::note));
     notes.push("bars: Wilson's interval, 95 %".to_string());
     Some(Figure {
         name: "share".to_string(),

@@ -123,6 +123,7 @@
       for (const column of visible()) {
         const td = make("td", shown(cell(column, row)));
         if (column.words) td.className = "word";
+        if (td.textContent.length > 40) td.title = td.textContent;
         tr.append(td);
       }
       tr.onclick = () => choose(row);
@@ -233,6 +234,17 @@
   const cut = (text, most) => (split(text).length > most ? `${split(text).slice(0, most - 1).join("")}…` : text);
   const longest = (texts) => Math.max(0, ...texts.map((text) => split(text).length));
 
+  // A name in lines, each of at most so many letters.
+  function broken(text, most) {
+    if (split(text).length <= most) return text;
+    const lines = [""];
+    for (const word of text.split(" ")) {
+      if (lines.at(-1) !== "" && split(`${lines.at(-1)} ${word}`).length > most) lines.push("");
+      lines[lines.length - 1] += `${lines.at(-1) === "" ? "" : " "}${word}`;
+    }
+    return lines.slice(0, 2).map((line) => cut(line, most)).join("<br>");
+  }
+
   // Names along x that have no room lie on their side, and every so many of numbers is left out.
   function fitted(axis, room, letter, most) {
     const texts = axis.ticktext.map((text) => cut(text, most));
@@ -256,8 +268,8 @@
     let { xaxis, yaxis, annotations } = figure.layout;
     let height = Number(div.dataset.height);
     const most = narrow ? 12 : 24;
-    if (isNamed(yaxis)) yaxis = { ...yaxis, ticktext: yaxis.ticktext.map((text) => cut(text, most)) };
-    const room = Math.max(40, div.clientWidth - 60 - letter * longest(yaxis.ticktext) - (heat && !narrow ? 90 : 12));
+    if (isNamed(yaxis)) yaxis = { ...yaxis, ticktext: yaxis.ticktext.map((text) => broken(text, most)) };
+    const room = Math.max(40, div.clientWidth - 60 - letter * longest(yaxis.ticktext.flatMap((text) => text.split("<br>"))) - (heat && !narrow ? 90 : 12));
     if (isNamed(xaxis)) {
       const columns = xaxis.tickvals.length;
       xaxis = fitted(xaxis, room / columns, letter, most);
@@ -267,7 +279,8 @@
         annotations = fits < 7 ? [] : annotations.map((given) => ({ ...given, font: { ...given.font, size: fits } }));
       }
     }
-    const bar = narrow || height < 330
+    // Along the side where there is room for its title.
+    const bar = narrow || letter * longest([heat?.colorbar.title.text ?? ""]) > Number(div.dataset.height) - 150
       ? { orientation: "h", x: 0.5, y: 1.02, yanchor: "bottom", len: 1, title: { ...heat?.colorbar.title, side: "top" } } : {};
     if (heat && bar.orientation) height += 70;
     const layout = {

@@ -198,7 +198,9 @@ impl Reported {
     /// # Errors
     /// The machine failed.
     pub(super) fn write_plots(&self, figures: &[Figure]) -> Result<Vec<PathBuf>, FileError> {
-        files::make_folder(&self.plots)?;
+        if !figures.is_empty() {
+            files::make_folder(&self.plots)?;
+        }
         let mut written = Vec::new();
         for figure in figures {
             let path = |ending: &str| self.plots.join(format!("{}.{ending}", figure.name));

@@ -115,7 +115,10 @@ fn summary(swept: &Swept) -> String {
         }
     }
     text = wrapped(&text, width().into(), "", "  ");
-    text += &format!("\n  rows: {}", swept.dir.join("rows.csv").display());
+    // Of very many rows there is no CSV, unless it is asked for.
+    let tables = ["rows.csv", "rows.parquet"].map(|name| swept.dir.join(name));
+    let table = tables.iter().find(|table| table.is_file()).unwrap_or(&tables[0]);
+    text += &format!("\n  rows: {}", table.display());
     if let Some((recordings, telling)) = most_telling(&swept.rows) {
         let files = Target::ALL.map(|target| target.path(&swept.dir, telling));
         if let Some(file) = files.iter().find(|file| file.is_file()) {

@@ -86,7 +86,9 @@ fn said_of(fit: PowerFit, points: usize) -> String {
         PowerFit::TooFew(1) => "too few places for a law (1)".to_string(),
         PowerFit::TooFew(places) => format!("too few places for a law ({places}; it takes 4)"),
         PowerFit::Scattered(law) => format!("too scattered for a law (exponent {})", law.written()),
-        PowerFit::Bends(first, last) => format!("no law: the exponent goes from {first:.2} to {last:.2}"),
+        PowerFit::Bends(first, last) => {
+            format!("no law: the exponent goes from {first:.2} to {last:.2}").replace("-0.00", "0.00")
+        }
         PowerFit::OutsideOfIntervals(n, of) => format!("no law: it leaves the 95 % intervals of {n} of {of} points"),
     }
 }

@@ -7,7 +7,9 @@ use std::collections::HashSet;
 /// Most letters of a name in a figure.
 pub const MOST: usize = 24;
 /// Most letters of a number in a figure, where fewer digits tell it apart.
-const DIGITS: usize = 8;
+const DIGITS: usize = 6;
+/// Numbers that are pooled wherever they are names.
+const MANY: usize = 200;
 /// Most letters of what all names have in common, in a note.
 const COMMON: usize = 120;
 
@@ -28,6 +30,9 @@ impl Labels {
         let rounded = |digits: usize| -> Vec<String> {
             numbers.iter().map(|x| shown(format!("{x:.digits$e}").parse().unwrap_or(*x))).collect()
         };
+        if numbers.len() > MANY {
+            return Labels { labels: rounded(2), note: Some("rounded to 3 digits".to_string()) };
+        }
         let is_distinct = |labels: &Vec<String>| labels.iter().collect::<HashSet<_>>().len() == labels.len();
         match (2..16).map(|digits| (digits + 1, rounded(digits))).find(|(_, labels)| is_distinct(labels)) {
             Some((digits, labels)) => Labels { labels, note: Some(format!("rounded to {digits} digits")) },

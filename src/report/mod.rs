@@ -25,6 +25,7 @@ pub mod palette;
 pub mod pareto;
 mod plotly;
 pub mod png;
+mod pooling;
 pub mod power_law;
 mod rows_of_page;
 pub mod said;

@@ -21,6 +21,10 @@ pub struct Page {
     pub left_out: Option<String>,
 }
 
+/// What stands where there is no figure.
+pub const NOTHING_DRAWN: &str =
+    "No axis has several values: there is nothing to compare in a figure, and the table has all that there is.";
+
 const STYLE: &str = include_str!("../../assets/report.css");
 const SCRIPT: &str = include_str!("../../assets/report.js");
 const ROWS: &str = include_str!("../../assets/rows.html");
@@ -101,6 +105,9 @@ fn html(subject: &Subject, figures: &[Figure], listing: &Listing) -> String {
         let _ = writeln!(out, "<p class=\"{class}\" role=\"note\">{}</p>", escaped(&plain(&said)));
     }
     verdicts(&mut out, subject);
+    if figures.is_empty() {
+        let _ = writeln!(out, "<p class=\"notes\">{NOTHING_DRAWN}</p>");
+    }
     for figure in figures {
         shown(&mut out, figure);
     }

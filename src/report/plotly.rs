@@ -24,7 +24,8 @@ impl Figure {
         if let Some(field) = &self.field {
             data.push(self.heat(field));
         }
-        data.extend(self.marks.iter().filter(|mark| !mark.dots.is_empty()).map(|mark| self.trace(mark)));
+        let marks = self.marks.iter().zip(self.asides()).filter(|(mark, _)| !mark.dots.is_empty());
+        data.extend(marks.map(|(mark, aside)| self.trace(mark, aside)));
         let [x, y] = self.extent();
         let mut layout = json!({ "xaxis": axis(&self.x, x), "yaxis": axis(&self.y, y), "annotations": [] });
         let triangles = self.marks.iter().filter(|mark| mark.drawn == Drawn::Triangle);
@@ -96,10 +97,10 @@ impl Figure {
         field.cells.iter().map(text).collect()
     }
 
-    fn trace(&self, mark: &Mark) -> Value {
+    fn trace(&self, mark: &Mark, aside: f64) -> Value {
         let colour = hex(COLOURS[mark.colour % COLOURS.len()]);
         let of = |of: &dyn Fn(&super::figure::Dot) -> Value| -> Vec<Value> { mark.dots.iter().map(of).collect() };
-        let (x, y) = (of(&|dot| json!(dot.x)), of(&|dot| json!(dot.y)));
+        let (x, y) = (of(&|dot| json!(self.shifted(dot.x, aside))), of(&|dot| json!(dot.y)));
         let mut trace = json!({
             "type": "scatter", "name": lines(&mark.label), "x": x, "y": y,
             "text": of(&|dot| json!(letters(&dot.said))), "hoverinfo": "text",

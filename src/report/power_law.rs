@@ -39,8 +39,8 @@ impl PowerLaw {
 /// Places of an axis without which a law is a guess: three leave one degree of freedom, and a factor 12.7 in the
 /// interval.
 const LEAST_PLACES: usize = 4;
-/// Widest half of an interval of an exponent: beyond it a root cannot be told from proportionality.
-const WIDEST: f64 = 0.5;
+/// Widest half of an interval of an exponent: beyond it a root cannot be told from a constant or from proportionality.
+const WIDEST: f64 = 0.25;
 /// Change of the local exponent over all places that is a bend, if it is none of chance.
 const BEND: f64 = 0.2;
 

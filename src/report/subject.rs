@@ -59,9 +59,12 @@ pub struct Levels {
     /// The values as numbers, if all are.
     pub numbers: Option<Vec<f64>>,
     pub of_row: Vec<Option<u32>>,
+    /// Number of values, where they are pooled.
+    pub pooled_from: Option<usize>,
 }
 
 /// Rows of a subject on their axes.
+#[derive(Clone)]
 pub struct Ground<'a> {
     pub subject: &'a Subject,
     /// Axes with more than one value that vary independently.
@@ -103,7 +106,16 @@ impl Levels {
             Some(numbers) => Labels::of_numbers(numbers, &names),
             None => Labels::of_words(&names),
         };
-        Levels { path: axis.path.clone(), unit: unit_of(&axis.path), names, labels, shortened: note, numbers, of_row }
+        Levels {
+            path: axis.path.clone(),
+            unit: unit_of(&axis.path),
+            names,
+            labels,
+            shortened: note,
+            numbers,
+            of_row,
+            pooled_from: None,
+        }
     }
 
     pub fn len(&self) -> usize {
@@ -235,6 +247,11 @@ impl<'a> Ground<'a> {
         }
         if failed > 0 {
             notes.push(format!("{} failed and is left out", counted(failed, "case")));
+        }
+        for axis in &self.axes {
+            if let Some(all) = axis.pooled_from {
+                notes.push(format!("{all} values of {} are pooled into {}", axis.path, axis.len()));
+            }
         }
         for note in &mut notes[1..] {
             if !note.starts_with("1 ") {

@@ -134,8 +134,7 @@ fn a_report_fits_a_phone_and_can_be_read_in_light_and_dark() {
                  return [(a + 0.05) / (b + 0.05), e.tagName + ' ' + e.className]; })
                .sort((a, b) => a[0] - b[0])[0]",
         );
-        eprintln!("CONTRAST {width} {scheme} {contrast}");
-        // measured: 5.2
+        // measured: 6.7 in light, 8.3 in dark
         assert!(contrast[0].as_f64().unwrap() >= 4.5, "{scheme}: {contrast}");
         // The plots have the colours of the page.
         let paper = browser.run("return [getComputedStyle(document.querySelector('.main-svg')).backgroundColor, getComputedStyle(document.documentElement).backgroundColor]");
@@ -164,8 +163,7 @@ fn a_map_of_many_columns_can_be_read() {
         browser.open(&path);
         let found = browser.run(MAP);
         let (share, apart, ticks) = (&found[0], &found[1], found[2].as_u64().unwrap());
-        eprintln!("MAP {width} {found}");
-        // measured: 0.75 of 1100, 0.65 of 360
+        // measured: 0.86 of 1100, 0.65 of 360
         assert!(share.as_f64().unwrap() > 0.55, "{width}: {found}");
         assert!(apart.as_f64().unwrap() >= 0.0 && ticks > 4, "{width}: {found}");
     }

@@ -88,6 +88,10 @@ fn finding(marks: &[Mark], x: &Levels, outcome: &str) -> Option<String> {
     }
     Some(match marks.len() {
         1 => format!("At {} {} of the runs {verb}, the most anywhere.", x.says(level), percent(high.1)),
+        // Of all series one alone has runs there, or all are alike.
+        _ if low.1 == high.1 => {
+            format!("At {} {} of the runs {verb} ({}).", x.says(level), percent(high.1), high.0.label)
+        }
         _ => format!(
             "At {} between {} ({}) and {} ({}) of the runs {verb}.",
             x.says(level),

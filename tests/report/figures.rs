@@ -211,6 +211,23 @@ fn the_figures_say_what_they_find_with_numbers() {
     assert!(of("work").finding.contains("work_sweeps"), "{}", of("work").finding);
 }
 
+#[test]
+fn a_share_that_one_series_alone_has_is_said_once() {
+    let of =
+        |a: i32, b: &str, outcome: &str| row(json!({ "case": format!("{a}{b}"), "a": a, "b": b, "outcome": outcome }));
+    let rows = vec![of(1, "x", "finished"), of(2, "x", "diverged"), of(1, "y", "finished"), of(2, "y", "failed")];
+    let all = figures(&of_rows(rows, vec![axis("a", json!([1, 2])), axis("b", json!(["x", "y"]))]));
+    let share = all.iter().find(|figure| figure.name == "share").unwrap();
+    assert_eq!(share.finding, "At a = 2 100% of the runs diverge (x).");
+    // One run is one.
+    let one = figures(&of_rows(vec![of(1, "x", "finished")], vec![axis("a", json!([1, 2]))]));
+    assert!(
+        one[0].finding.starts_with("The one run does not diverge (95 % interval up to 79.35 %)."),
+        "{}",
+        one[0].finding
+    );
+}
+
 /// Of a search the map has the critical values, and not how the runs at the lower ends of the brackets ended.
 #[test]
 fn the_map_of_a_search_is_of_what_was_searched() {

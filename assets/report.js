@@ -283,12 +283,15 @@
     const bar = narrow || letter * longest([heat?.colorbar.title.text ?? ""]) > Number(div.dataset.height) - 150
       ? { orientation: "h", x: 0.5, y: 1.02, yanchor: "bottom", len: 1, title: { ...heat?.colorbar.title, side: "top" } } : {};
     if (heat && bar.orientation) height += 70;
+    // A legend of a line a series takes its room below the plot, and none of the plot's.
+    const entries = figure.data.filter((trace) => trace.type === "scatter" && trace.showlegend !== false);
+    if (narrow && entries.length > 1) height += entries.reduce((sum, trace) => sum + 19 * trace.name.split("<br>").length, 0);
     const layout = {
       ...figure.layout, annotations, paper_bgcolor: paper, plot_bgcolor: paper,
       font: { color: ink, size, family: "system-ui, DejaVu Sans, Verdana, sans-serif" },
       xaxis: axis(xaxis), yaxis: axis(yaxis), hovermode: "closest", dragmode: narrow ? false : "zoom",
       margin: { l: 50, r: 12, t: 16, b: 50 }, height,
-      legend: { orientation: "h", y: -0.22, yanchor: "top" }, hoverlabel: { align: "left" },
+      legend: { orientation: "h", y: narrow ? -0.27 : -0.22, yanchor: "top" }, hoverlabel: { align: "left" },
     };
     const data = figure.data.map((trace) => (trace === heat ? { ...trace, colorbar: { ...trace.colorbar, ...bar } } : trace));
     return [data, layout];

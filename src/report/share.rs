@@ -52,7 +52,8 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     let marks: Vec<Mark> = counts.iter().enumerate().map(mark).collect();
     let mut notes = ground.notes();
     notes.extend([Some(x), y].into_iter().flatten().filter(|axis| axis.numbers.is_none()).filter_map(Levels::note));
-    notes.push("bars: Wilson's interval, 95 %".to_string());
+    let side_by_side = if y.is_some() { "; series stand side by side" } else { "" };
+    notes.push(format!("bars: Wilson's interval, 95 %{side_by_side}"));
     Some(Figure {
         name: "share".to_string(),
         title: format!("Share of runs that {}", verb(outcome)),

@@ -122,6 +122,14 @@ fn a_report_fits_a_phone_and_can_be_read_in_light_and_dark() {
         browser.open(&page);
         let wide = browser.run("return [document.documentElement.scrollWidth, window.innerWidth]");
         assert!(wide[0].as_f64() <= wide[1].as_f64(), "{width}: {wide}");
+        // No legend lies on the title of its axis, or on the points.
+        let least = browser.run(
+            "return Math.min(...[...document.querySelectorAll('.js-plotly-plot')].filter((p) => p.querySelector('.legend'))
+               .map((p) => p.querySelector('.legend').getBoundingClientRect().top - p.querySelector('.xtitle').getBoundingClientRect().bottom))",
+        );
+        // measured: LEGEND
+        eprintln!("LEGEND {width} {least}");
+        assert!(least.as_f64().unwrap() >= 0.0, "{width}: {least}");
         // WCAG's contrast of letters with what is behind them: 4.5 at least.
         let contrast = browser.run(
             "const rgb = (text) => text.match(/[\\d.]+/g).map(Number);

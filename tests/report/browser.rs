@@ -127,8 +127,7 @@ fn a_report_fits_a_phone_and_can_be_read_in_light_and_dark() {
             "return Math.min(...[...document.querySelectorAll('.js-plotly-plot')].filter((p) => p.querySelector('.legend'))
                .map((p) => p.querySelector('.legend').getBoundingClientRect().top - p.querySelector('.xtitle').getBoundingClientRect().bottom))",
         );
-        // measured: LEGEND
-        eprintln!("LEGEND {width} {least}");
+        // measured: 33 on a phone, 3.8 on a desk
         assert!(least.as_f64().unwrap() >= 0.0, "{width}: {least}");
         // WCAG's contrast of letters with what is behind them: 4.5 at least.
         let contrast = browser.run(

@@ -424,7 +424,7 @@ fn rows_fit_a_terminal() {
         assert!(first.contains(part), "{part}: {text}");
     }
     assert!(text.contains("rise_") && !text.contains("drift_"), "{text}");
-    assert!(err.contains("no room for energy_drift_rel") && err.contains("--columns chooses"), "{err}");
+    assert!(err.contains("no room for energy_drift_rel") && err.contains("--columns"), "{err}");
     // Twelve rows below a head of few lines.
     assert!((13..18).contains(&text.lines().count()), "{text}");
     let (text, err) = of(&["--columns", "case,penetration_max_m,residual_max"]);

@@ -53,6 +53,41 @@ fn pages_of_lists_are_what_the_program_prints() {
     }
 }
 
+/// An editor says of every key what the page says, so that nobody writes it twice, and no key is without a word.
+#[test]
+fn the_schema_describes_every_key_with_the_words_of_the_pages() {
+    fn below(schema: &serde_json::Value, path: &mut Vec<String>, found: &mut BTreeMap<String, String>) {
+        for (key, value) in schema["properties"].as_object().into_iter().flatten() {
+            if path.last() != Some(key) {
+                path.push(key.clone());
+                found.insert(path.join("."), value["description"].as_str().unwrap_or_default().to_string());
+                below(value, path, found);
+                path.pop();
+            }
+        }
+        let parts = schema["anyOf"].as_array().into_iter().flatten().chain(schema.get("items"));
+        parts.for_each(|part| below(part, path, found));
+    }
+    let (code, out, err) = run(&["schema"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let mut found = BTreeMap::new();
+    below(&serde_json::from_str(&out).unwrap(), &mut Vec::new(), &mut found);
+    let silent: Vec<&String> = found.iter().filter(|(_, said)| said.is_empty()).map(|(path, _)| path).collect();
+    // measured: 219 keys
+    assert!(silent.is_empty() && found.len() > 200, "{} keys, without a word: {silent:?}", found.len());
+    for (path, said) in [
+        ("scene.allow_overlap", "true starts bodies inside walls or each other"),
+        ("record.max_mb", "max_mb (default 32): largest file, in megabytes"),
+        ("method.time-stepping.scheme", "scheme: semi-implicit (order 1)"),
+        ("sweep.search.over", "over: the axis whose runs are tried together"),
+        ("expect.within", "Within. within: x asks for a value of at most x in size"),
+        ("expect.where", "Values (numbers match within 1e-9 relative)"),
+    ] {
+        assert!(found[path].starts_with(said), "{path}: {}", found[path]);
+    }
+    assert!(found.values().all(|said| !said.contains("**") && !said.contains('`') && !said.contains("](")));
+}
+
 /// Folders of configs/, in the order in which a newcomer reads them, and what they ask about.
 const FOLDERS: [(&str, &str); 7] = [
     ("", "First steps."),

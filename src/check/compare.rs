@@ -30,6 +30,8 @@ pub struct Compared {
     /// Axes that one side alone has, over whose values its rows are pooled.
     pub axes_of_a: Vec<String>,
     pub axes_of_b: Vec<String>,
+    /// Axes that the rows are not joined by, because they advance with one that they are joined by; with that one.
+    pub following: Vec<(String, String)>,
     /// Number of cells that both have, and that one alone has.
     pub cells: usize,
     pub cells_of_a: usize,
@@ -176,9 +178,18 @@ pub fn compare(a: &Side, b: &Side, asked: &CompareBy) -> Result<Compared, Incomp
     let planned = b.planned_in_a_cell(&axes).unwrap_or(0);
     let short = both.iter().copied().filter(|cell| cell.b.len() < planned);
     let missing: Vec<&Cell> = absent.into_iter().chain(short).collect();
-    let other = |side: &Side, other: &Side| {
-        side.axes.iter().filter(|axis| other.axis(&axis.path).is_none()).map(|axis| axis.path.clone()).collect()
+    let follows = |path: &str| a.led_by(path, &axes).or_else(|| b.led_by(path, &axes));
+    let is_beside = |path: &String| !axes.contains(path);
+    let other = |side: &Side, other: &Side| -> Vec<String> {
+        let own = side.axes.iter().map(|axis| &axis.path).filter(|path| is_beside(path) && other.axis(path).is_none());
+        own.filter(|path| follows(path).is_none()).cloned().collect()
     };
+    let mut following: Vec<(String, String)> = Vec::new();
+    for path in a.axes.iter().chain(&b.axes).map(|axis| &axis.path).filter(|path| is_beside(path)) {
+        if let Some(leader) = follows(path).filter(|_| !following.iter().any(|(known, _)| known == path)) {
+            following.push((path.clone(), leader));
+        }
+    }
     let finished: Vec<&Cell> = both.iter().copied().filter(|cell| is_all(cell, Outcome::Finished.name())).collect();
     let (names, refused) = compared_columns(a, b, &axes, asked)?;
     let scale = Scale::of(a, b, &finished);
@@ -202,6 +213,7 @@ pub fn compare(a: &Side, b: &Side, asked: &CompareBy) -> Result<Compared, Incomp
     Ok(Compared {
         axes_of_a: other(a, b),
         axes_of_b: other(b, a),
+        following,
         cells: both.len(),
         cells_of_a: of_a.len(),
         cells_of_b: of_b.len(),

@@ -17,6 +17,8 @@ pub struct Side {
     /// Number of rows that its plan has.
     pub planned: usize,
     pub axes: Vec<PlanAxis>,
+    /// Groups of axes that advance side by side.
+    pub together: Vec<Vec<String>>,
     pub rows: Vec<Cells>,
     /// Largest bounding radius of its bodies; None where nobody knows.
     pub size_m: Option<f64>,
@@ -36,26 +38,64 @@ impl Side {
         self.axes.iter().find(|axis| axis.path == path)
     }
 
-    /// Whether its plan has all values of a place: a row of another one that is not there is missing then.
+    /// Axes of a group that advance side by side, this one among them; it alone where it varies independently.
+    fn group(&self, path: &str) -> Vec<&PlanAxis> {
+        let group = self.together.iter().find(|group| group.iter().any(|member| member == path));
+        let is_of = |axis: &&PlanAxis| axis.path == path || group.is_some_and(|group| group.contains(&axis.path));
+        self.axes.iter().filter(is_of).collect()
+    }
+
+    /// Whether its plan has all values of a place, those of axes that advance side by side at once: a row of another
+    /// one that is not there is missing then.
     pub(super) fn plans(&self, place: &Cells) -> bool {
         place.iter().all(|(path, value)| {
-            let planned = self.axis(path).into_iter().flat_map(|axis| &axis.values);
-            planned.chain(self.rows.iter().filter_map(|row| row.get(path))).any(|known| is_same(known, value))
+            let of_rows = || self.rows.iter().filter_map(|row| row.get(path));
+            let group = self.group(path);
+            if group.len() < 2 {
+                let planned = self.axis(path).into_iter().flat_map(|axis| &axis.values);
+                return planned.chain(of_rows()).any(|known| is_same(known, value));
+            }
+            let is_there = |at: usize| {
+                let mut given = group.iter().filter_map(|axis| Some((axis.values.get(at)?, place.get(&axis.path)?)));
+                given.all(|(known, value)| is_same(known, value))
+            };
+            (0..group[0].values.len()).any(is_there)
         })
     }
 
-    /// Number of rows that its plan has wherever the values on these axes are given; None where axes advance side by
-    /// side, or where rows have been counted otherwise.
+    /// Number of rows that its plan has wherever the values on these axes are given; None where rows have been counted
+    /// otherwise.
     pub(super) fn planned_in_a_cell(&self, axes: &[String]) -> Option<usize> {
+        // Of axes that advance side by side the first counts for all.
+        let leads = |axis: &&PlanAxis| self.group(&axis.path).first().is_some_and(|first| first.path == axis.path);
         let count = |axis: &PlanAxis| axis.values.len();
-        let is_grid = self.axes.iter().map(count).product::<usize>() == self.planned;
-        is_grid.then(|| self.axes.iter().filter(|axis| !axes.contains(&axis.path)).map(count).product())
+        let leaders = || self.axes.iter().filter(leads);
+        let is_grid = leaders().map(count).product::<usize>() == self.planned;
+        let is_given = |axis: &PlanAxis| self.group(&axis.path).iter().any(|member| axes.contains(&member.path));
+        is_grid.then(|| leaders().filter(|axis| !is_given(axis)).map(count).product())
+    }
+
+    /// The axis of these that another one advances with.
+    pub(super) fn led_by(&self, path: &str, axes: &[String]) -> Option<String> {
+        let member = |axis: &&PlanAxis| axis.path != path && axes.contains(&axis.path);
+        self.group(path).into_iter().find(member).map(|axis| axis.path.clone())
     }
 }
 
-/// Paths of the axes that both have, in the order of the first.
+/// Paths of the axes that both have, in the order of the first. An axis with other values on each side is none of them
+/// where it only follows one that has the same: then it is what differs.
 pub(super) fn common(a: &Side, b: &Side) -> Vec<String> {
-    a.axes.iter().filter(|axis| b.axis(&axis.path).is_some()).map(|axis| axis.path.clone()).collect()
+    let has_same = |path: &str| {
+        let (Some(a), Some(b)) = (a.axis(path), b.axis(path)) else { return false };
+        let are_in = |these: &PlanAxis, those: &PlanAxis| {
+            these.values.iter().any(|value| those.values.iter().any(|other| is_same(value, other)))
+        };
+        are_in(a, b)
+    };
+    let both: Vec<String> = a.axes.iter().map(|axis| axis.path.clone()).filter(|path| b.axis(path).is_some()).collect();
+    let same: Vec<String> = both.iter().filter(|path| has_same(path)).cloned().collect();
+    let follows = |path: &str| a.led_by(path, &same).is_some() && b.led_by(path, &same).is_some();
+    both.into_iter().filter(|path| same.contains(path) || !follows(path)).collect()
 }
 
 /// All rows by their values on these axes, those of A in its order before those that B alone has.

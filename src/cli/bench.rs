@@ -1,13 +1,13 @@
 //! `gotai bench`: run time against error, as a table, files and a diagram.
 
 use super::args::{ExperimentArgs, OutputArgs};
+use super::bench_table::bench_table;
 use super::error::CliError;
-use super::output::{ProgressFlag, print, print_json, say};
+use super::output::{ProgressFlag, print, print_json, say, width};
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen};
 use super::reporting::{Known, OF_BENCH, Reported, others_of, write_beside};
 use super::sweeping::{Config, configs};
-use super::table::table;
 use crate::bench::{self, Contender, Ran, timing};
 use crate::experiment::ExperimentFile;
 use crate::experiment::bench::Bench;
@@ -16,11 +16,10 @@ use crate::heading::unit_of;
 use crate::report::pareto;
 use crate::report::subject::{Ground, Subject};
 use crate::report::tried;
-use crate::rows::trials::{self, Trial, best_of_each_engine, methods, order, to_csv};
+use crate::rows::trials::{Trial, best_of_each_engine, to_csv};
 use crate::study::reference;
 use crate::sweep::runner::Progress;
 use clap::Args;
-use comfy_table::TableComponent;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -242,57 +241,11 @@ fn write_report(dir: &Path) -> Option<PathBuf> {
 }
 
 fn shown(config: &Path, (rows, beside): (&[Trial], &[Trial]), dir: &Path, page: Option<&Path>) -> String {
-    let column = rows.first().map_or("error", |row| row.error_kind.as_str());
-    // Few enough for 80 letters: a method has a step or a tolerance, and most rows have finished.
-    let has_ended_early = rows.iter().any(|row| row.outcome != "finished");
-    let mut header = vec!["front", "method", "step_s | tol.", "steps", column, "wall_s", "median_s"];
-    header.extend(has_ended_early.then_some("outcome"));
-    let mut table = table(&header);
-    table.remove_style(TableComponent::HorizontalLines).remove_style(TableComponent::MiddleIntersections);
-    let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.2e}"));
-    let given = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:e}"));
-    let of_engine = |row: &Trial| Trial { method: format!("{}: {}", row.engine, row.method), ..row.clone() };
-    let all: Vec<Trial> = rows.iter().cloned().chain(beside.iter().map(of_engine)).collect();
-    for (row, on_front) in all.iter().zip(trials::pareto(&all)) {
-        let outcome = match &row.criterion {
-            Some(criterion) => format!("{} ({criterion})", row.outcome),
-            None => row.outcome.clone(),
-        };
-        let accuracy = match (row.step_s, row.tolerance) {
-            (_, Some(tolerance)) => format!("tol. {tolerance:e}"),
-            (step_s, None) => given(step_s),
-        };
-        let mut cells = vec![
-            if on_front { "◆" } else { "" }.to_string(),
-            row.method.clone(),
-            accuracy,
-            row.steps.to_string(),
-            number(row.error),
-            number(row.wall_s),
-            number(row.wall_median_s),
-        ];
-        cells.extend(has_ended_early.then_some(outcome));
-        table.add_row(cells);
-    }
-    let mut text = format!("{}: {} rows; ◆ is on the Pareto front\n{table}\n", config.display(), rows.len());
-    for line in methods(rows).into_iter().filter_map(|method| order_line(rows, method)) {
-        text += &format!("{line}\n");
-    }
-    text += &format!("  diagram: {}", dir.join("bench.svg").display());
+    let head = format!("{}: {} rows; ◆ is on the Pareto front", config.display(), rows.len());
+    let mut text = format!("{head}\n{}\n", bench_table(rows, beside, width().into()));
+    text += &format!("diagram: {}", dir.join("bench.svg").display());
     if let Some(page) = page {
-        text += &format!("\n  report: {}", page.display());
+        text += &format!("\nreport: {}", page.display());
     }
     text
-}
-
-fn order_line(rows: &[Trial], method: &str) -> Option<String> {
-    let order = order(rows, method)?;
-    let pairwise: Vec<String> = order.pairwise.iter().map(|slope| format!("{slope:.2}")).collect();
-    let own_steps = rows.iter().any(|row| row.method == method && row.step_s.is_none());
-    let against = if own_steps { " in its own mean step" } else { "" };
-    let floor = match order.left_out {
-        0 => String::new(),
-        n => format!("; {n} in the rounding floor left out"),
-    };
-    Some(format!("  order {:.2}{against}: {method} ({}{floor})", order.slope, pairwise.join(", ")))
 }

@@ -8,13 +8,16 @@ use super::compared::{
 };
 use super::error::CliError;
 use super::output::{Hue, counted, print, print_json, width, wrapped};
-use crate::check::{Change, CompareBy, Compared, Regression, Side, TOLERATED, compare};
+use super::reporting::{BENCH, OF_BENCH, read_trials};
+use crate::check::{Cells, Change, CompareBy, Compared, Regression, Side, TOLERATED, compare};
 use crate::experiment::ExperimentFile;
 use crate::files::{FileError, read, write_whole};
 use crate::report::cut;
+use crate::rows::cells;
 use crate::rows::columns::OLDEST;
 use crate::rows::plan_file::{FORMAT, PlanAxis};
 use crate::rows::table::rows_of_parquet;
+use crate::rows::trials::Trial;
 use crate::sweep::build::build;
 use crate::sweep::folder::{Folder, FolderError};
 use crate::sweep::kept::{EXPERIMENT, PLAN};
@@ -25,7 +28,7 @@ use std::process::ExitCode;
 
 #[derive(Args)]
 pub struct Command {
-    /// A folder of results (it has plan.json): how it was
+    /// A folder of results (it has plan.json), or of a bench (bench.json): how it was
     a: PathBuf,
     /// Another one: how it is
     b: PathBuf,
@@ -78,6 +81,9 @@ impl Command {
 /// A folder as it was written, by whatever gotai that it can be known of.
 fn side(dir: &Path) -> Result<Side, CliError> {
     let name = dir.display().to_string();
+    if !Folder::is_one(dir) && dir.join(BENCH).is_file() {
+        return of_bench(dir);
+    }
     if !Folder::is_one(dir) {
         return Err(FolderError::NoResults(name).into());
     }
@@ -99,13 +105,53 @@ fn side(dir: &Path) -> Result<Side, CliError> {
     let rows = rows.map_err(|error| FileError::new(&table, error))?;
     let text = |key: &str| plan[key].as_str().unwrap_or("?").to_string();
     let planned = plan["rows"].as_u64().map_or(rows.len(), |rows| rows as usize);
-    Ok(Side { name, program: text("program"), build: text("build"), format, planned, axes, rows, size_m: size_m(dir) })
+    let together = serde_json::from_value(plan["together"].clone()).unwrap_or_default();
+    let size_m = size_m(&dir.join(EXPERIMENT));
+    Ok(Side { name, program: text("program"), build: text("build"), format, planned, axes, together, rows, size_m })
 }
 
-/// Size of the bodies of a folder's first case; None where this program cannot build it.
-fn size_m(dir: &Path) -> Option<f64> {
+/// The rows of a bench: joined by methods, steps and tolerances; its error under the name of its column.
+fn of_bench(dir: &Path) -> Result<Side, CliError> {
+    let trials = read_trials(&dir.join(BENCH))?;
+    let axes: Vec<PlanAxis> = ["method", "step_s", "tolerance"]
+        .into_iter()
+        .map(|path| {
+            let mut values: Vec<Value> = Vec::new();
+            for value in trials.iter().map(|trial| cells(trial)[path].clone()) {
+                if !values.contains(&value) {
+                    values.push(value);
+                }
+            }
+            PlanAxis { path: path.to_string(), values }
+        })
+        .collect();
+    let row = |trial: &Trial| {
+        let all = cells(trial);
+        let known = ["method", "step_s", "tolerance", "outcome", "criterion", "steps", "wall_s"].into_iter();
+        let mut row: Cells = known.map(|name| (name.to_string(), all[name].clone())).collect();
+        row.insert(trial.error_kind.clone(), all["error"].clone());
+        row
+    };
+    let rows: Vec<Cells> = trials.iter().map(row).collect();
+    Ok(Side {
+        name: dir.display().to_string(),
+        program: "a bench".to_string(),
+        build: String::new(),
+        format: FORMAT,
+        planned: rows.len(),
+        axes,
+        together: Vec::new(),
+        rows,
+        // The name has no ending that a loader takes: it is read as a text.
+        size_m: size_m(&dir.join(OF_BENCH)),
+    })
+}
+
+/// Size of the bodies of an experiment's first case; None where this program cannot build it.
+fn size_m(path: &Path) -> Option<f64> {
     // Not the folder: what it has stored may be long, and of another build.
-    let file = ExperimentFile::load(&dir.join(EXPERIMENT), &[]).ok()?;
+    let text = String::from_utf8(read(path).ok()?).ok()?;
+    let file = ExperimentFile::from_text(path, &text, &[]).ok()?;
     let point = file.axes().point(0);
     let (model, _) = build(&file, &point, &file.case(&point).ok()?).ok()?;
     Some(model.largest_radius_m())

@@ -79,7 +79,12 @@ fn table(html: &mut String, caption: &str, header: &[&str], rows: &[Vec<String>]
     let _ = writeln!(html, "<div class=\"scroll\"><table><caption>{}</caption>", escaped(caption));
     let _ = writeln!(html, "<tr>{heads}</tr>");
     for row in rows {
-        let cells: String = row.iter().map(|cell| format!("<td>{}</td>", escaped(cell))).collect();
+        let cell = |cell: &String| {
+            // A place on the axes is words.
+            let class = if cell.contains(" = ") { " class=\"text\"" } else { "" };
+            format!("<td{class}>{}</td>", escaped(cell))
+        };
+        let cells: String = row.iter().map(cell).collect();
         let _ = writeln!(html, "<tr>{cells}</tr>");
     }
     html.push_str("</table></div>\n");

@@ -12,7 +12,8 @@ pub(super) fn described(side: &Side) -> String {
         n => format!(", {n} missing"),
     };
     let Side { name, program, build, rows, .. } = side;
-    format!("{name} ({program}, build {build}, {}{missing})", counted(rows.len(), "row"))
+    let build = if build.is_empty() { String::new() } else { format!(", build {build}") };
+    format!("{name} ({program}{build}, {}{missing})", counted(rows.len(), "row"))
 }
 
 /// What was joined, and what could not be, in sentences.
@@ -22,6 +23,11 @@ pub(super) fn joined(compared: &Compared) -> Vec<String> {
         true => "one run each".to_string(),
         false => format!("joined by {}: {} in both", axes.join(", "), counted(*cells, "case")),
     }];
+    let following: Vec<String> =
+        compared.following.iter().map(|(path, leader)| format!("{path} (with {leader})")).collect();
+    if !following.is_empty() {
+        lines.push(format!("advance side by side with what they are joined by: {}", following.join(", ")));
+    }
     for (name, alone, count, places) in
         [("A", axes_of_a, cells_of_a, &compared.places_of_a), ("B", axes_of_b, cells_of_b, &compared.places_of_b)]
     {
@@ -49,7 +55,9 @@ pub(super) fn joined(compared: &Compared) -> Vec<String> {
 
 /// A place on the axes.
 pub(super) fn at(axes: &Map<String, Value>) -> String {
-    axes.iter().map(|(path, value)| format!("{path} = {}", cell(value))).collect::<Vec<_>>().join(", ")
+    // A method of a bench has a step or a tolerance.
+    let given = axes.iter().filter(|(_, value)| !value.is_null());
+    given.map(|(path, value)| format!("{path} = {}", cell(value))).collect::<Vec<_>>().join(", ")
 }
 
 /// A cell for people.

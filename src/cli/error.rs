@@ -1,12 +1,13 @@
 //! Errors of the commands, with their exit codes.
 
-use super::output::say;
+use super::output::{print_json, say};
 use crate::experiment::ExperimentError;
 use crate::files::FileError;
 use crate::record::RecordError;
 use crate::sweep::folder::FolderError;
 use crate::sweep::runner::SweepError;
 use crate::sweep::store::StoreError;
+use serde_json::json;
 use std::process::ExitCode;
 
 /// Reason why a command failed; it says the exit code.
@@ -35,9 +36,10 @@ impl CliError {
         ExitCode::from(self.code())
     }
 
-    /// Says it on stderr.
+    /// Says it on stderr; on stdout too, as a document, where one was asked for.
     pub fn say(&self) {
         say(format!("gotai: {self}"));
+        document(&self.to_string(), self.code());
     }
 
     /// The exit code as a number: 2 of wrong input, 3 of a machine that failed.
@@ -49,5 +51,12 @@ impl CliError {
             _ => false,
         };
         if input_is_wrong { 2 } else { 3 }
+    }
+}
+
+/// Prints what went wrong as the one document of `--json`, if it was given: whoever reads documents gets one.
+pub(super) fn document(said: &str, exit_code: u8) {
+    if std::env::args_os().any(|arg| arg == "--json") {
+        print_json(&json!({ "error": said, "exit_code": exit_code }));
     }
 }

@@ -1,5 +1,6 @@
 //! Commands and flags that a later version brings: refused by name, so that nobody searches for a typing error.
 
+use super::error::document;
 use super::output::say;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
@@ -22,6 +23,10 @@ pub fn explain_usage(error: &clap::Error) -> ExitCode {
         Some(name) => say(format!("gotai: `{name}` is not available in this version")),
         // Nowhere to report a closed terminal to.
         None => drop(error.print()),
+    }
+    if error.use_stderr() {
+        let said = later.map(|name| format!("`{name}` is not available in this version"));
+        document(&said.unwrap_or_else(|| error.to_string()), 2);
     }
     if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS }
 }

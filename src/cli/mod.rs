@@ -2,6 +2,7 @@
 
 mod args;
 mod bench;
+pub mod bench_table;
 mod check;
 mod checked;
 mod clean;

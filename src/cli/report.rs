@@ -2,10 +2,11 @@
 
 use super::args::OutputArgs;
 use super::error::CliError;
-use super::output::{print, print_as_it_is, print_json, say};
+use super::output::{print, print_as_it_is, print_json, say, width, wrapped};
 use super::reporting::Reported;
 use crate::report::choose::{figures, map_in_characters};
 use crate::report::figure::Figure;
+use crate::report::page::NOTHING_DRAWN;
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -69,6 +70,12 @@ impl Command {
         let left_out = reported.write_page(&figures)?;
         let plots = reported.write_plots(&figures)?;
         if !self.output.json {
+            for warning in reported.subject.warnings.iter().filter(|_| !self.output.quiet) {
+                say(format!("warning: {}: {warning}", reported.page.display()));
+            }
+            if figures.is_empty() {
+                print(wrapped(NOTHING_DRAWN, width().into(), "", ""));
+            }
             let is_colored = self.output.is_colored();
             let map = map_in_characters(&reported.subject).filter(|_| !self.output.verbose);
             let drawn: Vec<&Figure> = if self.output.verbose { figures.iter().collect() } else { map.iter().collect() };
@@ -78,7 +85,7 @@ impl Command {
             }
             if !self.output.verbose {
                 figures.iter().filter(|figure| map.is_none() || figure.name != "map").for_each(|figure| {
-                    print(format!("{}: {}", figure.title, figure.finding));
+                    print(wrapped(&format!("{}: {}", figure.title, figure.finding), width().into(), "", "  "));
                 });
             }
             print(format!("report: {}", reported.page.display()));
@@ -86,7 +93,7 @@ impl Command {
                 print(format!("figures: {} as SVG and PNG in {}", plots.len(), first.display()));
             }
             if let Some(left_out) = left_out.as_ref().filter(|_| !self.output.quiet) {
-                say(format!("note: {left_out}"));
+                say(wrapped(&format!("note: {left_out}"), width().into(), "", "  "));
             }
         }
         let figure = |figure: &Figure| json!({ "name": figure.name, "title": figure.title, "finding": figure.finding });

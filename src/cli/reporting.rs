@@ -29,7 +29,7 @@ pub(super) const REPORT: &str = "report.html";
 const PLOTS: &str = "plots";
 /// Rows of a bench in a folder of results, and the experiment that they are of. (No ending of an experiment file: a
 /// folder of experiments may hold this one.)
-const BENCH: &str = "bench.json";
+pub(super) const BENCH: &str = "bench.json";
 pub(super) const OF_BENCH: &str = "bench.txt";
 
 /// What a report is of, and where it goes.
@@ -198,7 +198,9 @@ impl Reported {
     /// # Errors
     /// The machine failed.
     pub(super) fn write_plots(&self, figures: &[Figure]) -> Result<Vec<PathBuf>, FileError> {
-        files::make_folder(&self.plots)?;
+        if !figures.is_empty() {
+            files::make_folder(&self.plots)?;
+        }
         let mut written = Vec::new();
         for figure in figures {
             let path = |ending: &str| self.plots.join(format!("{}.{ending}", figure.name));
@@ -227,7 +229,11 @@ fn name_of(path: &Path) -> String {
     whole.file_name().map_or("rows".to_string(), |name| name.to_string_lossy().into_owned())
 }
 
-fn read_trials(path: &Path) -> Result<Vec<Trial>, CliError> {
+/// Rows of a bench, as it wrote them.
+///
+/// # Errors
+/// They cannot be read.
+pub(super) fn read_trials(path: &Path) -> Result<Vec<Trial>, CliError> {
     let read: Result<Vec<Trial>, _> = serde_json::from_slice(&files::read(path)?);
     read.map_err(|error| {
         CliError::Input(format!("{}: expected the rows of a bench, found something else ({error})", path.display()))

@@ -2,17 +2,18 @@
 
 use super::args::OutputArgs;
 use super::error::CliError;
-use super::output::{print, print_data, print_json, say};
+use super::output::{print, print_data, print_json, say, width, wrapped};
+use super::table::fitted;
 use crate::experiment::filter::{Condition, Filter, is_same, shown_cell};
 use crate::experiment::nearest::nearest;
 use crate::outcome::Outcome;
 use crate::record::story::shortest;
+use crate::report::plain;
 use crate::rows::columns::TELLING;
 use crate::rows::plan_file::PlanFile;
 use crate::rows::table::{Table, to_csv};
 use crate::sweep::folder::Folder;
 use clap::Args;
-use comfy_table::presets;
 use serde_json::{Map, Value};
 use std::cmp::Ordering;
 use std::path::PathBuf;
@@ -69,17 +70,33 @@ impl Command {
             let text = text.map_err(|error| CliError::Machine(format!("cannot write CSV: {error}")))?;
             print_data(String::from_utf8_lossy(&text).trim_end());
         } else {
-            let mut table = super::table::table(&columns);
-            table.load_preset(presets::NOTHING);
-            for row in &chosen {
-                table.add_row(columns.iter().zip(cells(row)).map(|(name, cell)| shown(name, &cell)));
+            let texts: Vec<Vec<String>> = chosen
+                .iter()
+                .map(|row| columns.iter().zip(cells(row)).map(|(name, cell)| plain(&shown(name, &cell))).collect())
+                .collect();
+            // What is asked for is there, whatever room there is.
+            let kept: Vec<bool> = columns.iter().map(|name| self.is_kept(name, &folder, &filter)).collect();
+            let most = if self.columns.is_empty() { width().into() } else { usize::MAX };
+            let (text, left_out) = fitted(&columns, &texts, &kept, most);
+            print(text);
+            if !left_out.is_empty() && !self.output.quiet {
+                let names: Vec<&str> = left_out.iter().map(|i| columns[*i]).collect();
+                let said = format!("no room for {}; --columns chooses", names.join(", "));
+                say(wrapped(&said, width().into(), "", "  "));
             }
-            print(table);
             if !self.output.quiet {
                 say(format!("{} of {} rows, {} planned", chosen.len(), rows.len(), folder.plan.rows));
             }
         }
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// Whether a column stands in the table even where it has no room: what a row is, and what was asked for.
+    fn is_kept(&self, name: &str, folder: &Folder, filter: &Filter) -> bool {
+        let is_axis = folder.plan.axes.iter().any(|axis| axis.path == name);
+        let is_sorted = self.sort.iter().any(|written| written.trim_start_matches('-') == name);
+        let is_filtered = filter.0.iter().any(|(filtered, _)| filtered == name);
+        !self.columns.is_empty() || is_axis || is_sorted || is_filtered || ["case", "outcome"].contains(&name)
     }
 
     fn sort(&self, rows: &mut [&Cells], known: &[&str]) -> Result<(), CliError> {

@@ -1,7 +1,7 @@
 //! `gotai sweep`: the axes' cases on all cores, a row each; run again, it does only what is missing.
 
 use super::error::CliError;
-use super::output::{cleaned, print_as_it_is, print_json, say};
+use super::output::{cleaned, print_as_it_is, print_json, say, width, wrapped};
 use super::reporting::{Known, Reported, write_beside};
 use super::sweeping::{SweepArgs, Swept, configs};
 use crate::outcome::Outcome;
@@ -99,8 +99,8 @@ fn where_to_look(swept: &Swept) -> String {
         if of().next().is_some() {
             let name = outcome.name();
             let dir = swept.dir.display();
-            text +=
-                &format!("{name}: {} ({}); gotai rows {dir} --where outcome={name}\n", of().count(), shown.join(", "));
+            let said = format!("{name}: {} ({});", of().count(), shown.join(", "));
+            text += &format!("{}\n", beside(&said, &format!("gotai rows {dir} --where outcome={name}"), ""));
         }
     }
     text
@@ -114,14 +114,25 @@ fn summary(swept: &Swept) -> String {
             n => text += &format!(" · {n} {}", outcome.name()),
         }
     }
-    text += &format!("\n  rows: {}", swept.dir.join("rows.csv").display());
+    text = wrapped(&text, width().into(), "", "  ");
+    // Of very many rows there is no CSV, unless it is asked for.
+    let tables = ["rows.csv", "rows.parquet"].map(|name| swept.dir.join(name));
+    let table = tables.iter().find(|table| table.is_file()).unwrap_or(&tables[0]);
+    text += &format!("\n  rows: {}", table.display());
     if let Some((recordings, telling)) = most_telling(&swept.rows) {
         let files = Target::ALL.map(|target| target.path(&swept.dir, telling));
         if let Some(file) = files.iter().find(|file| file.is_file()) {
-            text += &format!("\n  recordings: {recordings}; the most telling: gotai view {}", file.display());
+            let said = format!("  recordings: {recordings}; the most telling:");
+            text += &format!("\n{}", beside(&said, &format!("gotai view {}", file.display()), "  "));
         }
     }
     text
+}
+
+/// A remark and the command that shows what it says, which has a line of its own where one has no room for both.
+fn beside(said: &str, command: &str, margin: &str) -> String {
+    let is_short = said.chars().count() + 1 + command.chars().count() <= usize::from(width());
+    if is_short { format!("{said} {command}") } else { format!("{said}\n{margin}  {command}") }
 }
 
 /// Number of recordings, and the name of the one that tells most: of a run that diverged or stalled, if there is one,

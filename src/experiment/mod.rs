@@ -9,6 +9,7 @@ pub mod bench;
 mod checks;
 pub mod copies;
 mod defaults;
+mod described;
 mod either;
 mod emit;
 pub mod error;

@@ -5,6 +5,7 @@
 //! nothing else, notes what is wanted at its end; what the reader says of all that is missing does not matter.
 
 use super::bench::BenchText;
+use super::described::Described;
 use super::expect::Expect;
 use super::sweep::Sweep;
 use super::types::Experiment;
@@ -21,7 +22,7 @@ pub fn schema() -> Value {
     // One of these words, or bounds and words of its own.
     expectation["minProperties"] = json!(1);
     let beside = [
-        ("extends", json!({ "type": "string", "description": "another file, taken as base" })),
+        ("extends", json!({ "type": "string" })),
         ("sweep", of::<Sweep>()),
         ("expect", json!({ "type": "array", "items": expectation })),
         ("bench", of::<BenchText>()),
@@ -29,6 +30,7 @@ pub fn schema() -> Value {
     for (key, schema) in beside {
         whole["properties"][key] = schema;
     }
+    Described::of_pages().describe(&mut whole);
     let mut said = Map::new();
     said.insert("$schema".into(), json!("https://json-schema.org/draft/2020-12/schema"));
     said.insert("title".into(), json!("gotai experiment"));

@@ -6,13 +6,17 @@ use super::{convergence, critical, ensemble, map, pareto, share, tried, work};
 
 /// Most values on an axis of a page's map.
 const MOST: usize = 40;
+/// Most places along a line, and most critical values.
+const MOST_PLACES: usize = 200;
+const MOST_CRITICAL: usize = 1000;
 /// Most values on an axis of a terminal's map.
 pub const MOST_IN_CHARACTERS: usize = 12;
 
 /// Figures of a subject, the most telling first.
 pub fn figures(subject: &Subject) -> Vec<Figure> {
     let ground = Ground::of(subject);
-    let tried = tried::trials(&ground);
+    let coarse = ground.pooled(MOST_PLACES);
+    let tried = tried::trials(&coarse);
     let is_grid = ground.chosen().count() > 1 && !subject.is_bench;
     let title = "Run time against error";
     let all = [
@@ -20,14 +24,15 @@ pub fn figures(subject: &Subject) -> Vec<Figure> {
         Some(pareto::figure(title, &tried))
             .filter(|figure| figure.marks.iter().any(|mark| figure.shown(mark).next().is_some())),
         convergence::figure(&tried),
-        critical::figure(&ground),
-        share::figure(&ground),
-        ensemble::figure(&ground),
-        work::figure(&ground),
+        critical::figure(&ground.pooled(MOST_CRITICAL)),
+        share::figure(&coarse),
+        ensemble::figure(&coarse),
+        work::figure(&coarse),
     ];
     let mut figures: Vec<Figure> = all.into_iter().flatten().filter(|figure| !figure.is_empty()).collect();
-    if figures.is_empty() {
-        figures.extend(map::map(&ground, MOST));
+    // Work alone says nothing of how the runs went.
+    if figures.iter().all(|figure| figure.name == "work") {
+        figures.splice(0..0, map::map(&ground, MOST));
     }
     figures
 }

@@ -84,13 +84,37 @@ fn triangles(marks: &[Mark], orders: &[(f64, String)]) -> Vec<Mark> {
             slope.is_some_and(|slope| (slope - f64::from(*order)).abs() < 0.3)
         };
         let level = |mark: &Mark| mark.dots.last().map_or(f64::INFINITY, |dot| dot.y);
-        let mark = marks.iter().filter(near).min_by(|a, b| level(a).total_cmp(&level(b)))?;
-        let [.., a, b] = &mark.dots[..] else { return None };
-        let (from, to) = (a.x, b.x.min(a.x * 3.0));
-        let low = a.y.min(b.y) * 0.35;
-        let high = low * libm::pow(to / from, f64::from(*order));
+        let by_level = |a: &&Mark, b: &&Mark| level(a).total_cmp(&level(b));
+        let place = |mark: &Mark, times: f64| {
+            let [.., a, b] = &mark.dots[..] else { return None };
+            let (from, to) = (a.x, b.x.min(a.x * 3.0));
+            let low = times * if times < 1.0 { a.y.min(b.y) } else { a.y.max(b.y) };
+            Some((from, to, low, low * libm::pow(to / from, f64::from(*order))))
+        };
+        // Below the lowest line of that order, or above the highest one where fewer lines are in the way.
+        let below = place(marks.iter().filter(near).min_by(by_level)?, 0.35)?;
+        let above = place(marks.iter().filter(near).max_by(by_level)?, 2.2)?;
+        let (from, to, low, high) = if in_the_way(marks, above) < in_the_way(marks, below) { above } else { below };
         let dots = vec![Dot::at(from, low), Dot::at(to, low), Dot::at(to, high), Dot::at(from, low)];
         Some(Mark { label: format!("order {order}"), drawn: Drawn::Triangle, colour: 4, dots })
     };
     whole.iter().filter_map(triangle).collect()
+}
+
+/// Number of lines that pass a rectangle, with some room around it.
+fn in_the_way(marks: &[Mark], (from, to, low, high): (f64, f64, f64, f64)) -> usize {
+    const ROOM: f64 = 1.3;
+    let passes = |mark: &&Mark| {
+        mark.dots.windows(2).any(|pair| {
+            let [a, b] = pair else { return false };
+            let (first, last) = (a.x.max(from), b.x.min(to));
+            if first > last || a.y <= 0.0 || b.y <= 0.0 || a.x >= b.x {
+                return false;
+            }
+            let at = |x: f64| a.y * libm::pow(b.y / a.y, libm::log(x / a.x) / libm::log(b.x / a.x));
+            let (y, z) = (at(first), at(last));
+            y.min(z) < high * ROOM && y.max(z) > low / ROOM
+        })
+    };
+    marks.iter().filter(passes).count()
 }

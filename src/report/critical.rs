@@ -4,7 +4,7 @@
 use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, Mark};
 use super::map::{Painted, critical, interval, sides, telling, verb};
 use super::number::{counted, plain, short};
-use super::stats::PowerLaw;
+use super::power_law::PowerFit;
 use super::subject::{Ground, Levels};
 use crate::heading::unit_of;
 
@@ -23,23 +23,22 @@ struct Critically<'a> {
 
 /// The figure of a ground. None where nothing critical is known at two places of an axis.
 pub fn figure(ground: &Ground) -> Option<Figure> {
-    let Critically { key, along, is_family, series, notes: more, how } =
-        of_search(ground).or_else(|| of_map(ground))?;
+    let searched = of_search(ground);
+    let is_search = searched.is_some();
+    let Critically { key, along, is_family, series, notes: more, how } = searched.or_else(|| of_map(ground))?;
     let unit = unit_of(&key);
-    let (mut marks, mut laws) = (Vec::new(), Vec::new());
+    let (mut marks, mut laws, mut has_law) = (Vec::new(), Vec::new(), false);
     for (colour, (name, dots)) in series.into_iter().enumerate() {
-        let points: Vec<(f64, f64)> =
-            dots.iter().map(|dot| (dot.x, dot.y)).filter(|(x, y)| *x > 0.0 && *y > 0.0).collect();
-        let law = PowerLaw::fit(&points).filter(|_| points.len() > 2);
+        let positive: Vec<&Dot> = dots.iter().filter(|dot| dot.x > 0.0 && dot.y > 0.0).collect();
+        let points: Vec<(f64, f64)> = positive.iter().map(|dot| (dot.x, dot.y)).collect();
+        // The brackets of a search are no intervals of chance.
+        let intervals = if is_search { Vec::new() } else { positive.iter().filter_map(|dot| ends(dot)).collect() };
         let mut label = if name.is_empty() { how.clone() } else { name.clone() };
-        if let Some(law) = law {
-            let margin = law.margin.map(|margin| format!(" ± {margin:.2}")).unwrap_or_default();
-            // No minus before a zero.
-            let exponent = format!("{:.2}", law.exponent).replace("-0.00", "0.00");
-            let said = format!("∝ x^{exponent}{margin}");
-            label += &format!(" {said}");
-            let of = if name.is_empty() { String::new() } else { format!("{name}: ") };
-            laws.push(format!("{of}exponent {exponent}{margin} ({} places)", points.len()));
+        let of = if name.is_empty() { String::new() } else { format!("{name}: ") };
+        let fit = PowerFit::of(&points, &intervals);
+        if let PowerFit::Holds(law) = fit {
+            has_law = true;
+            label += &format!(" ∝ x^{}", law.written());
             let mut ends: Vec<f64> = points.iter().map(|point| point.0).collect();
             ends.sort_by(f64::total_cmp);
             let line = ends.iter().map(|x| Dot::at(*x, law.at(*x))).collect();
@@ -50,23 +49,23 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
                 dots: line,
             });
         }
-        marks.push(Mark { label, drawn: if law.is_some() { Drawn::Points } else { Drawn::Line }, colour, dots });
+        laws.push(format!("{of}{}", said_of(fit, points.len())));
+        let drawn = if matches!(fit, PowerFit::Holds(_)) { Drawn::Points } else { Drawn::Line };
+        marks.push(Mark { label, drawn, colour, dots });
     }
     let dots = || marks.iter().filter(|mark| mark.drawn != Drawn::Dashed).flat_map(|mark| &mark.dots);
     let (low, high) = dots().fold((f64::INFINITY, 0.0f64), |(low, high), dot| (low.min(dot.y), high.max(dot.y)));
     let range = format!("{how} goes from {} to {}", short(low), with_unit(&short(high), unit));
     let range = range.replacen("the critical", "The critical", 1);
-    let finding = match laws.is_empty() {
-        true => format!("{range}."),
-        false => format!("{range}; as a power of {}, {}.", along.path, laws.join("; ")),
-    };
+    let finding = format!("{range}; as a power of {}, {}.", along.path, laws.join("; "));
     let is_log = dots().all(|dot| dot.x > 0.0 && dot.y > 0.0);
     let scale = || if is_log { FigureScale::Logarithmic } else { FigureScale::Linear };
     let label = if is_family { format!("number in {}", along.path) } else { along.path.clone() };
     let mut notes = ground.notes();
     notes.extend(more);
-    if !laws.is_empty() {
-        notes.push("dashed: least squares in logarithms, ± 95 %".to_string());
+    if has_law {
+        notes
+            .push("dashed: least squares in logarithms, ± 95 %, where no bend and no scatter speaks against it".into());
     }
     Some(Figure {
         name: "critical".to_string(),
@@ -78,6 +77,25 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
         marks,
         notes,
     })
+}
+
+/// What a fit says, in words.
+fn said_of(fit: PowerFit, points: usize) -> String {
+    match fit {
+        PowerFit::Holds(law) => format!("exponent {} ({points} places)", law.written()),
+        PowerFit::TooFew(1) => "too few places for a law (1)".to_string(),
+        PowerFit::TooFew(places) => format!("too few places for a law ({places}; it takes 4)"),
+        PowerFit::Scattered(law) => format!("too scattered for a law (exponent {})", law.written()),
+        PowerFit::Bends(first, last) => {
+            format!("no law: the exponent goes from {first:.2} to {last:.2}").replace("-0.00", "0.00")
+        }
+        PowerFit::OutsideOfIntervals(n, of) => format!("no law: it leaves the 95 % intervals of {n} of {of} points"),
+    }
+}
+
+/// Interval of a point; an end that is not known is open.
+fn ends(dot: &Dot) -> Option<(f64, f64)> {
+    Some((dot.low?, dot.high?))
 }
 
 fn with_unit(number: &str, unit: &str) -> String {
@@ -100,7 +118,7 @@ fn of_search<'a>(ground: &'a Ground) -> Option<Critically<'a>> {
             open += 1;
             continue;
         }
-        let other = by.and_then(|by| Some(by.names[by.of_row[row]? as usize].clone())).unwrap_or_default();
+        let other = by.and_then(|by| Some(by.labels[by.of_row[row]? as usize].clone())).unwrap_or_default();
         let name = [family, other].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
         let middle = if low > 0.0 { (low * high).sqrt() } else { 0.5 * (low + high) };
         let said = format!("{} = {}: {key} between {} and {}", along.path, short(x), short(low), short(high));

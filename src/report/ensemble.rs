@@ -34,7 +34,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     let place = |level: usize| x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
     let (mut marks, mut largest, mut zeros, mut n) = (Vec::new(), None, 0, 0);
     for (series, levels) in groups.iter().enumerate() {
-        let name = y.map_or("all".to_string(), |y| y.names[series].clone());
+        let name = y.map_or("all".to_string(), |y| y.labels[series].clone());
         let mut dots = Vec::new();
         for (level, values) in levels.iter().enumerate() {
             let mut sizes: Vec<f64> = values.iter().map(|x| x.abs()).filter(|x| x.is_finite()).collect();
@@ -77,6 +77,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     bands.append(&mut marks);
     let (_, said) = largest?;
     let mut notes = ground.notes();
+    notes.extend([Some(x), y].into_iter().flatten().filter(|axis| axis.numbers.is_none()).filter_map(Levels::note));
     notes.push(format!(
         "lines: medians; areas: 5 to 95 % of the seeds{}",
         if of == "all" { String::new() } else { format!(", of {of}") }
@@ -114,7 +115,7 @@ fn banded(marks: &[Mark]) -> Vec<usize> {
 /// The axis of a figure along the levels of one of the sweep's.
 pub fn along(x: &Levels, is_log: bool) -> FigureAxis {
     let scale = match (&x.numbers, is_log) {
-        (None, _) => FigureScale::Named(x.names.clone()),
+        (None, _) => FigureScale::Named(x.labels.clone()),
         (Some(_), true) => FigureScale::Logarithmic,
         (Some(_), false) => FigureScale::Linear,
     };

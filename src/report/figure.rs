@@ -2,6 +2,8 @@
 //! (`text.rs`), for a page (`plotly.rs`), and as SVG and PNG (`sheet.rs` lays it out once for both).
 
 use super::number::{linear_ticks, log_ticks};
+use serde::Serialize;
+use std::collections::BTreeSet;
 
 /// Figure of a report.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,8 +64,20 @@ pub struct GridCell {
     pub is_doubtful: bool,
     /// The row of it that tells most.
     pub row: Option<usize>,
-    /// Columns and the values in them that rows of the cell have.
-    pub pick: Vec<(String, Vec<String>)>,
+    /// Columns, and what the rows of the cell have in them.
+    pub pick: Vec<(String, Picked)>,
+}
+
+/// Values of a column that a cell stands for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Picked {
+    /// One of these.
+    OneOf(Vec<String>),
+    /// Numbers, from the first to the last.
+    Between(f64, f64),
+    /// None of these.
+    NoneOf(Vec<String>),
 }
 
 /// Series of points, drawn in one way.
@@ -163,6 +177,42 @@ impl Figure {
     /// Dots of a mark that the axes can show.
     pub fn shown<'a>(&'a self, mark: &'a Mark) -> impl Iterator<Item = &'a Dot> {
         mark.dots.iter().filter(|dot| self.x.shows(dot.x) && self.y.shows(dot.y))
+    }
+
+    /// Shift of every mark to the right, as a part of the axis: error bars of several series at one place stand side by
+    /// side.
+    pub fn asides(&self) -> Vec<f64> {
+        /// Between two neighbours, and between the first and the last one at most.
+        const APART: f64 = 0.008;
+        const ALL: f64 = 0.04;
+        let has_bars = |mark: &Mark| {
+            matches!(mark.drawn, Drawn::Line | Drawn::Points) && mark.dots.iter().any(|dot| dot.high.is_some())
+        };
+        let barred: Vec<usize> = (0..self.marks.len()).filter(|i| has_bars(&self.marks[*i])).collect();
+        let mut places = BTreeSet::new();
+        let shares_a_place = |mark: &Mark| {
+            let own: BTreeSet<u64> = mark.dots.iter().map(|dot| dot.x.to_bits()).collect();
+            let shares = !places.is_disjoint(&own);
+            places.extend(own);
+            shares
+        };
+        let mut asides = vec![0.0; self.marks.len()];
+        if self.x.names().is_none() && barred.iter().map(|i| &self.marks[*i]).any(shares_a_place) {
+            let last = barred.len() as f64 - 1.0;
+            let apart = APART.min(ALL / last);
+            barred.iter().enumerate().for_each(|(k, i)| asides[*i] = apart * (k as f64 - 0.5 * last));
+        }
+        asides
+    }
+
+    /// Where a number on the x axis is drawn that is shifted by a part of the axis.
+    pub fn shifted(&self, x: f64, aside: f64) -> f64 {
+        if aside == 0.0 {
+            return x;
+        }
+        let (low, high) = self.extent()[0];
+        let place = self.x.place(x) + aside * (self.x.place(high) - self.x.place(low));
+        if self.x.scale == FigureScale::Logarithmic { libm::exp10(place) } else { place }
     }
 
     /// Ends of both axes: all that is shown, with room for it.

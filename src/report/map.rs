@@ -1,8 +1,9 @@
 //! The map: over the two axes that tell most, the share of runs that end in one way, or the median of a column, with
 //! the curve on which half of the runs do.
 
-use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, GridCell, Mark, Shading};
+use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, GridCell, Mark, Picked, Shading};
 use super::number::{counted, percent, plain, short};
+use super::pooling::groups;
 use super::stats::{crossing, explained, median};
 use super::subject::{Ground, Levels};
 use crate::heading::unit_of;
@@ -37,6 +38,10 @@ impl Painted {
         if let Some(name) = &ground.subject.painted {
             let is_outcome = ["finished", "diverged", "stalled"].contains(&name.as_str());
             return if is_outcome { Painted::Share(name.clone()) } else { Painted::Median(name.clone()) };
+        }
+        // A row of a search is its run at one end of the bracket: how that ended says nothing.
+        if ground.subject.search.is_some() && frame.numbers("search_low").is_some() {
+            return Painted::Median("search_low".to_string());
         }
         if let Some(outcome) = ["diverged", "stalled"].iter().find(|outcome| frame.count(outcome) > 0) {
             return Painted::Share(outcome.to_string());
@@ -89,27 +94,6 @@ pub fn telling<'a>(ground: &'a Ground, painted: &Painted) -> Vec<&'a Levels> {
     axes.into_iter().map(|(_, axis)| axis).collect()
 }
 
-/// Groups of neighbouring levels, at most so many: their names, and the group of each level.
-fn pooled(axis: &Levels, most: usize) -> (Vec<String>, Vec<usize>) {
-    let n = axis.len();
-    if n <= most {
-        return (axis.names.clone(), (0..n).collect());
-    }
-    if axis.numbers.is_none() {
-        // Words have no neighbours.
-        let mut names: Vec<String> = axis.names[..most - 1].to_vec();
-        names.push(format!("{} others", n - most + 1));
-        return (names, (0..n).map(|i| i.min(most - 1)).collect());
-    }
-    let group: Vec<usize> = (0..n).map(|i| i * most / n).collect();
-    let name = |g: usize| {
-        let of = |mut i: Box<dyn Iterator<Item = usize>>| i.find(|i| group[*i] == g).unwrap_or_default();
-        let (first, last) = (of(Box::new(0..n)), of(Box::new((0..n).rev())));
-        if first == last { axis.names[first].clone() } else { format!("{}…{}", axis.names[first], axis.names[last]) }
-    };
-    ((0..most).map(name).collect(), group)
-}
-
 /// What is counted in a cell.
 #[derive(Clone, Default)]
 struct Count {
@@ -124,8 +108,8 @@ pub fn map(ground: &Ground, most: usize) -> Option<Figure> {
     let painted = Painted::of(ground);
     let axes = telling(ground, &painted);
     let (x, y) = sides(&axes)?;
-    let (x_names, x_group) = pooled(x, most);
-    let (mut y_names, mut y_group) = y.map_or((vec!["all".to_string()], Vec::new()), |y| pooled(y, most));
+    let (x_names, x_group) = groups(x, most);
+    let (mut y_names, mut y_group) = y.map_or((vec!["all".to_string()], Vec::new()), |y| groups(y, most));
     let is_upside_down = y.is_some_and(|y| y.numbers.is_none());
     if is_upside_down {
         // Words are read from above.
@@ -158,8 +142,12 @@ pub fn map(ground: &Ground, most: usize) -> Option<Figure> {
     if !beside.is_empty() {
         notes.push(format!("pooled over {}", beside.join(", ")));
     }
+    notes.extend([Some(x), y].into_iter().flatten().filter_map(Levels::note));
     for axis in [Some(x), y].into_iter().flatten().filter(|axis| axis.len() > most) {
         notes.push(format!("{} values of {} are pooled into {most}", axis.len(), axis.path));
+    }
+    if matches!(&painted, Painted::Median(column) if column == "search_low") {
+        notes.push("the lower end of every bracket".to_string());
     }
     let mut marks = Vec::new();
     let mut finding = finding(ground, &painted, &cells);
@@ -254,25 +242,37 @@ fn counts(
 
 type Named<'a> = (&'a Levels, &'a [String], &'a [usize]);
 
+/// What every group of levels stands for, and how many levels it has.
+fn picks(levels: &Levels, group: &[usize]) -> Vec<(Picked, usize)> {
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); group.iter().max().map_or(0, |last| last + 1)];
+    group.iter().enumerate().for_each(|(level, group)| members[*group].push(level));
+    // What is pooled of words is all that stands nowhere else.
+    let single = || members.iter().filter(|members| members.len() == 1).map(|members| levels.names[members[0]].clone());
+    let pick = |members: &Vec<usize>| match (&members[..], &levels.numbers) {
+        ([first, .., last], Some(numbers)) => Picked::Between(numbers[*first], numbers[*last]),
+        ([_, _, ..], None) => Picked::NoneOf(single().collect()),
+        (few, _) => Picked::OneOf(few.iter().map(|level| levels.names[*level].clone()).collect()),
+    };
+    members.iter().map(|members| (pick(members), members.len())).collect()
+}
+
 fn cells(
     ground: &Ground,
     painted: &Painted,
-    (x, x_names, x_group): (&Levels, &Vec<String>, &Vec<usize>),
+    (x, x_names, x_group): Named,
     y: Option<Named>,
     counts: &[Vec<Count>],
 ) -> Vec<GridCell> {
     let product: usize = ground.subject.axes.iter().map(|axis| axis.values.len()).product();
     let is_whole_grid = ground.subject.planned == product && ground.subject.together.is_empty();
-    let in_group = |levels: &Levels, group: &[usize], g: usize| {
-        let values = (0..levels.len()).filter(|level| group[*level] == g).map(|level| levels.names[level].clone());
-        (levels.path.clone(), values.collect::<Vec<_>>())
-    };
+    let (x_picks, y_picks) = (picks(x, x_group), y.map(|(y, _, group)| (y, picks(y, group))));
     let mut cells = Vec::new();
     for (y_at, line) in counts.iter().enumerate() {
         for (x_at, count) in line.iter().enumerate() {
-            let mut pick = vec![in_group(x, x_group, x_at)];
-            pick.extend(y.map(|(y, _, group)| in_group(y, group, y_at)));
-            let of_grid: usize = pick.iter().map(|(_, values)| values.len()).product();
+            let (x_pick, x_count) = &x_picks[x_at];
+            let mut pick = vec![(x.path.clone(), x_pick.clone())];
+            pick.extend(y_picks.as_ref().map(|(y, picks)| (y.path.clone(), picks[y_at].0.clone())));
+            let of_grid = x_count * y_picks.as_ref().map_or(1, |(_, picks)| picks[y_at].1);
             let all: usize = x.len() * y.map_or(1, |(y, ..)| y.len());
             let expected = if is_whole_grid { ground.subject.planned * of_grid / all } else { count.rows };
             let missing = expected.saturating_sub(count.rows);
@@ -407,12 +407,9 @@ fn finding(ground: &Ground, painted: &Painted, cells: &[GridCell]) -> String {
             }
             if k == 0 {
                 let high = of_share(0, n).high;
-                return format!(
-                    "None of {} {} (95 % interval up to {:.2} %).",
-                    counted(n, "run"),
-                    verb(outcome),
-                    100.0 * high
-                );
+                let of =
+                    if n == 1 { "The one run does not".to_string() } else { format!("None of {}", counted(n, "run")) };
+                return format!("{of} {} (95 % interval up to {:.2} %).", verb(outcome), 100.0 * high);
             }
             let Interval { low, high } = of_share(k, n);
             let most = largest.map(|cell| cell.said.split(" (95").next().unwrap_or_default().to_string());
@@ -422,8 +419,9 @@ fn finding(ground: &Ground, painted: &Painted, cells: &[GridCell]) -> String {
                 0 | 1 => most.map(|said| format!("; most where {said}")).unwrap_or_default(),
                 n => most.map(|said| format!("; most in {n} cells, such as {said}")).unwrap_or_default(),
             };
+            let ending = if n == 1 { "s" } else { "" };
             format!(
-                "{k} of {} {} ({:.1} %, 95 % interval {:.1} to {:.1} %){most}.",
+                "{k} of {} {}{ending} ({:.1} %, 95 % interval {:.1} to {:.1} %){most}.",
                 counted(n, "run"),
                 verb(outcome),
                 100.0 * k as f64 / n as f64,

@@ -7,6 +7,7 @@ use super::rows_of_page::{Extent, Listing};
 use super::said::table;
 use super::subject::Subject;
 use super::svg::escaped;
+use super::verdicts_of_page::{named, verdicts};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use serde_json::json;
@@ -19,6 +20,10 @@ pub struct Page {
     /// What the page does not hold, if it does not hold all.
     pub left_out: Option<String>,
 }
+
+/// What stands where there is no figure.
+pub const NOTHING_DRAWN: &str =
+    "No axis has several values: there is nothing to compare in a figure, and the table has all that there is.";
 
 const STYLE: &str = include_str!("../../assets/report.css");
 const SCRIPT: &str = include_str!("../../assets/report.js");
@@ -42,7 +47,7 @@ impl Page {
         let rows = subject.frame.rows();
         let most_bytes = if rows <= FEW { SMALL } else { LARGE };
         let mut chosen = Extent { rows: if rows > MANY { TELLING } else { rows }, columns: usize::MAX };
-        let named: Vec<usize> = figures.iter().flat_map(Figure::rows).collect();
+        let named: Vec<usize> = named(subject).into_iter().chain(figures.iter().flat_map(Figure::rows)).collect();
         loop {
             let listing = Listing::of(subject, &named, chosen);
             let html = html(subject, figures, &listing);
@@ -100,6 +105,9 @@ fn html(subject: &Subject, figures: &[Figure], listing: &Listing) -> String {
         let _ = writeln!(out, "<p class=\"{class}\" role=\"note\">{}</p>", escaped(&plain(&said)));
     }
     verdicts(&mut out, subject);
+    if figures.is_empty() {
+        let _ = writeln!(out, "<p class=\"notes\">{NOTHING_DRAWN}</p>");
+    }
     for figure in figures {
         shown(&mut out, figure);
     }
@@ -145,31 +153,6 @@ fn lead(subject: &Subject) -> String {
         said += &format!(" · by {}", subject.methods.join(", "));
     }
     plain(&said)
-}
-
-fn verdicts(out: &mut String, subject: &Subject) {
-    if subject.verdicts.is_empty() {
-        return;
-    }
-    let met = subject.verdicts.iter().filter(|judged| judged.met).count();
-    let _ = write!(
-        out,
-        "<section aria-labelledby=\"verdicts\">\n<h2 id=\"verdicts\">What was expected: {met} of {} met</h2>\n\
-         <details{}><summary>the verdicts</summary>\n<ul class=\"verdicts\">\n",
-        subject.verdicts.len(),
-        if met < subject.verdicts.len() { " open" } else { "" }
-    );
-    for judged in &subject.verdicts {
-        let (class, word) = if judged.met { ("met", "met") } else { ("unmet", "NOT MET") };
-        let why = judged.why.as_deref().map_or(String::new(), |why| format!(" ({})", plain(why)));
-        let _ = writeln!(
-            out,
-            "<li><span class=\"{class}\">{word}</span> {}<br><span class=\"notes\">{}</span></li>",
-            escaped(&plain(&format!("{}: {}{why}", judged.expectation, judged.bound))),
-            escaped(&plain(&format!("measured: {}; {}", judged.measured, counted(judged.rows, "row"))))
-        );
-    }
-    *out += "</ul>\n</details>\n</section>\n";
 }
 
 fn shown(out: &mut String, figure: &Figure) {

@@ -2,12 +2,19 @@
 //! are the page's own, which puts them in.
 
 use super::figure::{Drawn, Figure, FigureAxis, FigureScale, Mark};
+use super::number::wrapped;
 use super::palette::{COLOURS, MARKER_NAMES, hex, is_dark};
 use serde_json::{Value, json};
 
-/// Letters for plotly, which takes some markup: none of it is.
+/// Letters for plotly, which takes some markup, and what stands between two $ for a formula: none of it is.
 fn letters(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('$', "&#36;")
+}
+
+/// Letters of a legend, in lines that a phone has room for.
+fn lines(text: &str) -> String {
+    const MOST: usize = 36;
+    wrapped(text, MOST).iter().map(|line| letters(line)).collect::<Vec<_>>().join("<br>")
 }
 
 impl Figure {
@@ -17,7 +24,8 @@ impl Figure {
         if let Some(field) = &self.field {
             data.push(self.heat(field));
         }
-        data.extend(self.marks.iter().filter(|mark| !mark.dots.is_empty()).map(|mark| self.trace(mark)));
+        let marks = self.marks.iter().zip(self.asides()).filter(|(mark, _)| !mark.dots.is_empty());
+        data.extend(marks.map(|(mark, aside)| self.trace(mark, aside)));
         let [x, y] = self.extent();
         let mut layout = json!({ "xaxis": axis(&self.x, x), "yaxis": axis(&self.y, y), "annotations": [] });
         let triangles = self.marks.iter().filter(|mark| mark.drawn == Drawn::Triangle);
@@ -89,12 +97,12 @@ impl Figure {
         field.cells.iter().map(text).collect()
     }
 
-    fn trace(&self, mark: &Mark) -> Value {
+    fn trace(&self, mark: &Mark, aside: f64) -> Value {
         let colour = hex(COLOURS[mark.colour % COLOURS.len()]);
         let of = |of: &dyn Fn(&super::figure::Dot) -> Value| -> Vec<Value> { mark.dots.iter().map(of).collect() };
-        let (x, y) = (of(&|dot| json!(dot.x)), of(&|dot| json!(dot.y)));
+        let (x, y) = (of(&|dot| json!(self.shifted(dot.x, aside))), of(&|dot| json!(dot.y)));
         let mut trace = json!({
-            "type": "scatter", "name": letters(&mark.label), "x": x, "y": y,
+            "type": "scatter", "name": lines(&mark.label), "x": x, "y": y,
             "text": of(&|dot| json!(letters(&dot.said))), "hoverinfo": "text",
             "customdata": of(&|dot| json!({ "row": dot.row })),
         });

@@ -89,7 +89,11 @@ impl<'a> Listing<'a> {
         let mut columns: Vec<String> = self.names.iter().map(|name| self.column(subject, name)).collect();
         if self.doubts.iter().any(Option::is_some) {
             let values: Vec<&Option<String>> = self.rows.iter().map(|row| &self.doubts[*row]).collect();
-            columns.push(words("in doubt", true, &values.iter().map(|value| value.as_deref()).collect::<Vec<_>>()));
+            columns.push(words(
+                "in doubt",
+                (true, false),
+                &values.iter().map(|value| value.as_deref()).collect::<Vec<_>>(),
+            ));
         }
         format!(
             "{{\"columns\":[{}],\"rows\":{},\"of\":{},\"replay\":{}}}",
@@ -102,17 +106,22 @@ impl<'a> Listing<'a> {
 
     fn column(&self, subject: &Subject, name: &str) -> String {
         let is_telling = is_telling(subject, name);
+        let is_axis = subject.axes.iter().any(|axis| axis.path == name && axis.values.len() > 1);
         match self.frame.numbers(name) {
             Some(numbers) => {
-                let values: Vec<String> = self.rows.iter().map(|row| rounded(numbers[*row])).collect();
-                let head = json!({ "name": plain(name), "unit": unit_of(name), "telling": is_telling }).to_string();
+                // The values of an axis are looked for by figures: all digits.
+                let written = if is_axis { exactly } else { rounded };
+                let values: Vec<String> = self.rows.iter().map(|row| written(numbers[*row])).collect();
+                let head =
+                    json!({ "name": plain(name), "unit": unit_of(name), "telling": is_telling, "axis": is_axis })
+                        .to_string();
                 format!("{},\"values\":[{}]}}", head.trim_end_matches('}'), values.join(","))
             }
             None => {
                 let values: Vec<Option<&str>> = self.rows.iter().map(|row| self.frame.word(name, *row)).collect();
                 // Enough digits of an id to find the row again.
                 let cut = |word: &'a str| if name == "case" { word.get(..12).unwrap_or(word) } else { word };
-                words(name, is_telling, &values.into_iter().map(|word| word.map(cut)).collect::<Vec<_>>())
+                words(name, (is_telling, is_axis), &values.into_iter().map(|word| word.map(cut)).collect::<Vec<_>>())
             }
         }
     }
@@ -124,7 +133,7 @@ fn is_telling(subject: &Subject, name: &str) -> bool {
 }
 
 /// A column of words, each once.
-fn words(name: &str, is_telling: bool, values: &[Option<&str>]) -> String {
+fn words(name: &str, (is_telling, is_axis): (bool, bool), values: &[Option<&str>]) -> String {
     let mut known = std::collections::HashMap::new();
     let mut listed: Vec<String> = Vec::new();
     let code = |word: &Option<&str>| {
@@ -135,7 +144,15 @@ fn words(name: &str, is_telling: bool, values: &[Option<&str>]) -> String {
         }))
     };
     let codes: Vec<Option<usize>> = values.iter().map(code).collect();
-    json!({ "name": plain(name), "unit": "", "telling": is_telling, "words": listed, "values": codes }).to_string()
+    json!({
+        "name": plain(name), "unit": "", "telling": is_telling, "axis": is_axis, "words": listed, "values": codes,
+    })
+    .to_string()
+}
+
+/// A number of all its digits as JSON.
+fn exactly(x: f64) -> String {
+    if x.is_finite() { shown(x) } else { rounded(x) }
 }
 
 /// A number of six digits as JSON; a count as it is.

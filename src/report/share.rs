@@ -34,7 +34,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
         }
     }
     let mark = |(series, counts): (usize, &Vec<(usize, usize)>)| {
-        let name = y.map_or("all".to_string(), |y| y.names[series].clone());
+        let name = y.map_or("all".to_string(), |y| y.labels[series].clone());
         let dot = |(level, (k, n)): (usize, &(usize, usize))| {
             let Interval { low, high } = of_share(*k, *n);
             let place = x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
@@ -51,7 +51,9 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     };
     let marks: Vec<Mark> = counts.iter().enumerate().map(mark).collect();
     let mut notes = ground.notes();
-    notes.push("bars: Wilson's interval, 95 %".to_string());
+    notes.extend([Some(x), y].into_iter().flatten().filter(|axis| axis.numbers.is_none()).filter_map(Levels::note));
+    let side_by_side = if y.is_some() { "; series stand side by side" } else { "" };
+    notes.push(format!("bars: Wilson's interval, 95 %{side_by_side}"));
     Some(Figure {
         name: "share".to_string(),
         title: format!("Share of runs that {}", verb(outcome)),
@@ -87,6 +89,10 @@ fn finding(marks: &[Mark], x: &Levels, outcome: &str) -> Option<String> {
     }
     Some(match marks.len() {
         1 => format!("At {} {} of the runs {verb}, the most anywhere.", x.says(level), percent(high.1)),
+        // Of all series one alone has runs there, or all are alike.
+        _ if low.1 == high.1 => {
+            format!("At {} {} of the runs {verb} ({}).", x.says(level), percent(high.1), high.0.label)
+        }
         _ => format!(
             "At {} between {} ({}) and {} ({}) of the runs {verb}.",
             x.says(level),

@@ -112,8 +112,8 @@ impl Sheet {
         if let Some(field) = &figure.field {
             sheet.cells(figure, field);
         }
-        for mark in &figure.marks {
-            sheet.mark(figure, mark);
+        for (mark, aside) in figure.marks.iter().zip(figure.asides()) {
+            sheet.mark(figure, mark, aside);
         }
         if has_legend {
             sheet.legend(figure);
@@ -234,10 +234,11 @@ impl Sheet {
         }
     }
 
-    fn mark(&mut self, figure: &Figure, mark: &Mark) {
+    fn mark(&mut self, figure: &Figure, mark: &Mark, aside: f64) {
         let ink = Ink::Fixed(COLOURS[mark.colour % COLOURS.len()]);
         let dots: Vec<&Dot> = figure.shown(mark).collect();
-        let points: Vec<(f64, f64)> = dots.iter().map(|dot| self.at(figure, dot.x, dot.y)).collect();
+        let points: Vec<(f64, f64)> =
+            dots.iter().map(|dot| self.at(figure, figure.shifted(dot.x, aside), dot.y)).collect();
         match mark.drawn {
             Drawn::Front => self.strokes.push(Stroke::Path { points, ink: Ink::Muted, width: 11.0, opacity: 0.22 }),
             Drawn::Dashed => self.dashed(&points, ink),
@@ -271,7 +272,8 @@ impl Sheet {
                 }
                 for (dot, at) in dots.iter().zip(&points) {
                     if let (Some(low), Some(high)) = (dot.low, dot.high) {
-                        self.bar(figure, (dot.x, low), (dot.x, high), ink);
+                        let x = figure.shifted(dot.x, aside);
+                        self.bar(figure, (x, low), (x, high), ink);
                     }
                     self.marker(mark.colour, *at, &dot.said);
                 }

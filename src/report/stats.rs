@@ -1,5 +1,4 @@
-//! Statistics of figures: intervals of shares, quantiles, how much an axis says, where a share crosses a half, laws of
-//! powers.
+//! Statistics of figures: intervals of shares, quantiles, how much an axis says, where a share crosses a half.
 
 use crate::math::interval::of_share;
 
@@ -71,39 +70,4 @@ pub fn crossing(levels: &[(f64, usize, usize)]) -> Option<(f64, Option<f64>, Opt
     };
     let middle = of(&|k, n| k as f64 / n as f64)?;
     Some((middle, of(&|k, n| of_share(k, n).high), of(&|k, n| of_share(k, n).low)))
-}
-
-/// Law y = a xᵇ through points, by least squares of the logarithms.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PowerLaw {
-    pub factor: f64,
-    pub exponent: f64,
-    /// Half the width of the exponent's interval with 95 % confidence; None of two points.
-    pub margin: Option<f64>,
-}
-
-impl PowerLaw {
-    /// The law of points that are all positive; None of fewer than two places.
-    pub fn fit(points: &[(f64, f64)]) -> Option<Self> {
-        let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (libm::log(*x), libm::log(*y))).collect();
-        let n = logs.len() as f64;
-        let (mx, my) = (logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n);
-        let xx: f64 = logs.iter().map(|p| (p.0 - mx) * (p.0 - mx)).sum();
-        let xy: f64 = logs.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
-        let exponent = Some(xy / xx).filter(|slope| slope.is_finite())?;
-        let left: f64 = logs.iter().map(|p| p.1 - my - exponent * (p.0 - mx)).map(|d| d * d).sum();
-        let margin = (logs.len() > 2).then(|| student(logs.len() - 2) * (left / (n - 2.0) / xx).sqrt());
-        Some(PowerLaw { factor: libm::exp(my - exponent * mx), exponent, margin })
-    }
-
-    pub fn at(&self, x: f64) -> f64 {
-        self.factor * libm::exp(self.exponent * libm::log(x))
-    }
-}
-
-/// 97.5 % quantile of Student's t.
-fn student(degrees: usize) -> f64 {
-    const TABLE: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228];
-    let large = |n: f64| 1.96 + 2.4 / n + 3.0 / (n * n);
-    TABLE.get(degrees.saturating_sub(1)).copied().unwrap_or_else(|| large(degrees as f64))
 }

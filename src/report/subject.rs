@@ -1,6 +1,7 @@
 //! What a report is about: rows, the axes that they lie on, and what is known of them besides.
 
 use super::frame::RowFrame;
+use super::labels::Labels;
 use super::number::{of_cell, plain, shown};
 use crate::check::Judged;
 use crate::heading::unit_of;
@@ -49,13 +50,21 @@ pub struct Subject {
 pub struct Levels {
     pub path: String,
     pub unit: &'static str,
+    /// The values as the table of rows has them.
     pub names: Vec<String>,
+    /// The same as figures have them: short, each once.
+    pub labels: Vec<String>,
+    /// What is left out of the labels.
+    pub shortened: Option<String>,
     /// The values as numbers, if all are.
     pub numbers: Option<Vec<f64>>,
     pub of_row: Vec<Option<u32>>,
+    /// Number of values, where they are pooled.
+    pub pooled_from: Option<usize>,
 }
 
 /// Rows of a subject on their axes.
+#[derive(Clone)]
 pub struct Ground<'a> {
     pub subject: &'a Subject,
     /// Axes with more than one value that vary independently.
@@ -91,12 +100,21 @@ impl Levels {
                 *place = of_word.get(*code as usize).copied().flatten();
             }
         }
+        let names: Vec<String> = values.iter().map(|(_, name)| plain(name)).collect();
+        let numbers: Option<Vec<f64>> = is_numeric.then(|| values.iter().filter_map(|(number, _)| *number).collect());
+        let Labels { labels, note } = match &numbers {
+            Some(numbers) => Labels::of_numbers(numbers, &names),
+            None => Labels::of_words(&names),
+        };
         Levels {
             path: axis.path.clone(),
             unit: unit_of(&axis.path),
-            numbers: is_numeric.then(|| values.iter().filter_map(|(number, _)| *number).collect()),
-            names: values.iter().map(|(_, name)| plain(name)).collect(),
+            names,
+            labels,
+            shortened: note,
+            numbers,
             of_row,
+            pooled_from: None,
         }
     }
 
@@ -106,6 +124,11 @@ impl Levels {
 
     pub fn is_empty(&self) -> bool {
         self.names.is_empty()
+    }
+
+    /// What a note says of labels that are not the values as they are.
+    pub fn note(&self) -> Option<String> {
+        Some(format!("{}: {}", self.path, self.shortened.as_ref()?))
     }
 
     /// Whether its values stand for draws of chance alone.
@@ -131,14 +154,22 @@ impl Levels {
     /// `path = value unit`.
     pub fn says(&self, level: usize) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        format!("{} = {}{unit}", self.path, self.names[level])
+        format!("{} = {}{unit}", self.path, self.labels[level])
     }
 
     /// Whether steps from one value to the next are nearer to equal ratios than to equal differences.
     pub fn is_logarithmic(&self) -> bool {
         let Some(numbers) = &self.numbers else { return false };
         match numbers[..] {
-            [first, .., last] => first > 0.0 && last / first >= 8.0,
+            [first, last] => first > 0.0 && last / first >= 8.0,
+            [first, .., last] if first > 0.0 && last / first >= 8.0 => {
+                let uneven = |place: fn(f64) -> f64| {
+                    let steps = numbers.windows(2).map(|pair| place(pair[1]) - place(pair[0]));
+                    let (least, most) = steps.fold((f64::INFINITY, 0.0f64), |(a, b), step| (a.min(step), b.max(step)));
+                    most / least
+                };
+                uneven(libm::log) <= uneven(|x| x)
+            }
             _ => false,
         }
     }
@@ -216,6 +247,11 @@ impl<'a> Ground<'a> {
         }
         if failed > 0 {
             notes.push(format!("{} failed and is left out", counted(failed, "case")));
+        }
+        for axis in &self.axes {
+            if let Some(all) = axis.pooled_from {
+                notes.push(format!("{all} values of {} are pooled into {}", axis.path, axis.len()));
+            }
         }
         for note in &mut notes[1..] {
             if !note.starts_with("1 ") {

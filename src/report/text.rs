@@ -15,6 +15,14 @@ fn in_cell(cell: &GridCell) -> String {
     format!("{}{}", cell.text, if cell.is_doubtful { "!" } else { "" })
 }
 
+/// The name of a column in so many letters: a range that is too long is where it begins.
+fn headed(name: &str, most: usize) -> String {
+    match name.split_once('…') {
+        Some((first, _)) if name.chars().count() > most && first.chars().count() < most => format!("{first}…"),
+        _ => cut(name, most),
+    }
+}
+
 impl Figure {
     /// The figure in lines of at most 80 letters; `colour` shades cells and letters for a terminal.
     pub fn characters(&self, colour: bool) -> String {
@@ -60,11 +68,12 @@ impl Figure {
         }
         let turns = if is_staggered { 2 } else { 1 };
         for turn in 0..turns {
-            let mut line = " ".repeat(label);
+            // The first one may reach over the names of the lines.
+            let mut line = String::new();
             for (i, head) in heads.iter().enumerate().filter(|(i, _)| i % turns == turn) {
                 let end = label + (i + 1) * wide;
-                let head = cut(head, wide * turns - 1);
-                let gap = end.saturating_sub(line.chars().count() + head.chars().count());
+                let head = headed(head, wide * turns - 1);
+                let gap = end.saturating_sub(line.chars().count() + head.chars().count()).max(usize::from(i >= turns));
                 line += &format!("{}{head}", " ".repeat(gap));
             }
             lines.push(line);

@@ -82,7 +82,8 @@ fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
             let finite = |row: &usize| Some(numbers?[*row].abs()).filter(|x| x.is_finite() && finished[*row]);
             median(&rows.iter().filter_map(finite).collect::<Vec<_>>())
         };
-        let names: Vec<String> = by.iter().zip(&key).map(|(axis, level)| axis.names[*level as usize].clone()).collect();
+        let names: Vec<String> =
+            by.iter().zip(&key).map(|(axis, level)| axis.labels[*level as usize].clone()).collect();
         let value = |of: fn(&Levels) -> bool| {
             let at = accuracy.iter().position(|axis| of(axis))?;
             accuracy[at].numbers.as_ref().map(|numbers| numbers[key[by.len() + at] as usize])

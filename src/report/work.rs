@@ -48,6 +48,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     }
     said.truncate(3);
     let mut notes = ground.notes();
+    notes.extend(x.note().filter(|_| x.numbers.is_none()));
     notes.push("medians; a median of 0 is not shown".to_string());
     Some(Figure {
         name: "work".to_string(),

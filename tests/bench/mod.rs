@@ -6,6 +6,7 @@ mod peer;
 use crate::cli::run;
 use crate::{scratch, yaml};
 use gotai::bench::{self, timing};
+use gotai::cli::bench_table::bench_table;
 use gotai::rows::trials::{Trial, order, pareto};
 use gotai::study;
 use serde_json::Value;
@@ -142,8 +143,7 @@ fn a_user_gets_a_table_orders_json_and_files() {
     let (config, out) = (config.to_str().unwrap(), folder.path().join("out"));
     let (code, text, err) = run(&["bench", config, "--out", out.to_str().unwrap()]);
     assert_eq!(code, 0, "{err}");
-    for part in ["spin.yaml: 9 rows", "free rk4", "closed form", "◆", "order 4.0", "in its own mean step: free dop853"]
-    {
+    for part in ["spin.yaml: 9 rows", "free rk4", "closed form", "◆", "free rk4: order 4.0", "in its own mean step"] {
         assert!(text.contains(part), "{part}: {text}");
     }
     let (code, text, err) = run(&["bench", config, "--out", out.to_str().unwrap(), "--json"]);
@@ -158,6 +158,32 @@ fn a_user_gets_a_table_orders_json_and_files() {
     assert!(csv.starts_with(columns) && csv.lines().count() == 10, "{csv}");
 }
 
+/// Labels as long as they come, an error with a long name, a run that does not finish: all in 80 letters.
+#[test]
+fn the_table_fits_a_terminal() {
+    let rows = |labels: &[&str]| -> Vec<Trial> {
+        let mut all = Vec::new();
+        for label in labels {
+            for step_s in [0.02, 0.01, 0.005] {
+                let mut trial = row(step_s * step_s, 1e-3 / step_s, Some(step_s));
+                trial.method = label.to_string();
+                trial.error_kind = "error_angular_velocity_rad_s".to_string();
+                all.push(trial);
+            }
+        }
+        all
+    };
+    let unbroken = "x".repeat(200);
+    let mut all = rows(&["rk4", "a label in many words that says all that there is to say of a method", &unbroken]);
+    (all[1].outcome, all[1].criterion) =
+        ("failed".to_string(), Some("a panic with a long message of its own".repeat(3)));
+    let text = bench_table(&all, &[], 80);
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    for part in ["rk4: order 2.00", "error_ang", "failed (a p", "1.00e-4", "◆"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
 #[test]
 fn of_a_folder_the_files_with_a_bench_are_run() {
     let folder = scratch::folder();
@@ -166,8 +192,11 @@ fn of_a_folder_the_files_with_a_bench_are_run() {
     let (given, out) = (folder.path().to_str().unwrap(), folder.path().join("out"));
     let args = ["bench", given, "--out", out.to_str().unwrap(), "--set", "time.end_s=0.1", "--json"];
     let (code, text, err) = run(&args);
-    assert_eq!((code, text.as_str()), (2, ""), "{err}");
-    assert!(err.contains("no file in it has a `bench:`"), "{err}");
+    let said: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!((code, said["exit_code"].as_u64()), (2, Some(2)), "{err}");
+    for said in [said["error"].as_str().unwrap(), &err] {
+        assert!(said.contains("no file in it has a `bench:`"), "{said}");
+    }
     write("a.yaml", SPIN);
     write("b.yaml", SPIN);
     let (code, text, err) = run(&args);

@@ -36,6 +36,7 @@ fn side(name: &str, rows: Vec<Cells>) -> Side {
         format: 3,
         planned: rows.len(),
         axes: vec![axis("step"), axis("mass")],
+        together: Vec::new(),
         rows,
         size_m: Some(1.0),
     }
@@ -346,4 +347,84 @@ fn the_command_compares_folders_as_they_were_written() {
     assert!(found["refused"].as_array().unwrap().iter().any(|column| column[0] == "residual_max" || column[1] == 3));
     let (code, _, err) = run(&["compare", &stiff, folder.path().to_str().unwrap()]);
     assert!(code == 2 && err.contains("expected a folder of results"), "{err}");
+}
+
+/// Sweeps that advance with the step are no axis of their own: neither are their rows pooled, nor is a combination that
+/// no plan has missing.
+#[test]
+fn axes_that_advance_side_by_side_are_one() {
+    let with = |name: &str, sweeps: [i64; 2], full: bool| {
+        let steps = [0.1, 0.2];
+        let mut rows = Vec::new();
+        for (i, step) in steps.iter().enumerate() {
+            for (j, count) in sweeps.iter().enumerate().filter(|(j, _)| full || *j == i) {
+                let mut cells = row(*step, 1.0, "finished", Some(1e-3 * (1 + i + j) as f64), 1.0);
+                cells.remove("mass");
+                cells.insert("sweeps".into(), json!(count));
+                rows.push(cells);
+            }
+        }
+        let axis =
+            |path: &str, values: Value| PlanAxis { path: path.into(), values: values.as_array().unwrap().clone() };
+        let together = if full { Vec::new() } else { vec![vec!["step".to_string(), "sweeps".to_string()]] };
+        let axes = vec![axis("step", json!(steps)), axis("sweeps", json!(sweeps))];
+        Side { axes, together, ..side(name, rows) }
+    };
+    // A full grid against the diagonal: what the second plan does not have is no loss.
+    let (grid, diagonal) = (with("a", [50, 100], true), with("b", [50, 100], false));
+    let found = compare(&grid, &diagonal, &CompareBy::default()).unwrap();
+    assert_eq!((found.cells, found.cells_of_a, found.missing, found.regression_count), (2, 2, 0, 0));
+    // An interrupted diagonal is one.
+    let mut cut = diagonal.clone();
+    cut.rows.pop();
+    let found = compare(&diagonal, &cut, &CompareBy::default()).unwrap();
+    assert_eq!((found.missing, found.regression_count), (1, 1));
+    // Other sweeps at the same steps: joined by the step, and said.
+    let other = with("b", [80, 160], false);
+    let found = compare(&diagonal, &other, &CompareBy::default()).unwrap();
+    assert_eq!((found.axes.clone(), found.cells, found.missing), (vec!["step".to_string()], 2, 0));
+    assert_eq!(found.following, [("sweeps".to_string(), "step".to_string())]);
+    // A side that has the step alone pools nothing.
+    let mut alone = other.clone();
+    alone.axes.pop();
+    alone.together.clear();
+    let found = compare(&diagonal, &alone, &CompareBy::default()).unwrap();
+    assert!(found.axes_of_a.is_empty() && found.cells == 2 && found.following.len() == 1);
+}
+
+#[test]
+fn benches_are_compared_by_method_and_step() {
+    let folder = scratch::folder();
+    let trial = |method: &str, step_s: f64, error: Option<f64>, wall_s: f64| {
+        json!({
+            "scene": "s", "engine": "gotai", "method": method, "step_s": step_s, "tolerance": null, "steps": (1.0 / step_s) as u64,
+            "error": error, "error_kind": "error_position_m", "wall_s": error.map(|_| wall_s), "wall_median_s": null,
+            "outcome": if error.is_some() { "finished" } else { "diverged" }, "criterion": null,
+        })
+    };
+    let write = |name: &str, trials: Vec<Value>| {
+        let dir = folder.path().join(name);
+        std::fs::create_dir(&dir).unwrap();
+        std::fs::write(dir.join("bench.json"), serde_json::to_string(&trials).unwrap()).unwrap();
+        dir.display().to_string()
+    };
+    let a = write("a", vec![trial("moreau", 0.1, Some(1e-2), 1.0), trial("pgs", 0.1, Some(1e-1), 1.0)]);
+    let b = write("b", vec![trial("moreau", 0.1, Some(4e-2), 3.0), trial("pgs", 0.1, None, 1.0)]);
+    let d = json(&["compare", &a, &b, "--json"]);
+    assert_eq!(
+        (d["cells"].as_u64(), d["finished"].as_u64(), d["regression_count"].as_u64()),
+        (Some(2), Some(1), Some(2))
+    );
+    assert_eq!(d["regressions"][0]["column"], "outcome");
+    assert_eq!(
+        (d["regressions"][1]["column"].as_str(), d["regressions"][1]["b"].as_f64()),
+        (Some("error_position_m"), Some(4e-2))
+    );
+    let d = json(&["compare", &a, &b, "--json", "--time"]);
+    assert_eq!(d["regression_count"].as_u64(), Some(3));
+    let (code, text, err) = run(&["compare", &a, &b, "--fail-on-regression"]);
+    assert!(
+        code == 1 && text.contains("at method = moreau, step_s = 0.1") && !text.contains("tolerance = null"),
+        "{text}{err}"
+    );
 }

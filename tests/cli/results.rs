@@ -404,3 +404,29 @@ fn output_that_cannot_be_written_is_exit_code_3() {
     let output = gotai(&["rows", out, "--csv"]).stdout(full).output().unwrap();
     assert_eq!(output.status.code(), Some(3));
 }
+
+/// In few letters no number and no word of a row is broken: columns that have no room are named instead, and what is
+/// asked for stays.
+#[test]
+fn rows_fit_a_terminal() {
+    let folder = scratch::folder();
+    let out = folder.path().to_str().unwrap();
+    json(&small_map(out, &["--json", "--record", "none", "--no-report", "--set", "time.end_s=0.2"]));
+    let of = |args: &[&str]| {
+        let output = gotai(&[&["rows", out], args].concat()).env("COLUMNS", "60").output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        (text(output.stdout), text(output.stderr))
+    };
+    let (text, err) = of(&["--sort", "-energy_rise_max_rel"]);
+    assert!(text.lines().all(|line| line.chars().count() <= 60), "{text}");
+    let first = text.lines().find(|line| line.contains("cube 125")).unwrap();
+    for part in ["cube 125", "finished", "0.2"] {
+        assert!(first.contains(part), "{part}: {text}");
+    }
+    assert!(text.contains("rise_") && !text.contains("drift_"), "{text}");
+    assert!(err.contains("no room for energy_drift_rel") && err.contains("--columns"), "{err}");
+    // Twelve rows below a head of few lines.
+    assert!((13..18).contains(&text.lines().count()), "{text}");
+    let (text, err) = of(&["--columns", "case,penetration_max_m,residual_max"]);
+    assert!(text.lines().count() > 12 && !err.contains("no room"), "{text}{err}");
+}

@@ -47,6 +47,11 @@ fn a_report_is_not_written_where_none_is_wanted_or_can_be() {
     // Without an axis there is nothing to compare.
     let (code, text, _) = sweep(folder.path(), &["--set", "method.free.integrator=rk4", "--set", "time.step_s=0.1"]);
     assert!(code == 0 && !page.exists() && !text.contains("report:"), "{text}");
+    let dir = folder.path().join("out").display().to_string();
+    let (code, text, err) = run(&["report", &dir]);
+    assert!(code == 0 && text.contains("No axis has several values") && page.exists(), "{text}{err}");
+    assert!(std::fs::read_to_string(&page).unwrap().contains("No axis has several values"));
+    std::fs::remove_file(&page).unwrap();
     // A folder of that name: the rows are there all the same.
     std::fs::create_dir(&page).unwrap();
     let (code, text, err) = sweep(folder.path(), &[]);
@@ -121,6 +126,8 @@ fn rows_of_an_older_format_are_shown_with_a_warning() {
     let older = plan.replace("\"format\": 3", "\"format\": 2");
     assert_ne!(plan, older);
     std::fs::write(out.join("plan.json"), older).unwrap();
+    let (code, _, err) = run(&["report", out.to_str().unwrap()]);
+    assert!(code == 0 && err.contains("warning: ") && err.contains("format 2"), "{err}");
     let d = json(&["report", out.to_str().unwrap(), "--json"]);
     assert!(d["warnings"][0].as_str().unwrap().contains("format 2"), "{d}");
     // Nothing but a table.

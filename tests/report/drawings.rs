@@ -2,7 +2,7 @@
 
 use super::subject;
 use gotai::report::choose::{figures, map_in_characters};
-use gotai::report::figure::{Drawn, Figure};
+use gotai::report::figure::{Drawn, Figure, Mark};
 use gotai::report::said::{numbers, table};
 use gotai::report::sheet::Sheet;
 use gotai::report::{palette, png};
@@ -59,13 +59,21 @@ fn the_page_has_the_numbers_of_every_mark() {
                 assert_eq!(heat["text"][cell.y][cell.x].as_str().unwrap(), cell.said);
             }
         }
-        for mark in figure.marks.iter().filter(|mark| !mark.dots.is_empty()) {
+        for (mark, aside) in figure.marks.iter().zip(figure.asides()).filter(|(mark, _)| !mark.dots.is_empty()) {
             let trace = traces.next().unwrap();
-            let of = |of: fn(&gotai::report::figure::Dot) -> f64| json!(mark.dots.iter().map(of).collect::<Vec<_>>());
+            type Number<'a> = &'a dyn Fn(&gotai::report::figure::Dot) -> f64;
+            let of = |of: Number| json!(mark.dots.iter().map(of).collect::<Vec<_>>());
             match mark.drawn {
                 Drawn::Band => assert_eq!(trace["x"].as_array().unwrap().len(), 2 * mark.dots.len()),
-                Drawn::Boundary => assert_eq!((&trace["meta"]["x"], &trace["meta"]["y"]), (&of(|d| d.x), &of(|d| d.y))),
-                _ => assert_eq!((&trace["x"], &trace["y"]), (&of(|d| d.x), &of(|d| d.y)), "{}", mark.label),
+                Drawn::Boundary => {
+                    assert_eq!((&trace["meta"]["x"], &trace["meta"]["y"]), (&of(&|d| d.x), &of(&|d| d.y)))
+                }
+                _ => assert_eq!(
+                    (&trace["x"], &trace["y"]),
+                    (&of(&|d| figure.shifted(d.x, aside)), &of(&|d| d.y)),
+                    "{}",
+                    mark.label
+                ),
             }
         }
     }
@@ -100,9 +108,10 @@ fn points_are_drawn_where_their_numbers_are() {
     for figure in all() {
         let (svg, sheet) = (figure.svg(), Sheet::of(&figure));
         let (pixels, width, _) = decoded(&figure.png().unwrap());
-        for mark in figure.marks.iter().filter(|mark| matches!(mark.drawn, Drawn::Line | Drawn::Points)) {
+        let points = |mark: &Mark| matches!(mark.drawn, Drawn::Line | Drawn::Points);
+        for (mark, aside) in figure.marks.iter().zip(figure.asides()).filter(|(mark, _)| points(mark)) {
             for dot in figure.shown(mark).filter(|dot| !dot.said.is_empty()) {
-                let (x, y) = sheet.at(&figure, dot.x, dot.y);
+                let (x, y) = sheet.at(&figure, figure.shifted(dot.x, aside), dot.y);
                 let marker = svg.split("<polygon").find(|part| part.contains(&format!("<title>{}</title>", dot.said)));
                 let marker = marker.unwrap_or_else(|| panic!("{}: {}", figure.name, dot.said));
                 let corners =
@@ -186,4 +195,21 @@ fn nothing_to_show_is_still_a_figure() {
         figure.svg().contains("</svg>") && !figure.png().unwrap().is_empty() && !figure.characters(true).is_empty()
     );
     assert_eq!(figure.plotly()["data"], Value::Array(Vec::new()));
+}
+
+/// Only error bars at one place stand side by side, and no farther than a fiftieth of the axis from it.
+#[test]
+fn error_bars_do_not_hide_each_other() {
+    for figure in all() {
+        let asides = figure.asides();
+        let shifted = asides.iter().filter(|aside| **aside != 0.0).count();
+        assert_eq!(shifted > 0, figure.name == "share", "{}: {asides:?}", figure.name);
+        assert!(asides.iter().all(|aside| aside.abs() <= 0.02) && asides.iter().sum::<f64>().abs() < 1e-12);
+    }
+    let share = all().into_iter().find(|figure| figure.name == "share").unwrap();
+    let asides = share.asides();
+    let mut at: Vec<f64> =
+        share.marks.iter().zip(asides).map(|(mark, aside)| share.shifted(mark.dots[1].x, aside)).collect();
+    at.dedup();
+    assert_eq!(at.len(), 4);
 }

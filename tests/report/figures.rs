@@ -1,12 +1,15 @@
 //! What figures find in rows: intervals, critical values, laws, pooling, what is missing or failed.
 
 use super::{axis, of_rows, row, subject};
+use gotai::check::{Failing, Judged};
 use gotai::math::interval::of_share;
 use gotai::report::choose::{figures, map_in_characters};
-use gotai::report::figure::Drawn;
+use gotai::report::figure::{Drawn, Picked};
+use gotai::report::labels::{Labels, MOST};
 use gotai::report::page::Page;
-use gotai::report::stats::{PowerLaw, crossing, explained, quantile};
-use gotai::report::subject::Subject;
+use gotai::report::power_law::{PowerFit, PowerLaw};
+use gotai::report::stats::{crossing, explained, quantile};
+use gotai::report::subject::{Ground, Subject};
 use serde_json::json;
 
 #[test]
@@ -42,6 +45,139 @@ fn laws_of_powers_are_found() {
 }
 
 #[test]
+fn what_follows_no_law_of_a_power_has_none() {
+    let fit = |points: &[(f64, f64)]| PowerFit::of(points, &[]);
+    let places: [f64; 5] = [1.0, 2.0, 4.0, 8.0, 16.0];
+    // Some noise of a fixed pattern: the law is still found, with an interval that holds it.
+    let noisy: Vec<(f64, f64)> =
+        places.iter().zip([1.03, 0.97, 1.02, 0.99, 1.01]).map(|(x, noise)| (*x, noise * 2.0 / x.sqrt())).collect();
+    let PowerFit::Holds(law) = fit(&noisy) else { panic!("{:?}", fit(&noisy)) };
+    // measured: -0.50 ± 0.03
+    assert!((law.exponent + 0.5).abs() < law.margin.unwrap() && law.margin.unwrap() < 0.05, "{law:?}");
+    // An exponential bends in logarithms: the local exponent of e^-x is -x.
+    let bent: Vec<(f64, f64)> = places.map(|x| (x, (-0.2 * x).exp())).to_vec();
+    assert!(matches!(fit(&bent), PowerFit::Bends(first, last) if first > -0.5 && last < -1.5), "{:?}", fit(&bent));
+    // Levels off: no law, though a line through it has a narrow interval.
+    let level: Vec<(f64, f64)> = places.map(|x| (x, 1.0 + 1.0 / x)).to_vec();
+    assert!(matches!(fit(&level), PowerFit::Bends(..)), "{:?}", fit(&level));
+    assert_eq!(fit(&noisy[..3]), PowerFit::TooFew(3));
+    // Four points at two places are two places.
+    assert_eq!(fit(&[(1.0, 1.0), (1.0, 1.1), (2.0, 0.5), (2.0, 0.6)]), PowerFit::TooFew(2));
+    let scattered = [(1.0, 1.0), (2.0, 8.0), (4.0, 0.5), (8.0, 6.0), (16.0, 1.0)];
+    assert!(matches!(fit(&scattered), PowerFit::Scattered(_)), "{:?}", fit(&scattered));
+    // Intervals that the law leaves: of five, two are more than chance.
+    let narrow: Vec<(f64, f64)> = noisy.iter().map(|(_, y)| (0.999 * y, 1.001 * y)).collect();
+    assert!(matches!(PowerFit::of(&noisy, &narrow), PowerFit::OutsideOfIntervals(n, 5) if n > 1));
+    let wide: Vec<(f64, f64)> = noisy.iter().map(|(_, y)| (0.8 * y, 1.2 * y)).collect();
+    assert!(matches!(PowerFit::of(&noisy, &wide), PowerFit::Holds(_)));
+}
+
+#[test]
+fn long_values_have_short_names_that_differ() {
+    let method = |sweeps: u32| {
+        format!(r#"{{"time-stepping":{{"solver":"pgs","sweeps":{sweeps},"tolerance":1e-8,"scheme":"moreau"}}}}"#)
+    };
+    let Labels { labels, note } = Labels::of_words(&[method(400), method(500), method(600)]);
+    assert_eq!(labels, ["sweeps=400", "sweeps=500", "sweeps=600"]);
+    assert!(note.unwrap().contains("in common: time-stepping solver=pgs tolerance=1e-8 scheme=moreau"));
+    let texts =
+        ["a long text whose end alone is another one: this", "a long text whose end alone is another one: that"];
+    assert_eq!(Labels::of_words(&texts.map(String::from)).labels, ["this", "that"]);
+    // Where nothing short tells them apart, a number does.
+    let unbroken = ["x".repeat(60) + "1", "x".repeat(60) + "2"];
+    let Labels { labels, .. } = Labels::of_words(&unbroken);
+    assert!(labels[0].starts_with("1: xxx") && labels[1].starts_with("2: xxx"), "{labels:?}");
+    assert!(labels.iter().all(|label| label.chars().count() <= MOST));
+    assert_eq!(Labels::of_words(&["rk4".to_string(), "dop853".to_string()]).note, None);
+    // Of numbers as few digits as tell them apart.
+    let steps: Vec<f64> = (0..5).map(|i| 10f64.powf(-3.0 + 0.5 * f64::from(i))).collect();
+    let names: Vec<String> = steps.iter().map(f64::to_string).collect();
+    assert_eq!(Labels::of_numbers(&steps, &names).labels, ["1e-3", "0.00316", "0.01", "0.0316", "0.1"]);
+    let near = [1.23456789, 1.23456];
+    assert_eq!(Labels::of_numbers(&near, &near.map(|x| x.to_string())).labels, ["1.23457", "1.23456"]);
+}
+
+/// A map over methods that are written in full, and over 41 numbers of many digits, whose name looks like a formula.
+pub fn with_long_names() -> Subject {
+    let methods: Vec<String> = (0..3)
+        .map(|i| format!(r#"{{"time-stepping":{{"solver":"pgs","sweeps":{}00,"scheme":"moreau"}}}}"#, i + 1))
+        .collect();
+    let numbers: Vec<f64> = (0..41).map(|i| 0.01 + 0.02225 * f64::from(i)).collect();
+    let mut rows = Vec::new();
+    for (i, method) in methods.iter().enumerate() {
+        for (j, x) in numbers.iter().enumerate() {
+            let outcome = if i + j > 20 { "diverged" } else { "finished" };
+            rows.push(row(json!({ "case": format!("{i}-{j}"), "method": method, "$x$": x, "outcome": outcome })));
+        }
+    }
+    of_rows(rows, vec![axis("method", json!(methods)), axis("$x$", json!(numbers))])
+}
+
+#[test]
+fn a_map_with_long_values_has_room_for_its_cells() {
+    let subject = with_long_names();
+    let map = figures(&subject).remove(0);
+    assert_eq!(map.y.names().unwrap(), ["sweeps=300", "sweeps=200", "sweeps=100"]);
+    assert!(map.notes.iter().any(|note| note.starts_with("method: without what all have in common")));
+    assert!(map.x.names().unwrap().iter().all(|name| name.chars().count() <= 13), "{:?}", map.x.names());
+    assert!(!map.finding.contains('{'), "{}", map.finding);
+    // Choosing a cell asks the table for the values as it has them.
+    let cells = &map.field.as_ref().unwrap().cells;
+    let Picked::OneOf(values) = &cells[0].pick[1].1 else { panic!("{:?}", cells[0].pick) };
+    assert!(values[0].starts_with("{\"time-stepping\""), "{values:?}");
+    // Of 41 values in 40 columns one column stands for two.
+    let pooled = cells.iter().find_map(|cell| match cell.pick[0].1 {
+        Picked::Between(low, high) => Some((low, high)),
+        _ => None,
+    });
+    assert_eq!(pooled, Some((0.01, 0.01 + 0.02225)));
+    let text = map_in_characters(&subject).unwrap().characters(false);
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    // Heads of columns stand apart.
+    for head in ["0.01…", "0.166…"] {
+        assert!(text.split_whitespace().any(|word| word == head), "{head}: {text}");
+    }
+}
+
+#[test]
+fn an_axis_is_logarithmic_where_its_steps_are_ratios() {
+    let of = |values: Vec<f64>| {
+        let rows = values.iter().map(|x| row(json!({ "case": x.to_string(), "x": x, "outcome": "finished" })));
+        let subject = of_rows(rows.collect(), vec![axis("x", json!(values))]);
+        Ground::of(&subject).axes[0].is_logarithmic()
+    };
+    assert!(of(vec![1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2]));
+    assert!(of(vec![1e-3, 1.0]));
+    assert!(!of((0..41).map(|i| 0.01 + 0.02225 * f64::from(i)).collect()));
+    assert!(!of(vec![1.0, 2.0, 3.0]));
+}
+
+/// Ten thousand places are a line of two hundred: it says so, and all rows are in it.
+#[test]
+fn lines_along_very_many_values_are_pooled() {
+    let n = 10_000;
+    let values: Vec<f64> = (0..n).map(|i| 0.5 + 0.1 * f64::from(i)).collect();
+    let rows = values.iter().enumerate().map(|(i, x)| {
+        let outcome = if i > 5_000 { "diverged" } else { "finished" };
+        row(json!({ "case": i.to_string(), "x": x, "outcome": outcome, "work_sweeps": i + 1 }))
+    });
+    let subject = of_rows(rows.collect(), vec![axis("x", json!(values))]);
+    let figures = figures(&subject);
+    let names: Vec<&str> = figures.iter().map(|figure| figure.name.as_str()).collect();
+    assert_eq!(names, ["share", "work"]);
+    for figure in &figures {
+        assert!(figure.marks.iter().all(|mark| mark.dots.len() == 200), "{}", figure.name);
+        let said = "10000 values of x are pooled into 200";
+        assert!(figure.notes.iter().any(|note| note == said), "{:?}", figure.notes);
+        // Where they are: the middle of fifty neighbours.
+        assert!((figure.marks[0].dots[0].x - (0.5 + 0.1 * 24.5)).abs() < 1e-9);
+    }
+    let shares: f64 = figures[0].marks[0].dots.iter().map(|dot| 50.0 * dot.y).sum();
+    assert_eq!(shares.round() as usize, n as usize - 5_001);
+    assert!(Page::of(&subject, &figures).html.len() < 3_000_000);
+}
+
+#[test]
 fn an_axis_explains_what_follows_it_and_no_chance() {
     let follows = (0..100).map(|i| (i % 4, (i % 4) as f64 + 0.01 * ((i * 7) % 10) as f64));
     assert!(explained(4, follows) > 0.98);
@@ -64,7 +200,7 @@ fn the_figures_say_what_they_find_with_numbers() {
     assert!(map.finding.contains("scene.n = cube 125: 10 of 10"), "{}", map.finding);
     let cell = &map.field.as_ref().unwrap().cells.iter().find(|cell| cell.text == "100%").unwrap();
     assert!(cell.said.contains("10 of 10 diverged (95 % interval 72% to 100%)"), "{}", cell.said);
-    assert_eq!(cell.pick[0], ("time.step_s".to_string(), vec!["0.1".to_string()]));
+    assert_eq!(cell.pick[0], ("time.step_s".to_string(), Picked::OneOf(vec!["0.1".to_string()])));
     assert!(map.notes.iter().any(|note| note == "pooled over seed (10 values)"), "{:?}", map.notes);
     assert!(map.notes[0].contains("n = 120 rows; method: lecture"), "{:?}", map.notes);
     // The error is the square of the step, and the time one over it.
@@ -73,6 +209,50 @@ fn the_figures_say_what_they_find_with_numbers() {
     assert!(of("critical").finding.contains("time.step_s"), "{}", of("critical").finding);
     assert!(of("ensemble").marks.iter().any(|mark| mark.drawn == Drawn::Band));
     assert!(of("work").finding.contains("work_sweeps"), "{}", of("work").finding);
+}
+
+#[test]
+fn a_share_that_one_series_alone_has_is_said_once() {
+    let of =
+        |a: i32, b: &str, outcome: &str| row(json!({ "case": format!("{a}{b}"), "a": a, "b": b, "outcome": outcome }));
+    let rows = vec![of(1, "x", "finished"), of(2, "x", "diverged"), of(1, "y", "finished"), of(2, "y", "failed")];
+    let all = figures(&of_rows(rows, vec![axis("a", json!([1, 2])), axis("b", json!(["x", "y"]))]));
+    let share = all.iter().find(|figure| figure.name == "share").unwrap();
+    assert_eq!(share.finding, "At a = 2 100% of the runs diverge (x).");
+    // One run is one.
+    let one = figures(&of_rows(vec![of(1, "x", "finished")], vec![axis("a", json!([1, 2]))]));
+    assert!(
+        one[0].finding.starts_with("The one run does not diverge (95 % interval up to 79.35 %)."),
+        "{}",
+        one[0].finding
+    );
+}
+
+/// Of a search the map has the critical values, and not how the runs at the lower ends of the brackets ended.
+#[test]
+fn the_map_of_a_search_is_of_what_was_searched() {
+    let mut rows = Vec::new();
+    for body in ["cube", "bar"] {
+        for n in [1.0, 2.0, 4.0, 8.0, 16.0] {
+            let low = if body == "cube" { 0.1 / n } else { 0.2 * (1.0 + 1.0 / n) };
+            rows.push(row(json!({
+                "case": format!("{body}{n}"), "body": body, "n": n, "outcome": if n > 2.0 { "diverged" } else { "finished" },
+                "search_low": low, "search_high": 1.01 * low, "search_verdict": "found",
+            })));
+        }
+    }
+    let axes = vec![axis("body", json!(["cube", "bar"])), axis("n", json!([1, 2, 4, 8, 16]))];
+    let subject = Subject { search: Some("time.step_s".to_string()), ..of_rows(rows, axes) };
+    let all = figures(&subject);
+    assert!(all.iter().all(|figure| figure.name != "share"));
+    assert!(all[0].finding.starts_with("The median critical time.step_s of a cell goes from 0.00625 s to 0.4 s"));
+    assert!(all[0].notes.iter().any(|note| note == "the lower end of every bracket"));
+    let critical = all.iter().find(|figure| figure.name == "critical").unwrap();
+    // One has a law, the other levels off.
+    assert!(critical.finding.contains("cube: exponent -1.00 ± 0.00 (5 places)"), "{}", critical.finding);
+    assert!(critical.finding.contains("bar: no law: the exponent goes from -0.45 to 0.00"), "{}", critical.finding);
+    let dashed = critical.marks.iter().filter(|mark| mark.drawn == Drawn::Dashed).count();
+    assert_eq!(dashed, 1);
 }
 
 #[test]
@@ -165,6 +345,43 @@ fn pages_stay_small() {
     let said = "The table holds the 2,000 most telling of 20,010 rows";
     assert!(page.html.len() <= 8_000_000 && page.left_out.as_ref().unwrap().contains(said), "{:?}", page.left_out);
     assert!(page.html.contains(said));
+}
+
+#[test]
+fn verdicts_on_a_page_name_their_cases() {
+    let mut subject = subject();
+    subject.replay = Some("gotai run out --case".to_string());
+    let failing = |n: usize| -> Vec<Failing> {
+        let of = |i: usize| Failing {
+            case: format!("{i:016x}"),
+            axes: row(json!({ "scene.n": "cube 8", "time.step_s": 1e-3, "seed": i })),
+            column: "energy_drift_rel".to_string(),
+            value: json!(1.5 - 0.01 * i as f64),
+        };
+        (0..n).map(of).collect()
+    };
+    let judged = |met: bool, n: usize| Judged {
+        expectation: "energy_drift_rel".into(),
+        bound: "≤ 1".into(),
+        measured: "1.5".into(),
+        met,
+        why: None,
+        rows: 120,
+        failing: failing(n),
+    };
+    subject.verdicts = vec![judged(true, 0), judged(false, 3), judged(false, 40)];
+    let html = Page::of(&subject, &[]).html;
+    for part in [
+        "What was expected: 1 of 3 met",
+        "its 3 cases, the worst first",
+        "the 24 worst of its 40 cases",
+        "… and 16 more",
+        "energy_drift_rel = 1.5, at scene.n = cube 8, time.step_s = 0.001, seed = 0",
+        "gotai run out --case 00000000</code>",
+    ] {
+        assert!(html.contains(part), "{part}");
+    }
+    assert_eq!(html.matches("data-case=").count(), 3 + 24);
 }
 
 /// Letters that mean something to a page or a terminal.

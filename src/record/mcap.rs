@@ -3,20 +3,20 @@
 //! Every batch ends with a complete chunk on disk, so that a kill loses no batch that was written.
 
 use super::foxglove_layout::{layout, surfaces_as_files};
+use super::held::Held;
 use super::name::RecordingName;
 use super::sample::{Batch, BodyHeader, Ending, EnergySample, Event, Header, Sample, Streams};
 use super::scene::{Scene, log, surfaces};
 use super::{RecordError, Recorder, schema};
 use crate::rows::BodyRow;
 use foxglove::Encode;
-use mcap::records::{MessageHeader, Metadata};
+use mcap::records::{MessageHeader, Metadata, op};
 use mcap::{Attachment, Compression, McapResult, WriteOptions};
 use prost::Message;
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Uncompressed size of a chunk, bytes. A quarter of the library's, so that a reader that seeks decodes less.
@@ -39,10 +39,20 @@ pub struct McapRecorder {
     channels: Channels,
     messages: Messages,
     scene: Scene,
+    shown: ShownUntil,
+    /// The same with what stands ahead in the file; None where nothing does.
+    ahead: Option<ShownUntil>,
+}
+
+/// What the next sample has to know of those before it.
+#[derive(Clone)]
+struct ShownUntil {
     /// Number of the last display interval that had its picture; None before the first.
-    shown: Option<u64>,
+    picture: Option<u64>,
     /// Time and bodies of the last sample, which a step's contacts act on.
     last: (f64, Vec<BodyRow>),
+    /// Whether the last picture had no contacts; nothing needs to be cleared then.
+    is_blank: bool,
 }
 
 impl McapRecorder {
@@ -55,7 +65,7 @@ impl McapRecorder {
     }
 
     fn try_create(path: &Path, header: &Header) -> McapResult<Self> {
-        let mut out = Out::new(File::create(path)?, &header.program)?;
+        let mut out = Out::new(Held::create(path)?, &header.program)?;
         let channels = out.head(header)?;
         out.send(channels.scene, 0, 0, &surfaces(header))?;
         Ok(McapRecorder {
@@ -67,8 +77,8 @@ impl McapRecorder {
             channels,
             messages: Messages::new(&header.bodies),
             scene: Scene::new(header),
-            shown: None,
-            last: (f64::NAN, Vec::new()),
+            shown: ShownUntil { picture: None, last: (f64::NAN, Vec::new()), is_blank: true },
+            ahead: None,
         })
     }
 
@@ -81,8 +91,19 @@ impl McapRecorder {
             }
             self.sample(&sample)?;
         }
-        events.try_for_each(|event| self.log(event))?;
-        self.out.writer.flush()
+        events.try_for_each(|event| self.log(event))
+    }
+
+    /// A batch as a chunk behind those that are due.
+    fn batch_ahead(&mut self, batch: &Batch) -> McapResult<()> {
+        let until = self.ahead.take().unwrap_or_else(|| self.shown.clone());
+        let due = std::mem::replace(&mut self.shown, until);
+        self.out.ahead = Some(Chunk::default());
+        let written = self.batch(batch);
+        let chunk = self.out.ahead.take().unwrap_or_default();
+        self.ahead = Some(std::mem::replace(&mut self.shown, due));
+        written?;
+        Ok(self.out.held.ahead(&chunk.record())?)
     }
 
     fn log(&mut self, event: &Event) -> McapResult<()> {
@@ -103,20 +124,23 @@ impl McapRecorder {
             out.send(channel, time_ns, sample.step, &Messages::energy(sample, energy))?;
         }
         let picture = (sample.time_s * DISPLAY_HZ) as u64;
-        if self.shown.is_none_or(|shown| picture > shown) {
-            self.shown = Some(picture);
+        if self.shown.picture.is_none_or(|shown| picture > shown) {
+            self.shown.picture = Some(picture);
             self.picture(sample)?;
         }
-        self.last.0 = sample.time_s;
-        self.last.1.clear();
-        self.last.1.extend_from_slice(sample.bodies);
+        let (time_s, bodies) = &mut self.shown.last;
+        *time_s = sample.time_s;
+        bodies.clear();
+        bodies.extend_from_slice(sample.bodies);
         Ok(())
     }
 
     /// The bodies where the contacts act on them.
     fn picture(&mut self, sample: &Sample<'_>) -> McapResult<()> {
         let (time_s, bodies) = match sample.acted {
-            [] if sample.acted_s == self.last.0 && !sample.contacts.is_empty() => (sample.acted_s, &self.last.1[..]),
+            [] if sample.acted_s == self.shown.last.0 && !sample.contacts.is_empty() => {
+                (sample.acted_s, &self.shown.last.1[..])
+            }
             [] => (sample.time_s, sample.bodies),
             acted => (sample.acted_s, acted),
         };
@@ -125,7 +149,7 @@ impl McapRecorder {
             self.out.send(channel, time_ns, sample.step, self.scene.transforms(bodies, time_ns))?;
         }
         if let Some(channel) = self.channels.scene_contacts
-            && let Some(update) = self.scene.contacts(sample, time_ns)
+            && let Some(update) = self.scene.contacts(sample, time_ns, &mut self.shown.is_blank)
         {
             self.out.send(channel, time_ns, sample.step, update)?;
         }
@@ -137,15 +161,26 @@ impl Recorder for McapRecorder {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
         let bodies = self.messages.bodies.bodies.len();
         batch.check(self.streams, bodies).map_err(|reason| RecordError::new(&self.path, reason))?;
-        self.batch(batch).map_err(|error| RecordError::caused(&self.path, &error))
+        self.ahead = None;
+        let written = self.batch(batch).and_then(|()| self.out.writer.flush());
+        written.map_err(|error| RecordError::caused(&self.path, &error))
+    }
+
+    fn ahead(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        // Before the first chunk no reader would know the channels. What finds no room is written later, or fails then.
+        if !batch.is_empty() && self.shown.picture.is_some() {
+            let _ = self.batch_ahead(batch);
+        }
+        Ok(())
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        self.ahead = None;
         self.log(event).and_then(|()| self.out.writer.flush()).map_err(|error| RecordError::caused(&self.path, &error))
     }
 
     fn bytes(&self) -> u64 {
-        std::fs::metadata(&self.path).map_or(0, |file| file.len())
+        self.out.held.whole()
     }
 
     fn finish(self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {
@@ -163,15 +198,58 @@ impl Recorder for McapRecorder {
 }
 
 /// Dropping a writer would swallow its errors.
-fn close(mut writer: mcap::Writer<BufWriter<File>>) -> McapResult<()> {
+fn close(mut writer: mcap::Writer<Held>) -> McapResult<()> {
     writer.finish()?;
     Ok(writer.into_inner().flush()?)
 }
 
 /// The file and the buffer that messages are encoded in.
 struct Out {
-    writer: mcap::Writer<BufWriter<File>>,
+    writer: mcap::Writer<Held>,
+    held: Held,
     buffer: Vec<u8>,
+    /// Where messages go while they are written ahead.
+    ahead: Option<Chunk>,
+}
+
+/// Messages as a chunk without compression, which is gone soon.
+#[derive(Default)]
+struct Chunk {
+    messages: Vec<u8>,
+    times_ns: Option<(u64, u64)>,
+}
+
+impl Chunk {
+    fn add(&mut self, header: &MessageHeader, data: &[u8]) {
+        const HEADER_BYTES: u64 = 2 + 4 + 8 + 8;
+        let to = &mut self.messages;
+        to.push(op::MESSAGE);
+        to.extend_from_slice(&(HEADER_BYTES + data.len() as u64).to_le_bytes());
+        to.extend_from_slice(&header.channel_id.to_le_bytes());
+        to.extend_from_slice(&header.sequence.to_le_bytes());
+        to.extend_from_slice(&header.log_time.to_le_bytes());
+        to.extend_from_slice(&header.publish_time.to_le_bytes());
+        to.extend_from_slice(data);
+        let (least, most) = self.times_ns.unwrap_or((u64::MAX, 0));
+        self.times_ns = Some((least.min(header.log_time), most.max(header.log_time)));
+    }
+
+    /// The record of the format: times, length, no checksum, no compression, length again, messages.
+    fn record(&self) -> Vec<u8> {
+        const HEADER_BYTES: usize = 8 + 8 + 8 + 4 + 4 + 8;
+        let len = self.messages.len() as u64;
+        let (first_ns, last_ns) = self.times_ns.unwrap_or_default();
+        let mut record = Vec::with_capacity(9 + HEADER_BYTES + self.messages.len());
+        record.push(op::CHUNK);
+        record.extend_from_slice(&(HEADER_BYTES as u64 + len).to_le_bytes());
+        for number in [first_ns, last_ns, len] {
+            record.extend_from_slice(&number.to_le_bytes());
+        }
+        record.extend_from_slice(&[0; 8]);
+        record.extend_from_slice(&len.to_le_bytes());
+        record.extend_from_slice(&self.messages);
+        record
+    }
 }
 
 /// Channel of each topic; None where its stream is off.
@@ -186,7 +264,7 @@ struct Channels {
 }
 
 impl Out {
-    fn new(file: File, program: &str) -> McapResult<Self> {
+    fn new(held: Held, program: &str) -> McapResult<Self> {
         let writer = WriteOptions::new()
             .library(program)
             .compression(Some(Compression::Zstd))
@@ -194,8 +272,8 @@ impl Out {
             // No threads beside the recording thread: in a sweep, the other cores have cases of their own.
             .compression_threads(0)
             .chunk_size(Some(CHUNK_BYTES))
-            .create(BufWriter::new(file))?;
-        Ok(Out { writer, buffer: Vec::new() })
+            .create(held.clone())?;
+        Ok(Out { writer, held, buffer: Vec::new(), ahead: None })
     }
 
     /// Configuration, versions and channels, before the first sample.
@@ -258,7 +336,13 @@ impl Out {
         message.encode_raw(&mut self.buffer);
         // The format's number has 32 bits; the messages hold all 64.
         let header = MessageHeader { channel_id, sequence: step as u32, log_time: time_ns, publish_time: time_ns };
-        self.writer.write_to_known_channel(&header, &self.buffer)
+        match &mut self.ahead {
+            Some(chunk) => {
+                chunk.add(&header, &self.buffer);
+                Ok(())
+            }
+            None => self.writer.write_to_known_channel(&header, &self.buffer),
+        }
     }
 }
 

@@ -9,6 +9,7 @@ pub mod foxglove_layout;
 #[cfg(feature = "rerun")]
 mod gather;
 pub mod head;
+mod held;
 mod limited;
 pub mod mcap;
 pub mod mend;

@@ -24,6 +24,7 @@ use self::live::Live;
 use self::names::{CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path};
 use self::out::{Appended, Out, Sink, Times, times};
 use self::seen::{Seen, log_part};
+use super::held::Held;
 use super::pictures::{Pictured, Pictures};
 use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, norm};
 use super::schema::{self, MOST_CONTACTS};
@@ -32,8 +33,6 @@ use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
 use ::rerun::{Arrows3D, Color, InstancePoses3D, Points3D, Transform3D};
 use std::error::Error;
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 /// A recording as one .rrd file.
@@ -44,6 +43,8 @@ pub struct RerunRecorder {
     bodies: Vec<DrawnBodies>,
     seen: Seen,
     pictures: Pictures,
+    /// The same with what stands ahead in the file; None where nothing does.
+    ahead: Option<Pictures>,
     /// Energy of the first sample, if the energies of others can be held against it.
     start_j: Option<f64>,
     out: Out,
@@ -59,9 +60,9 @@ impl RerunRecorder {
     }
 
     fn try_create(path: &Path, header: &Header) -> Result<Self, Box<dyn Error>> {
-        let file = BufWriter::new(File::create(path)?);
-        let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file)?;
-        Self::begin(path, header, Sink::File(encoder))
+        let held = Held::create(path)?;
+        let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, held.clone())?;
+        Self::begin(path, header, Sink::File(encoder, held))
     }
 
     /// A recording that a viewer shows while it is made.
@@ -87,6 +88,7 @@ impl RerunRecorder {
             bodies,
             seen: Seen::new(header),
             pictures: Pictures::default(),
+            ahead: None,
             header: header.clone(),
             start_j: None,
             out,
@@ -112,6 +114,23 @@ impl RerunRecorder {
         let streams = self.header.streams;
         batch.check(streams, self.header.bodies.len())?;
         self.look(batch);
+        self.ahead = None;
+        self.chunks(batch)?;
+        self.out.sink.flush()
+    }
+
+    /// A batch behind the chunks that are due.
+    fn batch_ahead(&mut self, batch: &Batch) -> Appended {
+        let Some(due) = self.out.begin_ahead()? else { return Ok(()) };
+        let until = self.ahead.take().unwrap_or_else(|| self.pictures.clone());
+        let pictures = std::mem::replace(&mut self.pictures, until);
+        let written = self.chunks(batch);
+        self.ahead = Some(std::mem::replace(&mut self.pictures, pictures));
+        self.out.end_ahead(due).and(written)
+    }
+
+    fn chunks(&mut self, batch: &Batch) -> Appended {
+        let streams = self.header.streams;
         if !batch.step.is_empty() {
             let instants = self.pictures.of(batch);
             if streams.bodies {
@@ -124,8 +143,7 @@ impl RerunRecorder {
                 self.energies(batch, &times(&batch.step, &batch.time_s))?;
             }
         }
-        self.out.events(&batch.events)?;
-        self.out.sink.flush()
+        self.out.events(&batch.events)
     }
 
     fn look(&mut self, batch: &Batch) {
@@ -243,13 +261,22 @@ impl Recorder for RerunRecorder {
         self.batch(batch).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
+    fn ahead(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        if !batch.is_empty() {
+            // What finds no room is written later, or fails then.
+            let _ = self.batch_ahead(batch);
+        }
+        Ok(())
+    }
+
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        self.ahead = None;
         let logged = self.out.events(std::slice::from_ref(event)).and_then(|()| self.out.sink.flush());
         logged.map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
     fn bytes(&self) -> u64 {
-        std::fs::metadata(&self.path).map_or(0, |file| file.len())
+        self.out.sink.whole()
     }
 
     fn finish(mut self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {

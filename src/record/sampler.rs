@@ -162,19 +162,20 @@ impl Sampler {
         by_rate: bool,
     ) {
         let Sampler { writer, streams, geometry, last_s, .. } = self;
-        let batch = writer.batch();
-        if streams.any_contact() {
-            push_acted(batch, *streams, (state, acted, *last_s), contacts.len());
-            batch.contacts.extend(contacts.map(contact_sample));
-        }
-        push(batch, *streams, geometry, model, state);
-        batch.by_rate.push(by_rate);
+        let watch = &mut self.watch;
+        writer.fill(|batch| {
+            if streams.any_contact() {
+                push_acted(batch, *streams, (state, acted, *last_s), contacts.len());
+                batch.contacts.extend(contacts.map(contact_sample));
+            }
+            push(batch, *streams, geometry, model, state);
+            batch.by_rate.push(by_rate);
+            if let Some(watch) = watch {
+                batch.events.extend(watch.events());
+            }
+        });
         *last_s = state.time_s;
-        if let Some(watch) = &mut self.watch {
-            batch.events.extend(watch.events());
-        }
         self.last = state.step;
-        self.writer.sample_done();
     }
 
     /// Records what was kept from a step on.
@@ -269,15 +270,15 @@ fn add(
     model: &Model,
     ([state, acted], contacts, last_s): ([&State; 2], &[ContactSample], &mut f64),
 ) {
-    let batch = writer.batch();
-    if streams.any_contact() {
-        push_acted(batch, streams, (state, acted, *last_s), contacts.len());
-        batch.contacts.extend_from_slice(contacts);
-    }
-    push(batch, streams, geometry, model, state);
-    batch.by_rate.push(false);
+    writer.fill(|batch| {
+        if streams.any_contact() {
+            push_acted(batch, streams, (state, acted, *last_s), contacts.len());
+            batch.contacts.extend_from_slice(contacts);
+        }
+        push(batch, streams, geometry, model, state);
+        batch.by_rate.push(false);
+    });
     *last_s = state.time_s;
-    writer.sample_done();
 }
 
 /// Adds the number of contacts, when they act, and the bodies then, if neither the sample itself shows them nor the one

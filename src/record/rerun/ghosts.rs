@@ -9,6 +9,7 @@ use super::names::{CONTACT_COUNT, ENERGY, HEADLINE, LOG, LOG_ENERGY, TRAILS, WOR
 use super::out::{Appended, Out, Sink, times};
 use super::seen::{Between, Room, Seen, log_part};
 use crate::record::RecordError;
+use crate::record::held::Held;
 use crate::record::pictures::Pictures;
 use crate::record::read::ReadBack;
 use crate::record::sample::{Event, Header};
@@ -22,8 +23,6 @@ use ::rerun::{
     Color, EntityPath, LineStrips3D, Points3D, RecordingStreamBuilder, TextDocument, Transform3D, ViewCoordinates,
 };
 use std::fmt::Write;
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
 
 /// Opacity of a ghost, of 255.
@@ -128,9 +127,9 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
         case.styles(&stream)?;
     }
 
-    let file = BufWriter::new(File::create(path)?);
-    let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file)?;
-    let mut out = Out { store, sink: Sink::File(encoder) };
+    let file = Held::create(path)?;
+    let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file.clone())?;
+    let mut out = Out { store, sink: Sink::File(encoder, file) };
     for message in opening.messages()?.iter().chain(&memory.take()) {
         out.sink.append(message)?;
     }

@@ -62,9 +62,6 @@ impl Recorder for Gatherer {
             self.ahead = waiting;
             self.file.ahead(&self.behind)?;
         }
-        if batch.is_empty() {
-            return Ok(());
-        }
         self.ahead = [self.ahead[0] + batch.len(), self.ahead[1] + batch.events.len()];
         self.file.ahead(batch)
     }

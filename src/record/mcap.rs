@@ -66,12 +66,14 @@ impl McapRecorder {
 
     fn try_create(path: &Path, header: &Header) -> McapResult<Self> {
         let mut out = Out::new(Held::create(path)?, &header.program)?;
-        let channels = out.head(header)?;
+        let (files, of_bodies) = surfaces_as_files(header);
+        let said = said(header, &of_bodies);
+        let channels = out.head(header, &files, &said)?;
         out.send(channels.scene, 0, 0, &surfaces(header))?;
         Ok(McapRecorder {
             path: path.to_path_buf(),
             streams: header.streams,
-            said: said(header),
+            said,
             name: header.name.clone(),
             out,
             channels,
@@ -277,13 +279,18 @@ impl Out {
     }
 
     /// Configuration, versions and channels, before the first sample.
-    fn head(&mut self, header: &Header) -> McapResult<Channels> {
+    fn head(
+        &mut self,
+        header: &Header,
+        surfaces: &[(String, String)],
+        said: &BTreeMap<String, String>,
+    ) -> McapResult<Channels> {
         self.attach(schema::CONFIG_FILE, "application/yaml", header.config_yaml.as_bytes())?;
         self.attach(schema::LAYOUT_FILE, "application/json", layout(header.streams).as_bytes())?;
-        for (name, surface) in &surfaces_as_files(header).0 {
+        for (name, surface) in surfaces {
             self.attach(name, "model/obj", surface.as_bytes())?;
         }
-        let start = Metadata { name: schema::METADATA_START.to_owned(), metadata: said(header) };
+        let start = Metadata { name: schema::METADATA_START.to_owned(), metadata: said.clone() };
         self.writer.write_metadata(&start)?;
 
         let streams = header.streams;
@@ -347,7 +354,7 @@ impl Out {
 }
 
 /// Statements from the start: case, axes by their paths, program.
-fn said(header: &Header) -> BTreeMap<String, String> {
+fn said(header: &Header, surfaces: &BTreeMap<String, String>) -> BTreeMap<String, String> {
     let axes = header.axes.iter().map(|(path, value)| (path.as_str(), schema::text(value)));
     let known = [
         ("case", header.case.clone()),
@@ -355,7 +362,7 @@ fn said(header: &Header) -> BTreeMap<String, String> {
         ("schema", schema::VERSION.to_owned()),
         (schema::AXES, Value::from(header.axes.iter().map(|(path, _)| path.as_str()).collect::<Vec<_>>()).to_string()),
         ("question", header.question.clone()),
-        (schema::MESHES, json!(surfaces_as_files(header).1).to_string()),
+        (schema::MESHES, json!(surfaces).to_string()),
         ("method", header.method.clone()),
         ("time", "simulated, from zero".to_owned()),
         ("up", "y in the frame world, z in the frame root".to_owned()),

@@ -18,6 +18,7 @@ mod names;
 mod out;
 pub mod rounded;
 mod seen;
+mod statics;
 
 use self::crowd::{DrawnBodies, drawn_as};
 use self::live::Live;
@@ -35,6 +36,10 @@ use ::rerun::{Arrows3D, Color, InstancePoses3D, Points3D, Transform3D};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
+/// Number of the batch that the layout of a run that goes on is written with: the first is one sample, the second the
+/// rest of a short run, which ends with a layout of its own. Until then it stands ahead.
+const LAID_OUT: usize = 3;
+
 /// A recording as one .rrd file.
 pub struct RerunRecorder {
     path: PathBuf,
@@ -45,6 +50,8 @@ pub struct RerunRecorder {
     pictures: Pictures,
     /// The same with what stands ahead in the file; None where nothing does.
     ahead: Option<Pictures>,
+    /// Number of batches that were written.
+    written: usize,
     /// Energy of the first sample, if the energies of others can be held against it.
     start_j: Option<f64>,
     out: Out,
@@ -76,23 +83,34 @@ impl RerunRecorder {
 
     fn begin(path: &Path, header: &Header, sink: Sink) -> Result<Self, Box<dyn Error>> {
         let bodies = drawn_as(header);
+        let is_shown = matches!(sink, Sink::Viewer(_));
         let (store, messages) = head::messages(header, &bodies)?;
         let mut out = Out { store, sink };
         for message in &messages {
             out.sink.append(message)?;
         }
-        out.sink.flush()?;
-        Ok(RerunRecorder {
+        let mut recorder = RerunRecorder {
             path: path.to_path_buf(),
             arrows: header.force_arrows(),
             bodies,
             seen: Seen::new(header),
             pictures: Pictures::default(),
             ahead: None,
+            written: 0,
             header: header.clone(),
             start_j: None,
             out,
-        })
+        };
+        if is_shown {
+            recorder.lay_out()?;
+        }
+        recorder.out.sink.flush()?;
+        Ok(recorder)
+    }
+
+    /// What a recording opens with as long as its run has not ended. A short one has its end before anyone looks.
+    fn lay_out(&mut self) -> Appended {
+        layout::messages(&self.header, None)?.iter().try_for_each(|message| self.out.sink.append(message))
     }
 
     /// Ends the file of a run of which no more is known.
@@ -102,7 +120,8 @@ impl RerunRecorder {
     pub fn leave(mut self) -> Result<(), RecordError> {
         let end = self.pictures.end();
         let poses = if self.header.streams.bodies { self.poses(&end) } else { Ok(()) };
-        poses.and_then(|()| self.out.sink.finish()).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
+        let laid_out = if self.written < LAID_OUT { self.lay_out() } else { Ok(()) };
+        poses.and(laid_out).and_then(|()| self.out.sink.finish()).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
     /// Number of entities of bodies, each of which has a head in every batch.
@@ -115,6 +134,10 @@ impl RerunRecorder {
         batch.check(streams, self.header.bodies.len())?;
         self.look(batch);
         self.ahead = None;
+        self.written += 1;
+        if self.written == LAID_OUT && !matches!(self.out.sink, Sink::Viewer(_)) {
+            self.lay_out()?;
+        }
         self.chunks(batch)?;
         self.out.sink.flush()
     }
@@ -122,9 +145,11 @@ impl RerunRecorder {
     /// A batch behind the chunks that are due.
     fn batch_ahead(&mut self, batch: &Batch) -> Appended {
         let Some(due) = self.out.begin_ahead()? else { return Ok(()) };
+        let is_first = self.ahead.is_none();
         let until = self.ahead.take().unwrap_or_else(|| self.pictures.clone());
         let pictures = std::mem::replace(&mut self.pictures, until);
-        let written = self.chunks(batch);
+        let laid_out = if is_first && self.written < LAID_OUT { self.lay_out() } else { Ok(()) };
+        let written = laid_out.and_then(|()| self.chunks(batch));
         self.ahead = Some(std::mem::replace(&mut self.pictures, pictures));
         self.out.end_ahead(due).and(written)
     }
@@ -262,7 +287,8 @@ impl Recorder for RerunRecorder {
     }
 
     fn ahead(&mut self, batch: &Batch) -> Result<(), RecordError> {
-        if !batch.is_empty() {
+        // Without anything new, that a layout stands there: nothing is worth to be looked at without one.
+        if !batch.is_empty() || (self.written < LAID_OUT && self.ahead.is_none()) {
             // What finds no room is written later, or fails then.
             let _ = self.batch_ahead(batch);
         }

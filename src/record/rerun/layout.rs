@@ -9,6 +9,7 @@ use super::names::{
     SIM_TIME, application, body_path,
 };
 use super::seen::{Between, Seen};
+use super::statics::Statics;
 use crate::record::sample::{Ending, Header, norm};
 use crate::record::schema;
 use ::rerun::blueprint::{
@@ -151,15 +152,11 @@ impl Properties {
 
     /// Messages of the layout's store.
     fn messages(&self, store: &StoreId) -> Result<Vec<LogMsg>, Box<dyn Error>> {
-        let builder = RecordingStreamBuilder::from_store_id(store).enabled(true).send_properties(false);
-        let (stream, memory) = builder.memory()?;
-        stream.set_time_sequence("blueprint", 0);
+        let mut stream = Statics::of_layout(store.clone());
         for (path, value) in &self.0 {
             stream.log(path.as_str(), value.as_ref())?;
         }
-        let mut messages = memory.take();
-        messages.retain(|message| matches!(message, LogMsg::ArrowMsg(..)));
-        Ok(messages)
+        Ok(stream.messages())
     }
 }
 

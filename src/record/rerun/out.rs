@@ -93,10 +93,7 @@ impl Out {
         times: &Times,
         columns: impl Iterator<Item = SerializedComponentColumn>,
     ) -> Appended {
-        let timelines = times.iter().map(|column| (*column.timeline().name(), column.clone())).collect();
-        let components = columns.map(|column| (column.descriptor, column.list_array)).collect();
-        let chunk = Chunk::from_auto_row_ids(ChunkId::new(), path, timelines, components)?;
-        self.sink.append(&LogMsg::ArrowMsg(self.store.clone(), chunk.to_arrow_msg()?))
+        self.sink.append(&chunk(&self.store, path, times, columns)?)
     }
 
     pub fn scalars(&mut self, path: EntityPath, times: &Times, values: impl Iterator<Item = f64>) -> Appended {
@@ -119,6 +116,22 @@ impl Out {
             .with_many_level(events.iter().map(|event| level(event.severity)));
         self.columns(path, &times(&column(|event| event.step), &times_s), text.columns_of_unit_batches()?)
     }
+}
+
+/// A chunk of one entity, with as many rows as there are times.
+///
+/// # Errors
+/// Rerun's own.
+pub fn chunk(
+    store: &StoreId,
+    path: EntityPath,
+    times: &Times,
+    columns: impl Iterator<Item = SerializedComponentColumn>,
+) -> Result<LogMsg, Box<dyn Error>> {
+    let timelines = times.iter().map(|column| (*column.timeline().name(), column.clone())).collect();
+    let components = columns.map(|column| (column.descriptor, column.list_array)).collect();
+    let chunk = Chunk::from_auto_row_ids(ChunkId::new(), path, timelines, components)?;
+    Ok(LogMsg::ArrowMsg(store.clone(), chunk.to_arrow_msg()?))
 }
 
 /// The two timelines of a batch.

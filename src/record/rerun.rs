@@ -52,6 +52,8 @@ pub struct RerunRecorder {
     ahead: Option<Pictures>,
     /// Number of batches that were written.
     written: usize,
+    /// Number of samples and of events of the next batch that a viewer shows already.
+    shown: [usize; 2],
     /// Energy of the first sample, if the energies of others can be held against it.
     start_j: Option<f64>,
     out: Out,
@@ -84,7 +86,7 @@ impl RerunRecorder {
     fn begin(path: &Path, header: &Header, sink: Sink) -> Result<Self, Box<dyn Error>> {
         let bodies = drawn_as(header);
         let is_shown = matches!(sink, Sink::Viewer(_));
-        let (store, messages) = head::messages(header, &bodies)?;
+        let (store, messages) = head::messages(header, &bodies, is_shown)?;
         let mut out = Out { store, sink };
         for message in &messages {
             out.sink.append(message)?;
@@ -97,6 +99,7 @@ impl RerunRecorder {
             pictures: Pictures::default(),
             ahead: None,
             written: 0,
+            shown: [0; 2],
             header: header.clone(),
             start_j: None,
             out,
@@ -283,10 +286,24 @@ fn color([r, g, b]: schema::Rgb) -> Color {
 
 impl Recorder for RerunRecorder {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        let shown = std::mem::take(&mut self.shown);
+        if shown != [0; 2] {
+            let mut rest = Batch::default();
+            rest.append_since(batch, shown);
+            return self.batch(&rest).map_err(|error| RecordError::caused(&self.path, error.as_ref()));
+        }
         self.batch(batch).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
     fn ahead(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        if matches!(self.out.sink, Sink::Viewer(_)) {
+            // It forgets nothing: what it shows is not sent again.
+            if !batch.is_empty() {
+                self.shown = [self.shown[0] + batch.len(), self.shown[1] + batch.events.len()];
+                self.batch(batch).map_err(|error| RecordError::caused(&self.path, error.as_ref()))?;
+            }
+            return Ok(());
+        }
         // Without anything new, that a layout stands there: nothing is worth to be looked at without one.
         if !batch.is_empty() || (self.written < LAID_OUT && self.ahead.is_none()) {
             // What finds no room is written later, or fails then.

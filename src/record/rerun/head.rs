@@ -1,11 +1,11 @@
 //! Head of an .rrd, once, before the first sample: layout, names, surfaces, colours, configuration.
 
-use super::camera::{Camera, camera, scale};
+use super::camera::{Camera, camera, followed_half_m, scale};
 use super::crowd::{DrawnBodies, EDGED_BODIES};
 use super::names::{
     CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, ENERGY_UNIT, FLIGHT, FORCES, FRICTION_USE, GAINS,
     GROUND, HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, STRETCH, TRAILS, WORLD, application,
-    energy_path,
+    energy_path, followed_path,
 };
 use super::out::{Appended, times};
 use super::seen::{Seen, log_part};
@@ -39,6 +39,9 @@ const EDGED_TRIANGLES: usize = 4_000;
 /// Opacity of the ground, of 255: what is below it, and forces on it, should be seen.
 const GROUND_ALPHA: u8 = 70;
 
+/// Half the length of a way, in radii of its body, from which it is a bar in the picture of a camera that goes along.
+const BAR: f64 = 9.0;
+
 /// Cosine of the angle between two facets below which their edge is one of the body's.
 const SHARP: f64 = 0.94;
 
@@ -49,15 +52,15 @@ const LIGHT_EDGE_COLOUR: Rgb = [190, 205, 225];
 const LIMIT_COLOUR: Rgb = [225, 87, 89];
 const AXES_COLOURS: [Rgb; 3] = [[235, 80, 80], [100, 210, 90], [90, 140, 250]];
 
-/// Name and first messages of the recording. `bodies` are the bodies' entities.
+/// Name and first messages of the recording. `bodies` are the bodies' entities; one that is shown live has no end yet.
 ///
 /// # Errors
 /// Rerun's own.
-pub fn messages(header: &Header, bodies: &[DrawnBodies]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
+pub fn messages(header: &Header, bodies: &[DrawnBodies], is_live: bool) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
     let store = store(header)?;
     let mut stream = Statics::new(store.clone());
     stream.begin()?;
-    describe(header, &mut stream)?;
+    describe(header, &mut stream, is_live)?;
     if header.streams.bodies {
         for DrawnBodies { path, bodies, colour } in bodies {
             let body = &header.bodies[bodies[0]];
@@ -111,8 +114,12 @@ pub fn ending(header: &Header, ending: &Ending, seen: &Seen) -> Result<Vec<LogMs
     if let Some(Camera { middle, half_m, .. }) = camera {
         ground(header, middle, 1.6 * half_m, &mut stream)?;
     }
-    // One that the camera goes along with would be a bar through the picture.
-    if !camera.is_some_and(|camera| camera.follows) {
+    if camera.is_some_and(|camera| camera.follows) {
+        followed(header, &mut stream)?;
+    }
+    // A long one that the camera goes along with would be a bar through the picture.
+    let radius_m = header.bodies.first().map_or(0.0, |body| body.bounding_radius_m);
+    if !camera.is_some_and(|camera| camera.follows && camera.half_m > BAR * radius_m) {
         trails(header, seen, &mut stream)?;
     }
     marks(header, ending, seen, &mut stream)?;
@@ -125,7 +132,7 @@ fn store(header: &Header) -> Result<StoreId, Box<dyn Error>> {
     Ok(StoreId::recording(application(&header.name.begun())?, recording_id(header)))
 }
 
-fn describe(header: &Header, stream: &mut Statics) -> Appended {
+fn describe(header: &Header, stream: &mut Statics, is_live: bool) -> Appended {
     stream.name(&header.name.begun())?;
     // A path is never empty, which is all that is asked of a name.
     let named = header.axes.iter().filter_map(|(path, value)| Some((ComponentIdentifier::try_new(path).ok()?, value)));
@@ -153,7 +160,7 @@ fn describe(header: &Header, stream: &mut Statics) -> Appended {
         header.config_yaml.trim_end()
     );
     stream.log(CONFIG, &TextDocument::from_markdown(page))?;
-    stream.log(HEADLINE, &TextDocument::from_markdown(headline::begun(header)))?;
+    stream.log(HEADLINE, &TextDocument::from_markdown(headline::begun(header, is_live)))?;
     stream.log("/", &ViewCoordinates::RIGHT_HAND_Y_UP())?;
     stream.log(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())?;
     let scale = scale(header);
@@ -368,6 +375,15 @@ pub fn ground(header: &Header, middle: [f64; 3], half_m: f64, stream: &mut Stati
         stream.log(CONTAINER, &lines.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
     }
     Ok(())
+}
+
+/// A cube about the body that the camera goes along with, by two corners of it: nothing is drawn of a triangle without
+/// area.
+fn followed(header: &Header, stream: &mut Statics) -> Appended {
+    let Some(body) = header.bodies.first() else { return Ok(()) };
+    let half_m = followed_half_m(body.bounding_radius_m) as f32;
+    let corners = [-half_m, half_m].into_iter().flat_map(|x| [[x; 3]; 3]);
+    stream.log(followed_path(&body.name), &Mesh3D::new(corners))
 }
 
 /// The ways of the bodies, each in its body's colour.

@@ -6,7 +6,7 @@
 use super::camera::{Camera, rounded, scale, spacing_m};
 use super::names::{
     CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FLIGHT, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION,
-    SIM_TIME, application, body_path,
+    SIM_TIME, application, followed_path,
 };
 use super::seen::{Between, Seen};
 use super::statics::Statics;
@@ -304,7 +304,7 @@ pub fn eye(header: &Header, camera: Option<Camera>) -> Option<EyeControls3D> {
         let eye = EyeControls3D::new().with_position(drawn(camera.position)).with_look_target(drawn(camera.target));
         let eye = eye.with_eye_up([0.0, 1.0, 0.0]);
         return Some(match header.bodies.first().filter(|_| camera.follows) {
-            Some(body) => eye.with_tracking_entity(body_path(&body.name).to_string()),
+            Some(body) => eye.with_tracking_entity(followed_path(&body.name).to_string()),
             None => eye,
         });
     }

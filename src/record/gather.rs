@@ -23,7 +23,15 @@ pub struct Gatherer {
 impl Gatherer {
     /// In front of a file of so many entities of bodies.
     pub fn new(file: Box<dyn Recorder>, bodies: usize) -> Self {
-        Gatherer { file, pending: Batch::default(), waiting: 0, most: bodies / BODIES, begun: false, ahead: [0; 2], behind: Batch::default() }
+        Gatherer {
+            file,
+            pending: Batch::default(),
+            waiting: 0,
+            most: bodies / BODIES,
+            begun: false,
+            ahead: [0; 2],
+            behind: Batch::default(),
+        }
     }
 
     fn write_pending(&mut self) -> Result<(), RecordError> {

@@ -39,20 +39,10 @@ pub struct McapRecorder {
     channels: Channels,
     messages: Messages,
     scene: Scene,
-    shown: ShownUntil,
-    /// The same with what stands ahead in the file; None where nothing does.
-    ahead: Option<ShownUntil>,
-}
-
-/// What the next sample has to know of those before it.
-#[derive(Clone)]
-struct ShownUntil {
     /// Number of the last display interval that had its picture; None before the first.
-    picture: Option<u64>,
+    shown: Option<u64>,
     /// Time and bodies of the last sample, which a step's contacts act on.
     last: (f64, Vec<BodyRow>),
-    /// Whether the last picture had no contacts; nothing needs to be cleared then.
-    is_blank: bool,
 }
 
 impl McapRecorder {
@@ -79,8 +69,8 @@ impl McapRecorder {
             channels,
             messages: Messages::new(&header.bodies),
             scene: Scene::new(header),
-            shown: ShownUntil { picture: None, last: (f64::NAN, Vec::new()), is_blank: true },
-            ahead: None,
+            shown: None,
+            last: (f64::NAN, Vec::new()),
         })
     }
 
@@ -96,14 +86,11 @@ impl McapRecorder {
         events.try_for_each(|event| self.log(event))
     }
 
-    /// A batch as a chunk behind those that are due.
+    /// A batch as a chunk behind those that are due, its numbers and events without pictures.
     fn batch_ahead(&mut self, batch: &Batch) -> McapResult<()> {
-        let until = self.ahead.take().unwrap_or_else(|| self.shown.clone());
-        let due = std::mem::replace(&mut self.shown, until);
         self.out.ahead = Some(Chunk::default());
         let written = self.batch(batch);
         let chunk = self.out.ahead.take().unwrap_or_default();
-        self.ahead = Some(std::mem::replace(&mut self.shown, due));
         written?;
         Ok(self.out.held.ahead(&chunk.record())?)
     }
@@ -125,24 +112,24 @@ impl McapRecorder {
         if let (Some(channel), Some(energy)) = (channels.energy, sample.energy) {
             out.send(channel, time_ns, sample.step, &Messages::energy(sample, energy))?;
         }
+        if self.out.ahead.is_some() {
+            return Ok(());
+        }
         let picture = (sample.time_s * DISPLAY_HZ) as u64;
-        if self.shown.picture.is_none_or(|shown| picture > shown) {
-            self.shown.picture = Some(picture);
+        if self.shown.is_none_or(|shown| picture > shown) {
+            self.shown = Some(picture);
             self.picture(sample)?;
         }
-        let (time_s, bodies) = &mut self.shown.last;
-        *time_s = sample.time_s;
-        bodies.clear();
-        bodies.extend_from_slice(sample.bodies);
+        self.last.0 = sample.time_s;
+        self.last.1.clear();
+        self.last.1.extend_from_slice(sample.bodies);
         Ok(())
     }
 
     /// The bodies where the contacts act on them.
     fn picture(&mut self, sample: &Sample<'_>) -> McapResult<()> {
         let (time_s, bodies) = match sample.acted {
-            [] if sample.acted_s == self.shown.last.0 && !sample.contacts.is_empty() => {
-                (sample.acted_s, &self.shown.last.1[..])
-            }
+            [] if sample.acted_s == self.last.0 && !sample.contacts.is_empty() => (sample.acted_s, &self.last.1[..]),
             [] => (sample.time_s, sample.bodies),
             acted => (sample.acted_s, acted),
         };
@@ -151,7 +138,7 @@ impl McapRecorder {
             self.out.send(channel, time_ns, sample.step, self.scene.transforms(bodies, time_ns))?;
         }
         if let Some(channel) = self.channels.scene_contacts
-            && let Some(update) = self.scene.contacts(sample, time_ns, &mut self.shown.is_blank)
+            && let Some(update) = self.scene.contacts(sample, time_ns)
         {
             self.out.send(channel, time_ns, sample.step, update)?;
         }
@@ -163,21 +150,19 @@ impl Recorder for McapRecorder {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
         let bodies = self.messages.bodies.bodies.len();
         batch.check(self.streams, bodies).map_err(|reason| RecordError::new(&self.path, reason))?;
-        self.ahead = None;
         let written = self.batch(batch).and_then(|()| self.out.writer.flush());
         written.map_err(|error| RecordError::caused(&self.path, &error))
     }
 
     fn ahead(&mut self, batch: &Batch) -> Result<(), RecordError> {
         // Before the first chunk no reader would know the channels. What finds no room is written later, or fails then.
-        if !batch.is_empty() && self.shown.picture.is_some() {
+        if !batch.is_empty() && self.shown.is_some() {
             let _ = self.batch_ahead(batch);
         }
         Ok(())
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        self.ahead = None;
         self.log(event).and_then(|()| self.out.writer.flush()).map_err(|error| RecordError::caused(&self.path, &error))
     }
 

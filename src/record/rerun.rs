@@ -124,7 +124,10 @@ impl RerunRecorder {
         let end = self.pictures.end();
         let poses = if self.header.streams.bodies { self.poses(&end) } else { Ok(()) };
         let laid_out = if self.written < LAID_OUT { self.lay_out() } else { Ok(()) };
-        poses.and(laid_out).and_then(|()| self.out.sink.finish()).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
+        poses
+            .and(laid_out)
+            .and_then(|()| self.out.sink.finish())
+            .map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
     /// Number of entities of bodies, each of which has a head in every batch.

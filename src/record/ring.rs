@@ -1,6 +1,6 @@
 //! The last steps of a run, kept until it is known whether they decide: what happens between two samples is not lost.
 
-use super::sample::ContactSample;
+use crate::shown::ContactForce;
 use crate::state::State;
 use std::collections::VecDeque;
 
@@ -14,7 +14,7 @@ pub struct KeptStep {
     pub state: State,
     /// The state at which its contacts act.
     pub acted: State,
-    pub contacts: Vec<ContactSample>,
+    pub contacts: Vec<ContactForce>,
 }
 
 impl KeptStep {
@@ -34,7 +34,7 @@ pub struct Ring {
 
 impl Ring {
     /// Keeps a step, by its end and the state at which its contacts act, and lets the oldest go where there is no room.
-    pub fn keep(&mut self, [state, acted]: [&State; 2], contacts: impl Iterator<Item = ContactSample>) {
+    pub fn keep(&mut self, [state, acted]: [&State; 2], contacts: impl Iterator<Item = ContactForce>) {
         let mut kept = match self.spare.pop() {
             Some(mut kept) => {
                 kept.state.copy_from(state);
@@ -53,7 +53,7 @@ impl Ring {
     }
 
     /// Keeps this step alone.
-    pub fn keep_one(&mut self, states: [&State; 2], contacts: impl Iterator<Item = ContactSample>) {
+    pub fn keep_one(&mut self, states: [&State; 2], contacts: impl Iterator<Item = ContactForce>) {
         self.clear();
         self.keep(states, contacts);
     }
@@ -70,7 +70,7 @@ impl Ring {
     }
 
     /// Hands over every step since `step`, the oldest first, and keeps the earlier ones.
-    pub fn take_since(&mut self, step: u64, mut to: impl FnMut([&State; 2], &[ContactSample])) {
+    pub fn take_since(&mut self, step: u64, mut to: impl FnMut([&State; 2], &[ContactForce])) {
         let from = self.kept.iter().position(|kept| kept.state.step >= step).unwrap_or(self.kept.len());
         for kept in self.kept.drain(from..) {
             self.bytes -= kept.bytes();

@@ -130,7 +130,7 @@ impl Sampler {
         judge: &Judge,
     ) {
         let with_contacts = self.streams.any_contact();
-        let sampled = || contacts.clone().map(contact_sample).filter(|_| with_contacts);
+        let sampled = || contacts.clone().filter(|_| with_contacts);
         self.ring.keep(states, sampled());
         let amounts = [contacts.len() as f64, judge.geometry.penetration_max_m.unwrap_or(0.0)];
         for (maximum, amount) in self.maxima.iter_mut().zip(amounts) {
@@ -268,12 +268,12 @@ fn add(
     streams: Streams,
     geometry: &mut Option<GeometryLedger>,
     model: &Model,
-    ([state, acted], contacts, last_s): ([&State; 2], &[ContactSample], &mut f64),
+    ([state, acted], contacts, last_s): ([&State; 2], &[ContactForce], &mut f64),
 ) {
     writer.fill(|batch| {
         if streams.any_contact() {
             push_acted(batch, streams, (state, acted, *last_s), contacts.len());
-            batch.contacts.extend_from_slice(contacts);
+            batch.contacts.extend(contacts.iter().copied().map(contact_sample));
         }
         push(batch, streams, geometry, model, state);
         batch.by_rate.push(false);

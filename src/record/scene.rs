@@ -24,6 +24,8 @@ pub struct Scene {
     arrows: ForceArrows,
     transforms: FrameTransforms,
     contacts: SceneUpdate,
+    /// Whether the last picture had no contacts; nothing needs to be cleared then.
+    blank: bool,
 }
 
 impl Scene {
@@ -39,6 +41,7 @@ impl Scene {
             arrows: header.force_arrows(),
             transforms: FrameTransforms { transforms: header.bodies.iter().map(frame).chain([upright()]).collect() },
             contacts: SceneUpdate { entities: vec![entity("contacts", schema::WORLD)], ..Default::default() },
+            blank: true,
         }
     }
 
@@ -55,13 +58,12 @@ impl Scene {
         &self.transforms
     }
 
-    /// Contact points and force arrows; None when there is nothing to draw, and nothing to clear of the last picture,
-    /// which was blank.
-    pub fn contacts(&mut self, sample: &Sample<'_>, time_ns: u64, is_blank: &mut bool) -> Option<&SceneUpdate> {
-        if sample.contacts.is_empty() && *is_blank {
+    /// Contact points and force arrows; None when there is nothing to draw and nothing to clear.
+    pub fn contacts(&mut self, sample: &Sample<'_>, time_ns: u64) -> Option<&SceneUpdate> {
+        if sample.contacts.is_empty() && self.blank {
             return None;
         }
-        *is_blank = sample.contacts.is_empty();
+        self.blank = sample.contacts.is_empty();
         let (size_m, arrows) = (self.size_m, self.arrows);
         for entity in &mut self.contacts.entities {
             entity.timestamp = Some(timestamp(time_ns));

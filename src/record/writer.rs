@@ -73,8 +73,8 @@ impl Writer {
         Ok(Writer { filling, made: 1, full, empty, thread: Some(thread) })
     }
 
-    /// Fills the batch: what is given pushes one entry to each column of a stream that is on, for each sample. Sends the
-    /// batch when it is full.
+    /// Fills the batch: what is given pushes one entry to each column of a stream that is on, for each sample. Sends
+    /// the batch when it is full.
     pub fn fill(&mut self, push: impl FnOnce(&mut Batch)) {
         let mut filling = locked(&self.filling);
         push(&mut filling.batch);

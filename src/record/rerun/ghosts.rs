@@ -20,9 +20,7 @@ use ::rerun::components::Radius;
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
 use ::rerun::external::re_sdk_types::blueprint::components::Corner2D;
-use ::rerun::{
-    Color, EntityPath, LineStrips3D, Points3D, StoreId, TextDocument, Transform3D, ViewCoordinates,
-};
+use ::rerun::{Color, EntityPath, LineStrips3D, Points3D, StoreId, TextDocument, Transform3D, ViewCoordinates};
 use std::fmt::Write;
 use std::path::Path;
 

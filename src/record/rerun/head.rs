@@ -4,8 +4,8 @@ use super::camera::{Camera, camera, followed_half_m, scale};
 use super::crowd::{DrawnBodies, EDGED_BODIES};
 use super::names::{
     CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, ENERGY_UNIT, FLIGHT, FORCES, FRICTION_USE, GAINS,
-    GROUND, HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, STRETCH, TRAILS, WORLD, application,
-    energy_path, followed_path,
+    GROUND, HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, STRETCH, TRAILS, WORLD, application, energy_path,
+    followed_path,
 };
 use super::out::{Appended, times};
 use super::seen::{Seen, log_part};
@@ -56,7 +56,11 @@ const AXES_COLOURS: [Rgb; 3] = [[235, 80, 80], [100, 210, 90], [90, 140, 250]];
 ///
 /// # Errors
 /// Rerun's own.
-pub fn messages(header: &Header, bodies: &[DrawnBodies], is_live: bool) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
+pub fn messages(
+    header: &Header,
+    bodies: &[DrawnBodies],
+    is_live: bool,
+) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
     let store = store(header)?;
     let mut stream = Statics::new(store.clone());
     stream.begin()?;

@@ -65,8 +65,8 @@ pub struct Out {
 }
 
 impl Out {
-    /// Lets all that follows stand ahead in the file, up to `end_ahead`, which takes what is given back; None of what is
-    /// no file.
+    /// Lets all that follows stand ahead in the file, up to `end_ahead`, which takes what is given back; None of what
+    /// is no file.
     pub fn begin_ahead(&mut self) -> Result<Option<Sink>, Box<dyn Error>> {
         if !matches!(self.sink, Sink::File(..)) {
             return Ok(None);

@@ -1,11 +1,11 @@
 //! Messages of an .rrd that are made at once: each a chunk, without the threads of Rerun's stream of a recording.
 
 use super::out::{Appended, Times, chunk};
+use ::rerun::components::Timestamp;
 use ::rerun::external::re_log_types::{SetStoreInfo, StoreInfo, StoreSource};
 use ::rerun::log::{Chunk, LogMsg, RowId};
 use ::rerun::time::{TimePoint, Timeline};
 use ::rerun::{AsComponents, EntityPath, RecordingInfo, Scalars, StoreId};
-use std::time::SystemTime;
 
 /// Messages of one store, in their order.
 pub struct Statics {
@@ -31,9 +31,7 @@ impl Statics {
         let source = StoreSource::Other("gotai".to_owned());
         let info = StoreInfo::new(self.store.clone(), source);
         self.messages.push(LogMsg::SetStoreInfo(SetStoreInfo { row_id: *RowId::new(), info }));
-        let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
-        let made = i64::try_from(since.as_nanos()).unwrap_or(i64::MAX);
-        self.log(EntityPath::properties(), &RecordingInfo::update_fields().with_start_time(made))
+        self.log(EntityPath::properties(), &RecordingInfo::update_fields().with_start_time(Timestamp::now()))
     }
 
     /// A name that the viewer lists the recording by.

@@ -2,8 +2,8 @@
 //!
 //! Every batch ends with a complete chunk on disk, so that a kill loses no batch that was written.
 
+use super::ahead_file::AheadFile;
 use super::foxglove_layout::{layout, surfaces_as_files};
-use super::held::Held;
 use super::name::RecordingName;
 use super::sample::{Batch, BodyHeader, Ending, EnergySample, Event, Header, Sample, Streams};
 use super::scene::{Scene, log, surfaces};
@@ -55,7 +55,7 @@ impl McapRecorder {
     }
 
     fn try_create(path: &Path, header: &Header) -> McapResult<Self> {
-        let mut out = Out::new(Held::create(path)?, &header.program)?;
+        let mut out = Out::new(AheadFile::create(path)?, &header.program)?;
         let (files, of_bodies) = surfaces_as_files(header);
         let said = said(header, &of_bodies);
         let channels = out.head(header, &files, &said)?;
@@ -92,7 +92,7 @@ impl McapRecorder {
         let written = self.batch(batch);
         let chunk = self.out.ahead.take().unwrap_or_default();
         written?;
-        Ok(self.out.held.ahead(&chunk.record())?)
+        Ok(self.out.file.ahead(&chunk.record())?)
     }
 
     fn log(&mut self, event: &Event) -> McapResult<()> {
@@ -167,7 +167,7 @@ impl Recorder for McapRecorder {
     }
 
     fn bytes(&self) -> u64 {
-        self.out.held.whole()
+        self.out.file.whole()
     }
 
     fn finish(self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {
@@ -185,15 +185,15 @@ impl Recorder for McapRecorder {
 }
 
 /// Dropping a writer would swallow its errors.
-fn close(mut writer: mcap::Writer<Held>) -> McapResult<()> {
+fn close(mut writer: mcap::Writer<AheadFile>) -> McapResult<()> {
     writer.finish()?;
     Ok(writer.into_inner().flush()?)
 }
 
 /// The file and the buffer that messages are encoded in.
 struct Out {
-    writer: mcap::Writer<Held>,
-    held: Held,
+    writer: mcap::Writer<AheadFile>,
+    file: AheadFile,
     buffer: Vec<u8>,
     /// Where messages go while they are written ahead.
     ahead: Option<Chunk>,
@@ -251,7 +251,7 @@ struct Channels {
 }
 
 impl Out {
-    fn new(held: Held, program: &str) -> McapResult<Self> {
+    fn new(file: AheadFile, program: &str) -> McapResult<Self> {
         let writer = WriteOptions::new()
             .library(program)
             .compression(Some(Compression::Zstd))
@@ -259,8 +259,8 @@ impl Out {
             // No threads beside the recording thread: in a sweep, the other cores have cases of their own.
             .compression_threads(0)
             .chunk_size(Some(CHUNK_BYTES))
-            .create(held.clone())?;
-        Ok(Out { writer, held, buffer: Vec::new(), ahead: None })
+            .create(file.clone())?;
+        Ok(Out { writer, file, buffer: Vec::new(), ahead: None })
     }
 
     /// Configuration, versions and channels, before the first sample.

@@ -3,13 +3,13 @@
 //! The simulating thread fills `sample::Batch`es and hands them to `writer::Writer`, whose thread feeds every
 //! `Recorder`. `schema` names topics, fields and units once for all of them.
 
+mod ahead_file;
 mod effort;
 pub mod flight;
 pub mod foxglove_layout;
 #[cfg(feature = "rerun")]
 mod gather;
 pub mod head;
-mod held;
 mod limited;
 pub mod mcap;
 pub mod mend;

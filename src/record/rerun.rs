@@ -25,7 +25,7 @@ use self::live::Live;
 use self::names::{CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path};
 use self::out::{Appended, Out, Sink, Times, times};
 use self::seen::{Seen, log_part};
-use super::held::Held;
+use super::ahead_file::AheadFile;
 use super::pictures::{Pictured, Pictures};
 use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, norm};
 use super::schema::{self, MOST_CONTACTS};
@@ -69,9 +69,9 @@ impl RerunRecorder {
     }
 
     fn try_create(path: &Path, header: &Header) -> Result<Self, Box<dyn Error>> {
-        let held = Held::create(path)?;
-        let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, held.clone())?;
-        Self::begin(path, header, Sink::File(encoder, held))
+        let file = AheadFile::create(path)?;
+        let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file.clone())?;
+        Self::begin(path, header, Sink::File(encoder, file))
     }
 
     /// A recording that a viewer shows while it is made.

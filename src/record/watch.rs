@@ -154,17 +154,17 @@ impl Watch {
         match shown.acted {
             Acted::Kick { contacts, step_s, .. } => {
                 let slow_m_s = STEPS_OF_GRAVITY * model.gravity_m_s2.norm() * step_s;
-                self.touches(model, (before, at), contacts.iter().map(|s| (s.contact, s.impulse_W)), slow_m_s);
+                self.touches(model, (before, at), contacts.iter().map(|s| (&s.contact, s.impulse_W)), slow_m_s);
             }
             Acted::Blow { contacts } => {
-                let pushes = contacts.iter().map(|s| (s.contact, s.impulse_W));
+                let pushes = contacts.iter().map(|s| (&s.contact, s.impulse_W));
                 for touch in touches(before, pushes, |_| false) {
                     self.impact(model, at, &touch);
                 }
             }
             Acted::Motion(_) => {
                 let forces = shown.way.map(|way| way.forces_at(model, after)).unwrap_or_default();
-                let pushes = forces.iter().map(|ContactForce { contact, force_W }| (*contact, *force_W));
+                let pushes = forces.iter().map(|ContactForce { contact, force_W }| (contact, *force_W));
                 // Whoever follows events has its impacts apart from its motion.
                 self.touches(model, (before, at), pushes, f64::INFINITY);
             }
@@ -248,11 +248,11 @@ impl Watch {
     }
 
     /// All pairs that are near in a step, against those of the step before.
-    fn touches(
+    fn touches<'a>(
         &mut self,
         model: &Model,
         (before, at): (&State, (u64, f64)),
-        pushes: impl ExactSizeIterator<Item = (Contact, Vector3<f64>)>,
+        pushes: impl ExactSizeIterator<Item = (&'a Contact, Vector3<f64>)>,
         slow_m_s: f64,
     ) {
         let count = pushes.len();
@@ -454,10 +454,10 @@ fn names(model: &Model, (body, other): (usize, Option<usize>)) -> [&str; 2] {
 /// Contacts by the two bodies that they are between; contacts of two bodies stand together. How fast they approach is
 /// asked of those alone that did not touch before.
 fn touches<'a>(
-    before: &'a State,
-    pushes: impl Iterator<Item = (Contact, Vector3<f64>)> + 'a,
-    mut touched_already: impl FnMut((usize, Option<usize>)) -> bool + 'a,
-) -> impl Iterator<Item = Touch> + 'a {
+    before: &State,
+    pushes: impl Iterator<Item = (&'a Contact, Vector3<f64>)>,
+    mut touched_already: impl FnMut((usize, Option<usize>)) -> bool,
+) -> impl Iterator<Item = Touch> {
     let mut pushes = pushes.peekable();
     std::iter::from_fn(move || {
         let (first, _) = pushes.peek()?;

@@ -190,8 +190,8 @@ fn layouts_are_complete_and_the_configuration_is_shown() {
     record(&path, 10, ALL);
     let messages = all(&path);
     assert_eq!(messages[0].store_id().kind(), StoreKind::Recording);
-    // A short one is laid out once, by what knows the story; a longer one before too, for whoever looks at it or when it
-    // is cut. Each layout ends with what makes it the active one.
+    // A short one is laid out once, by what knows the story; a longer one before too, for whoever looks at it or when
+    // it is cut. Each layout ends with what makes it the active one.
     let longer = dir.path().join("b.rrd");
     record(&longer, 1200, ALL);
     for (file, count) in [(&path, 1), (&longer, 2)] {

@@ -10,7 +10,7 @@ use super::out::{Appended, Out, Sink, times};
 use super::seen::{Between, Room, Seen, log_part};
 use super::statics::Statics;
 use crate::record::RecordError;
-use crate::record::held::Held;
+use crate::record::ahead_file::AheadFile;
 use crate::record::pictures::Pictures;
 use crate::record::read::ReadBack;
 use crate::record::sample::{Event, Header};
@@ -124,7 +124,7 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
         case.styles(&mut stream)?;
     }
 
-    let file = Held::create(path)?;
+    let file = AheadFile::create(path)?;
     let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file.clone())?;
     let mut out = Out { store, sink: Sink::File(encoder, file) };
     for message in opening.messages()?.iter().chain(&stream.messages()) {

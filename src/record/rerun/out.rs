@@ -3,7 +3,7 @@
 use super::headline::level;
 use super::live::Live;
 use super::names::{LOG, SIM_TIME, STEP};
-use crate::record::held::Held;
+use crate::record::ahead_file::AheadFile;
 use crate::record::sample::Event;
 use crate::record::schema;
 use ::rerun::external::re_log_encoding::Encoder;
@@ -16,7 +16,7 @@ pub type Appended = Result<(), Box<dyn Error>>;
 
 /// Where messages go: into a file, or to a viewer.
 pub enum Sink {
-    File(Encoder<Held>, Held),
+    File(Encoder<AheadFile>, AheadFile),
     Viewer(Live),
     /// Into memory, to stand ahead in a file.
     Ahead(Encoder<Vec<u8>>),
@@ -44,7 +44,7 @@ impl Sink {
     /// Bytes that are due and written; 0 of what is no file.
     pub fn whole(&self) -> u64 {
         match self {
-            Sink::File(_, held) => held.whole(),
+            Sink::File(_, file) => file.whole(),
             Sink::Viewer(_) | Sink::Ahead(_) => 0,
         }
     }
@@ -78,10 +78,10 @@ impl Out {
 
     pub fn end_ahead(&mut self, due: Sink) -> Appended {
         let ahead = std::mem::replace(&mut self.sink, due);
-        if let (Sink::Ahead(encoder), Sink::File(_, held)) = (ahead, &self.sink) {
+        if let (Sink::Ahead(encoder), Sink::File(_, file)) = (ahead, &self.sink) {
             let bytes = encoder.into_inner()?;
             let head = Encoder::local()?.into_inner()?.len();
-            held.ahead(bytes.get(head..).unwrap_or_default())?;
+            file.ahead(bytes.get(head..).unwrap_or_default())?;
         }
         Ok(())
     }

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A file, for the encoder of its format and for who writes ahead of it.
 #[derive(Clone)]
-pub struct Held(Arc<Mutex<Parts>>);
+pub struct AheadFile(Arc<Mutex<Parts>>);
 
 struct Parts {
     file: File,
@@ -23,14 +23,14 @@ struct Parts {
     at: usize,
 }
 
-impl Held {
+impl AheadFile {
     /// A new file.
     ///
     /// # Errors
     /// The file cannot be made.
     pub fn create(path: &Path) -> Result<Self> {
         let parts = Parts { file: File::create(path)?, whole: 0, end: 0, due: Vec::new(), at: 0 };
-        Ok(Held(Arc::new(Mutex::new(parts))))
+        Ok(AheadFile(Arc::new(Mutex::new(parts))))
     }
 
     /// Writes something behind all that stands in the file, until the next flush.
@@ -92,7 +92,7 @@ impl Drop for Parts {
     }
 }
 
-impl Write for Held {
+impl Write for AheadFile {
     fn write(&mut self, bytes: &[u8]) -> Result<usize> {
         let mut parts = self.parts();
         let at = parts.at;
@@ -108,7 +108,7 @@ impl Write for Held {
     }
 }
 
-impl Seek for Held {
+impl Seek for AheadFile {
     fn seek(&mut self, to: SeekFrom) -> Result<u64> {
         let mut parts = self.parts();
         let place = match to {

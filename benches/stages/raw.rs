@@ -89,7 +89,7 @@ pub fn rerun(path: &Path, batches: &[Batch]) {
             .with_vectors(both)
             .with_origins(batch.contacts.iter().flat_map(|contact| [contact.point_m; 2]));
         stream.send_columns("arrows", times(), arrows.columns(lengths().map(|len| 2 * len)).unwrap()).unwrap();
-        let mut series = |name: &str, values: Vec<f64>| {
+        let series = |name: &str, values: Vec<f64>| {
             let scalars = Scalars::update_fields().with_scalars(values).columns_of_unit_batches().unwrap();
             stream.send_columns(name, times(), scalars).unwrap();
         };

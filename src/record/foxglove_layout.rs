@@ -79,13 +79,14 @@ fn with(mut object: Value, key: &str, value: Value) -> Value {
 /// bodies that look the same share one.
 pub fn surfaces_as_files(header: &Header) -> (Vec<(String, String)>, BTreeMap<String, String>) {
     let mut files: Vec<(String, String)> = Vec::new();
-    let mut known: BTreeMap<String, usize> = BTreeMap::new();
+    let mut looks: Vec<&BodyHeader> = Vec::new();
     let mut of_bodies = BTreeMap::new();
     for body in &header.bodies {
-        let text = obj(body);
-        let i = *known.entry(text.clone()).or_insert_with(|| {
-            files.push((format!("{}/{}.obj", schema::MESHES, body.name), text));
-            files.len() - 1
+        let alike = |look: &&BodyHeader| look.vertices_m == body.vertices_m && look.triangles == body.triangles;
+        let i = looks.iter().position(alike).unwrap_or_else(|| {
+            files.push((format!("{}/{}.obj", schema::MESHES, body.name), obj(body)));
+            looks.push(body);
+            looks.len() - 1
         });
         of_bodies.insert(body.name.clone(), files[i].0.clone());
     }

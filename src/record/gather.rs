@@ -14,16 +14,28 @@ pub struct Gatherer {
     waiting: usize,
     most: usize,
     begun: bool,
+    /// Number of samples and of events since the last write that stand ahead in the file, and room for those that wait
+    /// and do not.
+    ahead: [usize; 2],
+    behind: Batch,
 }
 
 impl Gatherer {
     /// In front of a file of so many entities of bodies.
     pub fn new(file: Box<dyn Recorder>, bodies: usize) -> Self {
-        Gatherer { file, pending: Batch::default(), waiting: 0, most: bodies / BODIES, begun: false }
+        Gatherer {
+            file,
+            pending: Batch::default(),
+            waiting: 0,
+            most: bodies / BODIES,
+            begun: false,
+            ahead: [0; 2],
+            behind: Batch::default(),
+        }
     }
 
     fn write_pending(&mut self) -> Result<(), RecordError> {
-        self.waiting = 0;
+        (self.waiting, self.ahead) = (0, [0; 2]);
         if self.pending.is_empty() {
             return Ok(());
         }
@@ -37,7 +49,7 @@ impl Recorder for Gatherer {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
         // The first one shows how the run begins, at once.
         if self.pending.is_empty() && (!self.begun || self.most == 0 || batch.is_full()) {
-            self.begun = true;
+            (self.begun, self.ahead) = (true, [0; 2]);
             return self.file.write(batch);
         }
         self.pending.append(batch);
@@ -48,6 +60,18 @@ impl Recorder for Gatherer {
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
         self.write_pending()?;
         self.file.event(event)
+    }
+
+    fn ahead(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        let waiting = [self.pending.len(), self.pending.events.len()];
+        if self.ahead[0] < waiting[0] || self.ahead[1] < waiting[1] {
+            self.behind.clear();
+            self.behind.append_since(&self.pending, self.ahead);
+            self.ahead = waiting;
+            self.file.ahead(&self.behind)?;
+        }
+        self.ahead = [self.ahead[0] + batch.len(), self.ahead[1] + batch.events.len()];
+        self.file.ahead(batch)
     }
 
     fn bytes(&self) -> u64 {

@@ -127,6 +127,11 @@ impl Recorder for Limited {
         self.file.event(event)
     }
 
+    /// Where there is room still, without a choice: whether a sample stays is decided when it is written.
+    fn ahead(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        if self.file.bytes() as f64 <= DECISIVE * self.most { self.file.ahead(batch) } else { Ok(()) }
+    }
+
     fn bytes(&self) -> u64 {
         self.file.bytes()
     }

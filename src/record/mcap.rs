@@ -2,6 +2,7 @@
 //!
 //! Every batch ends with a complete chunk on disk, so that a kill loses no batch that was written.
 
+use super::ahead_file::AheadFile;
 use super::foxglove_layout::{layout, surfaces_as_files};
 use super::name::RecordingName;
 use super::sample::{Batch, BodyHeader, Ending, EnergySample, Event, Header, Sample, Streams};
@@ -9,14 +10,13 @@ use super::scene::{Scene, log, surfaces};
 use super::{RecordError, Recorder, schema};
 use crate::rows::BodyRow;
 use foxglove::Encode;
-use mcap::records::{MessageHeader, Metadata};
+use mcap::records::{MessageHeader, Metadata, op};
 use mcap::{Attachment, Compression, McapResult, WriteOptions};
 use prost::Message;
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Uncompressed size of a chunk, bytes. A quarter of the library's, so that a reader that seeks decodes less.
@@ -55,13 +55,15 @@ impl McapRecorder {
     }
 
     fn try_create(path: &Path, header: &Header) -> McapResult<Self> {
-        let mut out = Out::new(File::create(path)?, &header.program)?;
-        let channels = out.head(header)?;
+        let mut out = Out::new(AheadFile::create(path)?, &header.program)?;
+        let (files, of_bodies) = surfaces_as_files(header);
+        let said = said(header, &of_bodies);
+        let channels = out.head(header, &files, &said)?;
         out.send(channels.scene, 0, 0, &surfaces(header))?;
         Ok(McapRecorder {
             path: path.to_path_buf(),
             streams: header.streams,
-            said: said(header),
+            said,
             name: header.name.clone(),
             out,
             channels,
@@ -81,8 +83,16 @@ impl McapRecorder {
             }
             self.sample(&sample)?;
         }
-        events.try_for_each(|event| self.log(event))?;
-        self.out.writer.flush()
+        events.try_for_each(|event| self.log(event))
+    }
+
+    /// A batch as a chunk behind those that are due, its numbers and events without pictures.
+    fn batch_ahead(&mut self, batch: &Batch) -> McapResult<()> {
+        self.out.ahead = Some(Chunk::default());
+        let written = self.batch(batch);
+        let chunk = self.out.ahead.take().unwrap_or_default();
+        written?;
+        Ok(self.out.file.ahead(&chunk.record())?)
     }
 
     fn log(&mut self, event: &Event) -> McapResult<()> {
@@ -101,6 +111,9 @@ impl McapRecorder {
         }
         if let (Some(channel), Some(energy)) = (channels.energy, sample.energy) {
             out.send(channel, time_ns, sample.step, &Messages::energy(sample, energy))?;
+        }
+        if self.out.ahead.is_some() {
+            return Ok(());
         }
         let picture = (sample.time_s * DISPLAY_HZ) as u64;
         if self.shown.is_none_or(|shown| picture > shown) {
@@ -137,7 +150,16 @@ impl Recorder for McapRecorder {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
         let bodies = self.messages.bodies.bodies.len();
         batch.check(self.streams, bodies).map_err(|reason| RecordError::new(&self.path, reason))?;
-        self.batch(batch).map_err(|error| RecordError::caused(&self.path, &error))
+        let written = self.batch(batch).and_then(|()| self.out.writer.flush());
+        written.map_err(|error| RecordError::caused(&self.path, &error))
+    }
+
+    fn ahead(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        // Before the first chunk no reader would know the channels. What finds no room is written later, or fails then.
+        if !batch.is_empty() && self.shown.is_some() {
+            let _ = self.batch_ahead(batch);
+        }
+        Ok(())
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
@@ -145,7 +167,7 @@ impl Recorder for McapRecorder {
     }
 
     fn bytes(&self) -> u64 {
-        std::fs::metadata(&self.path).map_or(0, |file| file.len())
+        self.out.file.whole()
     }
 
     fn finish(self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {
@@ -163,15 +185,58 @@ impl Recorder for McapRecorder {
 }
 
 /// Dropping a writer would swallow its errors.
-fn close(mut writer: mcap::Writer<BufWriter<File>>) -> McapResult<()> {
+fn close(mut writer: mcap::Writer<AheadFile>) -> McapResult<()> {
     writer.finish()?;
     Ok(writer.into_inner().flush()?)
 }
 
 /// The file and the buffer that messages are encoded in.
 struct Out {
-    writer: mcap::Writer<BufWriter<File>>,
+    writer: mcap::Writer<AheadFile>,
+    file: AheadFile,
     buffer: Vec<u8>,
+    /// Where messages go while they are written ahead.
+    ahead: Option<Chunk>,
+}
+
+/// Messages as a chunk without compression, which is gone soon.
+#[derive(Default)]
+struct Chunk {
+    messages: Vec<u8>,
+    times_ns: Option<(u64, u64)>,
+}
+
+impl Chunk {
+    fn add(&mut self, header: &MessageHeader, data: &[u8]) {
+        const HEADER_BYTES: u64 = 2 + 4 + 8 + 8;
+        let to = &mut self.messages;
+        to.push(op::MESSAGE);
+        to.extend_from_slice(&(HEADER_BYTES + data.len() as u64).to_le_bytes());
+        to.extend_from_slice(&header.channel_id.to_le_bytes());
+        to.extend_from_slice(&header.sequence.to_le_bytes());
+        to.extend_from_slice(&header.log_time.to_le_bytes());
+        to.extend_from_slice(&header.publish_time.to_le_bytes());
+        to.extend_from_slice(data);
+        let (least, most) = self.times_ns.unwrap_or((u64::MAX, 0));
+        self.times_ns = Some((least.min(header.log_time), most.max(header.log_time)));
+    }
+
+    /// The record of the format: times, length, no checksum, no compression, length again, messages.
+    fn record(&self) -> Vec<u8> {
+        const HEADER_BYTES: usize = 8 + 8 + 8 + 4 + 4 + 8;
+        let len = self.messages.len() as u64;
+        let (first_ns, last_ns) = self.times_ns.unwrap_or_default();
+        let mut record = Vec::with_capacity(9 + HEADER_BYTES + self.messages.len());
+        record.push(op::CHUNK);
+        record.extend_from_slice(&(HEADER_BYTES as u64 + len).to_le_bytes());
+        for number in [first_ns, last_ns, len] {
+            record.extend_from_slice(&number.to_le_bytes());
+        }
+        record.extend_from_slice(&[0; 8]);
+        record.extend_from_slice(&len.to_le_bytes());
+        record.extend_from_slice(&self.messages);
+        record
+    }
 }
 
 /// Channel of each topic; None where its stream is off.
@@ -186,7 +251,7 @@ struct Channels {
 }
 
 impl Out {
-    fn new(file: File, program: &str) -> McapResult<Self> {
+    fn new(file: AheadFile, program: &str) -> McapResult<Self> {
         let writer = WriteOptions::new()
             .library(program)
             .compression(Some(Compression::Zstd))
@@ -194,18 +259,23 @@ impl Out {
             // No threads beside the recording thread: in a sweep, the other cores have cases of their own.
             .compression_threads(0)
             .chunk_size(Some(CHUNK_BYTES))
-            .create(BufWriter::new(file))?;
-        Ok(Out { writer, buffer: Vec::new() })
+            .create(file.clone())?;
+        Ok(Out { writer, file, buffer: Vec::new(), ahead: None })
     }
 
     /// Configuration, versions and channels, before the first sample.
-    fn head(&mut self, header: &Header) -> McapResult<Channels> {
+    fn head(
+        &mut self,
+        header: &Header,
+        surfaces: &[(String, String)],
+        said: &BTreeMap<String, String>,
+    ) -> McapResult<Channels> {
         self.attach(schema::CONFIG_FILE, "application/yaml", header.config_yaml.as_bytes())?;
         self.attach(schema::LAYOUT_FILE, "application/json", layout(header.streams).as_bytes())?;
-        for (name, surface) in &surfaces_as_files(header).0 {
+        for (name, surface) in surfaces {
             self.attach(name, "model/obj", surface.as_bytes())?;
         }
-        let start = Metadata { name: schema::METADATA_START.to_owned(), metadata: said(header) };
+        let start = Metadata { name: schema::METADATA_START.to_owned(), metadata: said.clone() };
         self.writer.write_metadata(&start)?;
 
         let streams = header.streams;
@@ -258,12 +328,18 @@ impl Out {
         message.encode_raw(&mut self.buffer);
         // The format's number has 32 bits; the messages hold all 64.
         let header = MessageHeader { channel_id, sequence: step as u32, log_time: time_ns, publish_time: time_ns };
-        self.writer.write_to_known_channel(&header, &self.buffer)
+        match &mut self.ahead {
+            Some(chunk) => {
+                chunk.add(&header, &self.buffer);
+                Ok(())
+            }
+            None => self.writer.write_to_known_channel(&header, &self.buffer),
+        }
     }
 }
 
 /// Statements from the start: case, axes by their paths, program.
-fn said(header: &Header) -> BTreeMap<String, String> {
+fn said(header: &Header, surfaces: &BTreeMap<String, String>) -> BTreeMap<String, String> {
     let axes = header.axes.iter().map(|(path, value)| (path.as_str(), schema::text(value)));
     let known = [
         ("case", header.case.clone()),
@@ -271,7 +347,7 @@ fn said(header: &Header) -> BTreeMap<String, String> {
         ("schema", schema::VERSION.to_owned()),
         (schema::AXES, Value::from(header.axes.iter().map(|(path, _)| path.as_str()).collect::<Vec<_>>()).to_string()),
         ("question", header.question.clone()),
-        (schema::MESHES, json!(surfaces_as_files(header).1).to_string()),
+        (schema::MESHES, json!(surfaces).to_string()),
         ("method", header.method.clone()),
         ("time", "simulated, from zero".to_owned()),
         ("up", "y in the frame world, z in the frame root".to_owned()),

@@ -3,6 +3,7 @@
 //! The simulating thread fills `sample::Batch`es and hands them to `writer::Writer`, whose thread feeds every
 //! `Recorder`. `schema` names topics, fields and units once for all of them.
 
+mod ahead_file;
 mod effort;
 pub mod flight;
 pub mod foxglove_layout;

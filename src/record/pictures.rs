@@ -20,7 +20,7 @@ pub struct Pictured {
 }
 
 /// Pictures of a run, from batch to batch.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Pictures {
     last: (u64, f64),
     /// Bodies of the last sample, if no picture shows them yet: what comes next decides whether one does.

@@ -17,7 +17,15 @@ pub trait Recorder: Send {
     /// # Errors
     /// The machine failed.
     fn event(&mut self, event: &Event) -> Result<(), RecordError>;
-    /// Bytes of the file that are written; 0 of what is no file.
+    /// Writes samples and events that a later `write` brings again, so that a kill of the program does not lose them;
+    /// that one puts them where they belong. What is shown in a row follows what was shown before.
+    ///
+    /// # Errors
+    /// The machine failed.
+    fn ahead(&mut self, _: &Batch) -> Result<(), RecordError> {
+        Ok(())
+    }
+    /// Bytes of the file that are written, without what stands ahead; 0 of what is no file.
     fn bytes(&self) -> u64 {
         0
     }

@@ -18,12 +18,14 @@ mod names;
 mod out;
 pub mod rounded;
 mod seen;
+mod statics;
 
 use self::crowd::{DrawnBodies, drawn_as};
 use self::live::Live;
 use self::names::{CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path};
 use self::out::{Appended, Out, Sink, Times, times};
 use self::seen::{Seen, log_part};
+use super::ahead_file::AheadFile;
 use super::pictures::{Pictured, Pictures};
 use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, norm};
 use super::schema::{self, MOST_CONTACTS};
@@ -32,9 +34,11 @@ use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
 use ::rerun::{Arrows3D, Color, InstancePoses3D, Points3D, Transform3D};
 use std::error::Error;
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
+
+/// Number of the batch that the layout of a run that goes on is written with: the first is one sample, the second the
+/// rest of a short run, which ends with a layout of its own. Until then it stands ahead.
+const LAID_OUT: usize = 3;
 
 /// A recording as one .rrd file.
 pub struct RerunRecorder {
@@ -44,6 +48,12 @@ pub struct RerunRecorder {
     bodies: Vec<DrawnBodies>,
     seen: Seen,
     pictures: Pictures,
+    /// The same with what stands ahead in the file; None where nothing does.
+    ahead: Option<Pictures>,
+    /// Number of batches that were written.
+    written: usize,
+    /// Number of samples and of events of the next batch that a viewer shows already.
+    shown: [usize; 2],
     /// Energy of the first sample, if the energies of others can be held against it.
     start_j: Option<f64>,
     out: Out,
@@ -59,9 +69,9 @@ impl RerunRecorder {
     }
 
     fn try_create(path: &Path, header: &Header) -> Result<Self, Box<dyn Error>> {
-        let file = BufWriter::new(File::create(path)?);
-        let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file)?;
-        Self::begin(path, header, Sink::File(encoder))
+        let file = AheadFile::create(path)?;
+        let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file.clone())?;
+        Self::begin(path, header, Sink::File(encoder, file))
     }
 
     /// A recording that a viewer shows while it is made.
@@ -75,22 +85,35 @@ impl RerunRecorder {
 
     fn begin(path: &Path, header: &Header, sink: Sink) -> Result<Self, Box<dyn Error>> {
         let bodies = drawn_as(header);
-        let (store, messages) = head::messages(header, &bodies)?;
+        let is_shown = matches!(sink, Sink::Viewer(_));
+        let (store, messages) = head::messages(header, &bodies, is_shown)?;
         let mut out = Out { store, sink };
         for message in &messages {
             out.sink.append(message)?;
         }
-        out.sink.flush()?;
-        Ok(RerunRecorder {
+        let mut recorder = RerunRecorder {
             path: path.to_path_buf(),
             arrows: header.force_arrows(),
             bodies,
             seen: Seen::new(header),
             pictures: Pictures::default(),
+            ahead: None,
+            written: 0,
+            shown: [0; 2],
             header: header.clone(),
             start_j: None,
             out,
-        })
+        };
+        if is_shown {
+            recorder.lay_out()?;
+        }
+        recorder.out.sink.flush()?;
+        Ok(recorder)
+    }
+
+    /// What a recording opens with as long as its run has not ended. A short one has its end before anyone looks.
+    fn lay_out(&mut self) -> Appended {
+        layout::messages(&self.header, None)?.iter().try_for_each(|message| self.out.sink.append(message))
     }
 
     /// Ends the file of a run of which no more is known.
@@ -100,7 +123,11 @@ impl RerunRecorder {
     pub fn leave(mut self) -> Result<(), RecordError> {
         let end = self.pictures.end();
         let poses = if self.header.streams.bodies { self.poses(&end) } else { Ok(()) };
-        poses.and_then(|()| self.out.sink.finish()).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
+        let laid_out = if self.written < LAID_OUT { self.lay_out() } else { Ok(()) };
+        poses
+            .and(laid_out)
+            .and_then(|()| self.out.sink.finish())
+            .map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
     /// Number of entities of bodies, each of which has a head in every batch.
@@ -112,6 +139,29 @@ impl RerunRecorder {
         let streams = self.header.streams;
         batch.check(streams, self.header.bodies.len())?;
         self.look(batch);
+        self.ahead = None;
+        self.written += 1;
+        if self.written == LAID_OUT && !matches!(self.out.sink, Sink::Viewer(_)) {
+            self.lay_out()?;
+        }
+        self.chunks(batch)?;
+        self.out.sink.flush()
+    }
+
+    /// A batch behind the chunks that are due.
+    fn batch_ahead(&mut self, batch: &Batch) -> Appended {
+        let Some(due) = self.out.begin_ahead()? else { return Ok(()) };
+        let is_first = self.ahead.is_none();
+        let until = self.ahead.take().unwrap_or_else(|| self.pictures.clone());
+        let pictures = std::mem::replace(&mut self.pictures, until);
+        let laid_out = if is_first && self.written < LAID_OUT { self.lay_out() } else { Ok(()) };
+        let written = laid_out.and_then(|()| self.chunks(batch));
+        self.ahead = Some(std::mem::replace(&mut self.pictures, pictures));
+        self.out.end_ahead(due).and(written)
+    }
+
+    fn chunks(&mut self, batch: &Batch) -> Appended {
+        let streams = self.header.streams;
         if !batch.step.is_empty() {
             let instants = self.pictures.of(batch);
             if streams.bodies {
@@ -124,8 +174,7 @@ impl RerunRecorder {
                 self.energies(batch, &times(&batch.step, &batch.time_s))?;
             }
         }
-        self.out.events(&batch.events)?;
-        self.out.sink.flush()
+        self.out.events(&batch.events)
     }
 
     fn look(&mut self, batch: &Batch) {
@@ -240,16 +289,40 @@ fn color([r, g, b]: schema::Rgb) -> Color {
 
 impl Recorder for RerunRecorder {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        let shown = std::mem::take(&mut self.shown);
+        if shown != [0; 2] {
+            let mut rest = Batch::default();
+            rest.append_since(batch, shown);
+            return self.batch(&rest).map_err(|error| RecordError::caused(&self.path, error.as_ref()));
+        }
         self.batch(batch).map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
+    fn ahead(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        if matches!(self.out.sink, Sink::Viewer(_)) {
+            // It forgets nothing: what it shows is not sent again.
+            if !batch.is_empty() {
+                self.shown = [self.shown[0] + batch.len(), self.shown[1] + batch.events.len()];
+                self.batch(batch).map_err(|error| RecordError::caused(&self.path, error.as_ref()))?;
+            }
+            return Ok(());
+        }
+        // Without anything new, that a layout stands there: nothing is worth to be looked at without one.
+        if !batch.is_empty() || (self.written < LAID_OUT && self.ahead.is_none()) {
+            // What finds no room is written later, or fails then.
+            let _ = self.batch_ahead(batch);
+        }
+        Ok(())
+    }
+
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
+        self.ahead = None;
         let logged = self.out.events(std::slice::from_ref(event)).and_then(|()| self.out.sink.flush());
         logged.map_err(|error| RecordError::caused(&self.path, error.as_ref()))
     }
 
     fn bytes(&self) -> u64 {
-        std::fs::metadata(&self.path).map_or(0, |file| file.len())
+        self.out.sink.whole()
     }
 
     fn finish(mut self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {

@@ -1,6 +1,6 @@
 //! The last steps of a run, kept until it is known whether they decide: what happens between two samples is not lost.
 
-use super::sample::ContactSample;
+use crate::collide::SolvedContact;
 use crate::state::State;
 use std::collections::VecDeque;
 
@@ -14,7 +14,9 @@ pub struct KeptStep {
     pub state: State,
     /// The state at which its contacts act.
     pub acted: State,
-    pub contacts: Vec<ContactSample>,
+    pub contacts: Vec<SolvedContact>,
+    /// Length of the step that their impulses are of.
+    pub step_s: f64,
 }
 
 impl KeptStep {
@@ -34,7 +36,7 @@ pub struct Ring {
 
 impl Ring {
     /// Keeps a step, by its end and the state at which its contacts act, and lets the oldest go where there is no room.
-    pub fn keep(&mut self, [state, acted]: [&State; 2], contacts: impl Iterator<Item = ContactSample>) {
+    pub fn keep(&mut self, [state, acted]: [&State; 2], contacts: &[SolvedContact], step_s: f64) {
         let mut kept = match self.spare.pop() {
             Some(mut kept) => {
                 kept.state.copy_from(state);
@@ -42,9 +44,10 @@ impl Ring {
                 kept.contacts.clear();
                 kept
             }
-            None => KeptStep { state: state.clone(), acted: acted.clone(), contacts: Vec::new() },
+            None => KeptStep { state: state.clone(), acted: acted.clone(), contacts: Vec::new(), step_s },
         };
-        kept.contacts.extend(contacts);
+        kept.contacts.extend_from_slice(contacts);
+        kept.step_s = step_s;
         self.bytes += kept.bytes();
         self.kept.push_back(kept);
         while self.kept.len() > STEPS || (self.bytes > BYTES && self.kept.len() > 1) {
@@ -53,9 +56,9 @@ impl Ring {
     }
 
     /// Keeps this step alone.
-    pub fn keep_one(&mut self, states: [&State; 2], contacts: impl Iterator<Item = ContactSample>) {
+    pub fn keep_one(&mut self, states: [&State; 2], contacts: &[SolvedContact], step_s: f64) {
         self.clear();
-        self.keep(states, contacts);
+        self.keep(states, contacts, step_s);
     }
 
     pub fn clear(&mut self) {
@@ -70,11 +73,11 @@ impl Ring {
     }
 
     /// Hands over every step since `step`, the oldest first, and keeps the earlier ones.
-    pub fn take_since(&mut self, step: u64, mut to: impl FnMut([&State; 2], &[ContactSample])) {
+    pub fn take_since(&mut self, step: u64, mut to: impl FnMut(&KeptStep)) {
         let from = self.kept.iter().position(|kept| kept.state.step >= step).unwrap_or(self.kept.len());
         for kept in self.kept.drain(from..) {
             self.bytes -= kept.bytes();
-            to([&kept.state, &kept.acted], &kept.contacts);
+            to(&kept);
             self.spare.push(kept);
         }
     }

@@ -210,17 +210,24 @@ impl Batch {
 
     /// Adds the samples and events of another batch behind its own.
     pub fn append(&mut self, other: &Batch) {
-        self.step.extend_from_slice(&other.step);
-        self.time_s.extend_from_slice(&other.time_s);
-        self.bodies.extend_from_slice(&other.bodies);
-        self.contacts_len.extend_from_slice(&other.contacts_len);
-        self.contacts.extend_from_slice(&other.contacts);
-        self.acted_s.extend_from_slice(&other.acted_s);
-        self.acted_len.extend_from_slice(&other.acted_len);
-        self.acted.extend_from_slice(&other.acted);
-        self.by_rate.extend_from_slice(&other.by_rate);
-        self.energy.extend_from_slice(&other.energy);
-        self.events.extend_from_slice(&other.events);
+        self.append_since(other, [0, 0]);
+    }
+
+    /// Adds the samples from one on, and the events from one on, of another batch behind its own.
+    pub fn append_since(&mut self, other: &Batch, [sample, event]: [usize; 2]) {
+        let sum = |lens: &[u32]| lens.iter().take(sample).map(|&len| len as usize).sum::<usize>();
+        let bodies = other.bodies.len() / other.len().max(1);
+        self.step.extend_from_slice(rest(&other.step, sample));
+        self.time_s.extend_from_slice(rest(&other.time_s, sample));
+        self.bodies.extend_from_slice(rest(&other.bodies, sample * bodies));
+        self.contacts_len.extend_from_slice(rest(&other.contacts_len, sample));
+        self.contacts.extend_from_slice(rest(&other.contacts, sum(&other.contacts_len)));
+        self.acted_s.extend_from_slice(rest(&other.acted_s, sample));
+        self.acted_len.extend_from_slice(rest(&other.acted_len, sample));
+        self.acted.extend_from_slice(rest(&other.acted, sum(&other.acted_len)));
+        self.by_rate.extend_from_slice(rest(&other.by_rate, sample));
+        self.energy.extend_from_slice(rest(&other.energy, sample));
+        self.events.extend_from_slice(rest(&other.events, event));
     }
 
     /// Empties every column and keeps its memory.
@@ -310,6 +317,10 @@ impl Batch {
             }
         })
     }
+}
+
+fn rest<T>(column: &[T], from: usize) -> &[T] {
+    column.get(from..).unwrap_or_default()
 }
 
 /// Sample of a batch. Streams that are off are empty.

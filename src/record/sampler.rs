@@ -5,12 +5,13 @@
 use super::RecordError;
 use super::effort::Effort;
 use super::flight::{Flight, KeptContacts};
-use super::ring::Ring;
+use super::ring::{KeptStep, Ring};
 use super::sample::{Batch, ContactSample, Ending, EnergySample, Event, Severity, Streams, contact_mode};
 use super::story::shortest;
 use super::watch::Watch;
 use super::writer::Writer;
 use crate::clock::Clock;
+use crate::collide::SolvedContact;
 use crate::experiment::types::{Record, Stream};
 use crate::measure::Judge;
 use crate::measure::energy::Energy;
@@ -123,20 +124,14 @@ impl Sampler {
 
     /// Keeps a step that is no sample, judged already, in case that it turns out to decide: its end, and the state at
     /// which its contacts act.
-    pub fn keep(
-        &mut self,
-        states: [&State; 2],
-        contacts: impl ExactSizeIterator<Item = ContactForce> + Clone,
-        judge: &Judge,
-    ) {
-        let with_contacts = self.streams.any_contact();
-        let sampled = || contacts.clone().map(contact_sample).filter(|_| with_contacts);
-        self.ring.keep(states, sampled());
+    pub fn keep(&mut self, states: [&State; 2], (contacts, step_s): (&[SolvedContact], f64), judge: &Judge) {
+        let shown = if self.streams.any_contact() { contacts } else { &[] };
+        self.ring.keep(states, shown, step_s);
         let amounts = [contacts.len() as f64, judge.geometry.penetration_max_m.unwrap_or(0.0)];
         for (maximum, amount) in self.maxima.iter_mut().zip(amounts) {
             if amount > maximum.amount {
                 maximum.amount = amount;
-                maximum.step.keep_one(states, sampled());
+                maximum.step.keep_one(states, shown, step_s);
             }
         }
     }
@@ -162,29 +157,30 @@ impl Sampler {
         by_rate: bool,
     ) {
         let Sampler { writer, streams, geometry, last_s, .. } = self;
-        let batch = writer.batch();
-        if streams.any_contact() {
-            push_acted(batch, *streams, (state, acted, *last_s), contacts.len());
-            batch.contacts.extend(contacts.map(contact_sample));
-        }
-        push(batch, *streams, geometry, model, state);
-        batch.by_rate.push(by_rate);
+        let watch = &mut self.watch;
+        writer.fill(|batch| {
+            if streams.any_contact() {
+                push_acted(batch, *streams, (state, acted, *last_s), contacts.len());
+                batch.contacts.extend(contacts.map(contact_sample));
+            }
+            push(batch, *streams, geometry, model, state);
+            batch.by_rate.push(by_rate);
+            if let Some(watch) = watch {
+                batch.events.extend(watch.events());
+            }
+        });
         *last_s = state.time_s;
-        if let Some(watch) = &mut self.watch {
-            batch.events.extend(watch.events());
-        }
         self.last = state.step;
-        self.writer.sample_done();
     }
 
     /// Records what was kept from a step on.
     fn take_since(&mut self, model: &Model, step: u64) {
         let Sampler { writer, streams, geometry, ring, maxima, last_s, .. } = self;
-        ring.take_since(step, |states, contacts| {
-            for maximum in maxima.iter_mut().filter(|maximum| maximum.step.holds(states[0].step)) {
+        ring.take_since(step, |kept| {
+            for maximum in maxima.iter_mut().filter(|maximum| maximum.step.holds(kept.state.step)) {
                 maximum.step.clear();
             }
-            add(writer, *streams, geometry, model, (states, contacts, last_s));
+            add(writer, *streams, geometry, model, (kept, last_s));
         });
     }
 
@@ -193,10 +189,10 @@ impl Sampler {
         let Sampler { writer, streams, geometry, maxima, last_s, .. } = self;
         let mut taken = None;
         for maximum in maxima {
-            maximum.step.take_since(0, |states, contacts| {
-                if taken != Some(states[0].step) {
-                    taken = Some(states[0].step);
-                    add(writer, *streams, geometry, model, (states, contacts, last_s));
+            maximum.step.take_since(0, |kept| {
+                if taken != Some(kept.state.step) {
+                    taken = Some(kept.state.step);
+                    add(writer, *streams, geometry, model, (kept, last_s));
                 }
             });
         }
@@ -267,17 +263,18 @@ fn add(
     streams: Streams,
     geometry: &mut Option<GeometryLedger>,
     model: &Model,
-    ([state, acted], contacts, last_s): ([&State; 2], &[ContactSample], &mut f64),
+    (kept, last_s): (&KeptStep, &mut f64),
 ) {
-    let batch = writer.batch();
-    if streams.any_contact() {
-        push_acted(batch, streams, (state, acted, *last_s), contacts.len());
-        batch.contacts.extend_from_slice(contacts);
-    }
-    push(batch, streams, geometry, model, state);
-    batch.by_rate.push(false);
+    let KeptStep { state, acted, contacts, step_s } = kept;
+    writer.fill(|batch| {
+        if streams.any_contact() {
+            push_acted(batch, streams, (state, acted, *last_s), contacts.len());
+            batch.contacts.extend(contacts.iter().map(|solved| contact_sample(ContactForce::mean(solved, *step_s))));
+        }
+        push(batch, streams, geometry, model, state);
+        batch.by_rate.push(false);
+    });
     *last_s = state.time_s;
-    writer.sample_done();
 }
 
 /// Adds the number of contacts, when they act, and the bodies then, if neither the sample itself shows them nor the one

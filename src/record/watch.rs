@@ -76,6 +76,7 @@ struct NearBodies {
 /// What a step did between two bodies.
 struct Touch {
     pair: NearBodies,
+    /// The fastest; −∞ of what touched before, where nobody asks.
     approach_m_s: f64,
     /// Along the normals.
     pushed: f64,
@@ -153,17 +154,17 @@ impl Watch {
         match shown.acted {
             Acted::Kick { contacts, step_s, .. } => {
                 let slow_m_s = STEPS_OF_GRAVITY * model.gravity_m_s2.norm() * step_s;
-                self.touches(model, (before, at), contacts.iter().map(|s| (s.contact, s.impulse_W)), slow_m_s);
+                self.touches(model, (before, at), contacts.iter().map(|s| (&s.contact, s.impulse_W)), slow_m_s);
             }
             Acted::Blow { contacts } => {
-                let pushes = contacts.iter().map(|s| (s.contact, s.impulse_W));
-                for touch in touches(before, pushes) {
+                let pushes = contacts.iter().map(|s| (&s.contact, s.impulse_W));
+                for touch in touches(before, pushes, |_| false) {
                     self.impact(model, at, &touch);
                 }
             }
             Acted::Motion(_) => {
                 let forces = shown.way.map(|way| way.forces_at(model, after)).unwrap_or_default();
-                let pushes = forces.iter().map(|ContactForce { contact, force_W }| (*contact, *force_W));
+                let pushes = forces.iter().map(|ContactForce { contact, force_W }| (contact, *force_W));
                 // Whoever follows events has its impacts apart from its motion.
                 self.touches(model, (before, at), pushes, f64::INFINITY);
             }
@@ -247,11 +248,11 @@ impl Watch {
     }
 
     /// All pairs that are near in a step, against those of the step before.
-    fn touches(
+    fn touches<'a>(
         &mut self,
         model: &Model,
         (before, at): (&State, (u64, f64)),
-        pushes: impl ExactSizeIterator<Item = (Contact, Vector3<f64>)>,
+        pushes: impl ExactSizeIterator<Item = (&'a Contact, Vector3<f64>)>,
         slow_m_s: f64,
     ) {
         let count = pushes.len();
@@ -267,7 +268,13 @@ impl Watch {
         let mut known = pairs.iter().peekable();
         let mut found = std::mem::take(&mut self.found);
         found.clear();
-        found.extend(touches(before, pushes));
+        // Of most that stand in this order; of what is not found, an approach too many is asked for.
+        let mut earlier = pairs.iter().peekable();
+        let touched_already = |bodies| {
+            while earlier.next_if(|pair| pair.bodies < bodies).is_some() {}
+            earlier.peek().is_some_and(|pair| pair.bodies == bodies && pair.touches)
+        };
+        found.extend(touches(before, pushes, touched_already));
         if !found.is_sorted_by_key(|touch| touch.pair.bodies) {
             found.sort_by_key(|touch| touch.pair.bodies);
         }
@@ -444,15 +451,18 @@ fn names(model: &Model, (body, other): (usize, Option<usize>)) -> [&str; 2] {
     [&model.bodies[body].name, other.map_or("container", |other| model.bodies[other].name.as_str())]
 }
 
-/// Contacts by the two bodies that they are between; contacts of two bodies stand together.
+/// Contacts by the two bodies that they are between; contacts of two bodies stand together. How fast they approach is
+/// asked of those alone that did not touch before.
 fn touches<'a>(
-    before: &'a State,
-    pushes: impl Iterator<Item = (Contact, Vector3<f64>)> + 'a,
-) -> impl Iterator<Item = Touch> + 'a {
+    before: &State,
+    pushes: impl Iterator<Item = (&'a Contact, Vector3<f64>)>,
+    mut touched_already: impl FnMut((usize, Option<usize>)) -> bool,
+) -> impl Iterator<Item = Touch> {
     let mut pushes = pushes.peekable();
     std::iter::from_fn(move || {
         let (first, _) = pushes.peek()?;
         let bodies = (first.body, first.other);
+        let is_new = !touched_already(bodies);
         let mut touch = Touch {
             pair: NearBodies { bodies, touches: false, slides: true },
             approach_m_s: f64::NEG_INFINITY,
@@ -463,8 +473,13 @@ fn touches<'a>(
             if along > 0.0 {
                 touch.pair.touches = true;
                 touch.pushed += along;
-                let (mode, _) = contact_mode(push.into(), contact.normal.into(), contact.friction);
-                touch.pair.slides &= mode != ContactMode::Sticking;
+                if touch.pair.slides {
+                    let (mode, _) = contact_mode(push.into(), contact.normal.into(), contact.friction);
+                    touch.pair.slides = mode != ContactMode::Sticking;
+                }
+            }
+            if !is_new {
+                continue;
             }
             let velocity = contact.velocity(|i| [before.bodies[i].v_WB, before.bodies[i].w_WB]);
             touch.approach_m_s = touch.approach_m_s.max(-velocity.dot(&contact.normal));

@@ -10,8 +10,10 @@ use super::sample::{Batch, Ending, Event, Header, Streams};
 use super::{RecordError, Recorder, foxglove_layout, schema};
 use crate::panics;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
 /// Batches in circulation: one being filled, one being written, two between, so that neither thread waits for the
 /// other's pauses.
@@ -20,17 +22,32 @@ const BATCHES: usize = 4;
 /// Most messages under way; more than `BATCHES` leaves room for events.
 const QUEUE: usize = 16;
 
+/// Time after which samples of a batch that is still being filled are written ahead of it: a kill loses those of this
+/// time, and what the thread has not come to yet.
+const AHEAD: Duration = Duration::from_millis(150);
+
 enum Message {
     Batch(Batch),
     Event(Event),
     Finish(Ending),
 }
 
+/// The batch being filled, and its number: so many were filled before it.
+#[derive(Default)]
+struct Filling {
+    batch: Batch,
+    number: u64,
+}
+
+fn locked(filling: &Mutex<Filling>) -> MutexGuard<'_, Filling> {
+    filling.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Writer that hands batches and events, in order, to recorders on a thread of its own.
 ///
 /// Dropped without `finish`, it waits for what was sent and leaves the files incomplete.
 pub struct Writer {
-    filling: Batch,
+    filling: Arc<Mutex<Filling>>,
     made: usize,
     full: SyncSender<Message>,
     empty: Receiver<Batch>,
@@ -43,33 +60,34 @@ impl Writer {
     /// # Errors
     /// The machine has no thread to give.
     pub fn start(sinks: Vec<Box<dyn Recorder>>) -> Result<Writer, RecordError> {
+        let filling = Arc::default();
         let (full, inbox) = sync_channel(QUEUE);
         let (outbox, empty) = sync_channel(BATCHES);
         let thread = std::thread::Builder::new()
             .name("record".to_owned())
-            .spawn(move || record(sinks, &inbox, &outbox))
+            .spawn({
+                let filling = Arc::clone(&filling);
+                move || record(sinks, &filling, &inbox, &outbox)
+            })
             .map_err(|error| RecordError::new(Path::new("recordings"), format!("no recording thread: {error}")))?;
-        Ok(Writer { filling: Batch::default(), made: 1, full, empty, thread: Some(thread) })
+        Ok(Writer { filling, made: 1, full, empty, thread: Some(thread) })
     }
 
-    /// The batch being filled: push one entry to each column of a stream that is on, then call `sample_done`.
-    pub fn batch(&mut self) -> &mut Batch {
-        &mut self.filling
-    }
-
-    /// Ends a sample; sends the batch when it is full.
-    pub fn sample_done(&mut self) {
-        let batch = &self.filling;
-        if batch.is_full() {
+    /// Fills the batch: what is given pushes one entry to each column of a stream that is on, for each sample. Sends
+    /// the batch when it is full.
+    pub fn fill(&mut self, push: impl FnOnce(&mut Batch)) {
+        let mut filling = locked(&self.filling);
+        push(&mut filling.batch);
+        let is_full = filling.batch.is_full();
+        drop(filling);
+        if is_full {
             self.send_batch();
         }
     }
 
     /// Sends what there is, full or not, so that a kill does not lose it; says whether there was something.
     pub fn flush(&mut self) -> bool {
-        let is_something = !self.filling.is_empty();
-        self.send_batch();
-        is_something
+        self.send_batch()
     }
 
     /// Adds something that happened, after the samples so far.
@@ -89,13 +107,17 @@ impl Writer {
         self.join()
     }
 
-    fn send_batch(&mut self) {
-        if self.filling.is_empty() {
-            return;
+    fn send_batch(&mut self) -> bool {
+        if locked(&self.filling).batch.is_empty() {
+            return false;
         }
         let next = self.next_batch();
-        let batch = std::mem::replace(&mut self.filling, next);
+        let mut filling = locked(&self.filling);
+        filling.number += 1;
+        let batch = std::mem::replace(&mut filling.batch, next);
+        drop(filling);
         let _ = self.full.send(Message::Batch(batch));
+        true
     }
 
     fn next_batch(&mut self) -> Batch {
@@ -134,19 +156,36 @@ impl Drop for Writer {
 /// The recording thread. A recorder that fails is dropped, the others go on.
 fn record(
     mut sinks: Vec<Box<dyn Recorder>>,
+    filling: &Mutex<Filling>,
     inbox: &Receiver<Message>,
     outbox: &SyncSender<Batch>,
 ) -> Result<(), RecordError> {
     let mut first = Ok(());
-    while let Ok(message) = inbox.recv() {
+    let mut ahead = Ahead::default();
+    let mut due = Instant::now() + AHEAD;
+    loop {
+        if due <= Instant::now() {
+            ahead.look(filling);
+            each(&mut sinks, &mut first, |sink| sink.ahead(&ahead.batch));
+            due = Instant::now() + AHEAD;
+        }
+        let message = match inbox.recv_timeout(due.saturating_duration_since(Instant::now())) {
+            Ok(message) => message,
+            Err(RecvTimeoutError::Timeout) => continue,
+            Err(RecvTimeoutError::Disconnected) => return first,
+        };
         match message {
             Message::Batch(mut batch) => {
+                ahead.next();
                 each(&mut sinks, &mut first, |sink| sink.write(&batch));
                 batch.clear();
                 // There is room for every batch; a simulation that ended does not want it back.
                 let _ = outbox.try_send(batch);
             }
-            Message::Event(event) => each(&mut sinks, &mut first, |sink| sink.event(&event)),
+            Message::Event(event) => {
+                ahead.restart();
+                each(&mut sinks, &mut first, |sink| sink.event(&event));
+            }
             Message::Finish(ending) => {
                 for sink in sinks {
                     let result = sink.finish(&ending);
@@ -156,7 +195,39 @@ fn record(
             }
         }
     }
-    first
+}
+
+/// What is written ahead of the batch being filled.
+#[derive(Default)]
+struct Ahead {
+    /// Number of batches that were written.
+    written: u64,
+    /// Samples and events of the one being filled that were written ahead.
+    shown: [usize; 2],
+    batch: Batch,
+}
+
+impl Ahead {
+    /// Takes what is new in the batch being filled, unless the one before it is still under way.
+    fn look(&mut self, filling: &Mutex<Filling>) {
+        self.batch.clear();
+        let filling = locked(filling);
+        if filling.number == self.written {
+            self.batch.append_since(&filling.batch, self.shown);
+            self.shown = [filling.batch.len(), filling.batch.events.len()];
+        }
+    }
+
+    /// The batch that was being filled is there as a whole.
+    fn next(&mut self) {
+        self.written += 1;
+        self.restart();
+    }
+
+    /// What is written takes the place of what stood ahead.
+    fn restart(&mut self) {
+        self.shown = [0; 2];
+    }
 }
 
 fn each(
@@ -283,6 +354,10 @@ impl Recorder for Renamed {
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
         self.file.event(event)
+    }
+
+    fn ahead(&mut self, batch: &Batch) -> Result<(), RecordError> {
+        self.file.ahead(batch)
     }
 
     fn bytes(&self) -> u64 {

@@ -125,12 +125,13 @@ impl<'a> Samples<'a> {
             Acted::Kick { kicked, step_s, .. } => (kicked, step_s),
             Acted::Blow { .. } | Acted::Motion(_) => (shown.after, self.step_s),
         };
-        let forces = shown.impulses().iter().map(|solved| ContactForce::mean(solved, step_s));
+        let solved = shown.impulses();
         if wanted {
+            let forces = solved.iter().map(|solved| ContactForce::mean(solved, step_s));
             self.sampler.note(forces.len(), judge);
             self.sampler.sample(model, [shown.after, acted], forces, due && !end_is_wanted);
         } else if shown.stalled.is_none() && !shown.is_part() {
-            self.sampler.keep([shown.after, acted], forces, judge);
+            self.sampler.keep([shown.after, acted], (solved, step_s), judge);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What is recorded is in the file: both formats are read back with their own libraries.
 
+mod ahead;
 mod flight;
 mod instants;
 mod mcap;

@@ -51,6 +51,17 @@ pub fn whole(path: &Path) -> (BTreeMap<String, usize>, String) {
     (rows(&store), pages.into_iter().find(|page| !page.starts_with("# Not finished")).unwrap())
 }
 
+/// The messages of a file, of one that was cut too.
+fn all(path: &Path) -> Vec<LogMsg> {
+    let decoder = Decoder::<LogMsg>::decode_eager(BufReader::new(File::open(path).unwrap()));
+    decoder.map(|messages| messages.map_while(Result::ok).collect()).unwrap_or_default()
+}
+
+/// Number of layouts in a file.
+pub fn layouts(path: &Path) -> usize {
+    all(path).iter().filter(|message| matches!(message, LogMsg::BlueprintActivationCommand(_))).count()
+}
+
 fn scalars(store: &ChunkStore, path: &str) -> Vec<f64> {
     let chunks = store.iter_physical_chunks().filter(|chunk| chunk.entity_path().to_string() == path);
     let component = ::rerun::Scalars::descriptor_scalars().component;
@@ -173,18 +184,22 @@ fn name_axes_and_outcome_are_properties() {
 }
 
 #[test]
-fn the_layout_comes_first_and_the_configuration_is_shown() {
+fn layouts_are_complete_and_the_configuration_is_shown() {
     let dir = crate::scratch::folder();
     let path = dir.path().join("a.rrd");
     record(&path, 10, ALL);
-    let decoder = Decoder::<LogMsg>::decode_eager(BufReader::new(File::open(&path).unwrap())).unwrap();
-    let messages: Vec<_> = decoder.map(Result::unwrap).collect();
-    assert_eq!(messages[0].store_id().kind(), StoreKind::Blueprint);
-    // One for a recording that is cut, and one that knows the story; each ends with what makes it the active one.
-    let layouts: Vec<_> = messages.iter().filter(|message| message.store_id().kind() == StoreKind::Blueprint).collect();
-    let activates = |message: &&&LogMsg| matches!(message, LogMsg::BlueprintActivationCommand(_));
-    assert_eq!(layouts.iter().filter(activates).count(), 2);
-    assert!(layouts.last().is_some_and(|last| activates(&last)));
+    let messages = all(&path);
+    assert_eq!(messages[0].store_id().kind(), StoreKind::Recording);
+    // A short one is laid out once, by what knows the story; a longer one before too, for whoever looks at it or when
+    // it is cut. Each layout ends with what makes it the active one.
+    let longer = dir.path().join("b.rrd");
+    record(&longer, 1200, ALL);
+    for (file, count) in [(&path, 1), (&longer, 2)] {
+        let messages = all(file);
+        let mut layouts = messages.iter().filter(|message| message.store_id().kind() == StoreKind::Blueprint);
+        assert!(layouts.next_back().is_some_and(|last| matches!(last, LogMsg::BlueprintActivationCommand(_))));
+        assert_eq!(self::layouts(file), count);
+    }
     // No other recording has it.
     let applications: std::collections::BTreeSet<_> =
         messages.iter().map(|message| message.store_id().application_id().to_string()).collect();

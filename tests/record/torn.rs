@@ -12,8 +12,7 @@ use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 /// A pile that takes tens of milliseconds a step: no batch of 1,000 samples is full for a minute.
-const SLOW: [&str; 6] =
-    ["run", "configs/stack/pile.yaml", "--set", "scene.bodies.cube.copies.grid=[4,4,4]", "--record", "mcap"];
+const SLOW: [&str; 4] = ["run", "configs/stack/pile.yaml", "--set", "scene.bodies.cube.copies.grid=[4,4,4]"];
 
 fn partial(dir: &Path) -> Option<PathBuf> {
     let mut files = std::fs::read_dir(dir).ok()?.filter_map(|entry| Some(entry.ok()?.path()));
@@ -24,7 +23,9 @@ fn partial(dir: &Path) -> Option<PathBuf> {
 fn a_kill_of_a_slow_scene_loses_little() {
     let folder = scratch::folder();
     let out = folder.path().to_str().unwrap();
-    let mut child = gotai(&[&SLOW[..], &["--quiet", "--out", out]].concat()).stdout(Stdio::null()).spawn().unwrap();
+    let to = if cfg!(feature = "rerun") { "both" } else { "mcap" };
+    let arguments = [&SLOW[..], &["--record", to, "--quiet", "--out", out]].concat();
+    let mut child = gotai(&arguments).stdout(Stdio::null()).spawn().unwrap();
     let started = Instant::now();
     let samples = |recording: &ReadBack| recording.samples.len();
     let read = || partial(folder.path()).and_then(|path| recording_of(&path).ok().flatten());
@@ -35,6 +36,12 @@ fn a_kill_of_a_slow_scene_loses_little() {
     child.wait().unwrap();
     let recording = read().unwrap();
     assert!((3..1000).contains(&samples(&recording)) && recording.is_cut, "{}", samples(&recording));
+    // Both open.
+    let mcap = partial(folder.path()).unwrap();
+    for file in [mcap.clone(), mcap.with_extension("rrd")].into_iter().take(if to == "both" { 2 } else { 1 }) {
+        let (code, out, err) = run(&["repair", file.to_str().unwrap()]);
+        assert!(code == 0 && out.contains("it ends at t = "), "{}: {out}{err}", file.display());
+    }
 }
 
 /// A recording cut behind its head, which holds as many samples.

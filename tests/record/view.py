@@ -96,4 +96,5 @@ def main():
         steered.close()
 
 
-main()
+if __name__ == "__main__":
+    main()

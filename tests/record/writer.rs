@@ -53,8 +53,7 @@ impl Recorder for Memory {
 
 fn fill(writer: &mut Writer, samples: std::ops::Range<u64>) {
     for i in samples {
-        s::push(writer.batch(), i, ALL);
-        writer.sample_done();
+        writer.fill(|batch| s::push(batch, i, ALL));
     }
 }
 

@@ -330,7 +330,7 @@ fn a_name_has_one_type() {
 const PLACES: &[(&str, &[&str])] = &[
     ("serde_yaml", &["experiment"]),
     ("std::fs", &["files", "experiment", "record", "sweep", "cli"]),
-    ("Instant", &["deadline", "run", "study", "bench", "cli"]),
+    ("Instant", &["deadline", "run", "study", "bench", "record", "cli"]),
     ("std::{", &[]),
     ("SystemTime", &["cli"]),
     ("std::thread", &["record", "cli"]),

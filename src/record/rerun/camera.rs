@@ -10,10 +10,14 @@ const ANGLE: f64 = 0.96;
 const ASPECT: f64 = 1.1;
 /// Part of the view's height, or width, that the motion takes.
 const PART: f64 = 0.68;
-/// Length of the way in bodies' diameters from which the camera follows a body that is alone.
-const FAR: f64 = 9.0;
-/// Distance of a camera that follows, in bounding radii.
-const FOLLOWING: f64 = 20.0;
+/// Length of the way in bodies' diameters from which the camera follows a body that is alone: with all of it in view
+/// the body would take less than a sixth of the view's height.
+const FAR: f64 = 3.0;
+/// Distance of a camera that follows, in bounding radii: a ball takes a third of the view's height, a disc that lies a
+/// sixth.
+const FOLLOWING: f64 = 5.5;
+/// Distance from which the viewer looks at what it goes along with, in radii of the sphere about its box. (Measured.)
+const VIEWERS_OWN: f64 = 1.5;
 
 /// Where the eye is and what it looks at.
 #[derive(Clone, Copy, Debug)]
@@ -77,6 +81,12 @@ pub fn camera_on(header: &Header, room: Room) -> Option<Camera> {
         middle,
         half_m,
     })
+}
+
+/// Half the side of a cube about a body of this radius from which the viewer, going along, looks from as far as is
+/// asked for: it looks at the box of what it is told to follow, from where it likes.
+pub fn followed_half_m(radius_m: f64) -> f64 {
+    FOLLOWING * radius_m / (VIEWERS_OWN * 3_f64.sqrt())
 }
 
 fn way_m(room: Room, radius_m: f64) -> f64 {

@@ -8,7 +8,9 @@ use super::layout::{self, Opening, Plot};
 use super::names::{CONTACT_COUNT, ENERGY, HEADLINE, LOG, LOG_ENERGY, TRAILS, WORLD, application};
 use super::out::{Appended, Out, Sink, times};
 use super::seen::{Between, Room, Seen, log_part};
+use super::statics::Statics;
 use crate::record::RecordError;
+use crate::record::ahead_file::AheadFile;
 use crate::record::pictures::Pictures;
 use crate::record::read::ReadBack;
 use crate::record::sample::{Event, Header};
@@ -18,12 +20,8 @@ use ::rerun::components::Radius;
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
 use ::rerun::external::re_sdk_types::blueprint::components::Corner2D;
-use ::rerun::{
-    Color, EntityPath, LineStrips3D, Points3D, RecordingStreamBuilder, TextDocument, Transform3D, ViewCoordinates,
-};
+use ::rerun::{Color, EntityPath, LineStrips3D, Points3D, StoreId, TextDocument, Transform3D, ViewCoordinates};
 use std::fmt::Write;
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
 
 /// Opacity of a ghost, of 255.
@@ -83,11 +81,9 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
     let labels: Vec<&str> = cases.iter().map(|case| case.label.as_str()).collect();
     let application = application(&format!("{differing} {}", labels.join(" ")))?;
     let ids: Vec<&str> = cases.iter().map(|case| case.header.case.as_str()).collect();
-    let (stream, memory) = RecordingStreamBuilder::new(application.clone())
-        .recording_id(format!("{} {}", ids.join(" "), first.header.build))
-        .enabled(true)
-        .memory()?;
-    let store = memory.store_id().ok_or("Rerun made no recording")?;
+    let store = StoreId::recording(application.clone(), format!("{} {}", ids.join(" "), first.header.build));
+    let mut stream = Statics::new(store.clone());
+    stream.begin()?;
     let room = drawn.iter().filter_map(Drawn::room).reduce(Room::with);
     let camera = room.and_then(|room| camera_on(&first.header, room)).map(|camera| Camera {
         // One of several bodies cannot be gone along with.
@@ -111,27 +107,27 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
         stretch_s: stretch_s(cases),
     };
 
-    stream.send_recording_name(format!("{differing}: {}", labels.join(", ")))?;
-    stream.log_static("/", &ViewCoordinates::RIGHT_HAND_Y_UP())?;
-    stream.log_static(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())?;
+    stream.name(&format!("{differing}: {}", labels.join(", ")))?;
+    stream.log("/", &ViewCoordinates::RIGHT_HAND_Y_UP())?;
+    stream.log(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())?;
     let scale = scale(&first.header);
     if scale != 1.0 {
-        stream.log_static(WORLD, &Transform3D::from_scale(scale as f32))?;
+        stream.log(WORLD, &Transform3D::from_scale(scale as f32))?;
     }
-    stream.log_static(HEADLINE, &TextDocument::from_markdown(page(differing, cases)))?;
+    stream.log(HEADLINE, &TextDocument::from_markdown(page(differing, cases)))?;
     match camera {
-        Some(camera) => ground(&first.header, camera.middle, 1.6 * camera.half_m, &stream)?,
-        None => ground(&first.header, first.header.ground.0, first.header.ground.1, &stream)?,
+        Some(camera) => ground(&first.header, camera.middle, 1.6 * camera.half_m, &mut stream)?,
+        None => ground(&first.header, first.header.ground.0, first.header.ground.1, &mut stream)?,
     }
-    walls(&first.header, &stream)?;
+    walls(&first.header, &mut stream)?;
     for case in &drawn {
-        case.styles(&stream)?;
+        case.styles(&mut stream)?;
     }
 
-    let file = BufWriter::new(File::create(path)?);
-    let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file)?;
-    let mut out = Out { store, sink: Sink::File(encoder) };
-    for message in opening.messages()?.iter().chain(&memory.take()) {
+    let file = AheadFile::create(path)?;
+    let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file.clone())?;
+    let mut out = Out { store, sink: Sink::File(encoder, file) };
+    for message in opening.messages()?.iter().chain(&stream.messages()) {
         out.sink.append(message)?;
     }
     for case in &drawn {
@@ -165,12 +161,12 @@ impl<'a> Drawn<'a> {
         EntityPath::from(of).join(&EntityPath::from_single_string(self.case.label.as_str()))
     }
 
-    fn styles(&self, stream: &::rerun::RecordingStream) -> Appended {
+    fn styles(&self, stream: &mut Statics) -> Appended {
         let GhostCase { header, label, recording } = self.case;
         if !recording.samples.bodies.is_empty() {
             for body in &header.bodies {
                 let path = self.body(&body.name);
-                stream.log_static(path.clone(), &surface(body, self.colour, self.alpha))?;
+                stream.log(path.clone(), &surface(body, self.colour, self.alpha))?;
                 if header.bodies.len() <= EDGED_BODIES {
                     details(body, &path, stream)?;
                 }
@@ -180,13 +176,13 @@ impl<'a> Drawn<'a> {
         let ways: Vec<_> = self.seen.ways().map(|(_, way)| way.to_vec()).collect();
         if !ways.is_empty() {
             let lines = LineStrips3D::new(ways).with_colors([Color::from_unmultiplied_rgba(r, g, b, 150)]);
-            stream.log_static(self.below(TRAILS), &lines.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
+            stream.log(self.below(TRAILS), &lines.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
         }
         let points = Points3D::update_fields().with_colors([color(self.colour)]);
         let points = points.with_radii([Radius::new_ui_points(POINT_RADIUS)]);
-        stream.log_static(self.below("/world/contacts"), &points)?;
+        stream.log(self.below("/world/contacts"), &points)?;
         for plot in [ENERGY, LOG_ENERGY, CONTACT_COUNT] {
-            stream.log_static(self.below(plot), &line(label, self.colour))?;
+            stream.log(self.below(plot), &line(label, self.colour))?;
         }
         Ok(())
     }

@@ -1,26 +1,25 @@
 //! Head of an .rrd, once, before the first sample: layout, names, surfaces, colours, configuration.
 
-use super::camera::{Camera, camera, scale};
+use super::camera::{Camera, camera, followed_half_m, scale};
 use super::crowd::{DrawnBodies, EDGED_BODIES};
 use super::names::{
     CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, ENERGY_UNIT, FLIGHT, FORCES, FRICTION_USE, GAINS,
-    GROUND, HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, SIM_TIME, STEP, STRETCH, TRAILS, WORLD, application,
-    energy_path,
+    GROUND, HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, STRETCH, TRAILS, WORLD, application, energy_path,
+    followed_path,
 };
+use super::out::{Appended, times};
 use super::seen::{Seen, log_part};
+use super::statics::Statics;
 use super::{headline, layout};
 use crate::record::sample::{BodyHeader, Ending, Header, cross, dot, norm};
 use crate::record::schema::{self, Rgb};
-use crate::record::story::{EnergyGain, brief, markdown};
+use crate::record::story::{brief, markdown};
 use ::rerun::components::{Radius, Scalar, Text};
 use ::rerun::log::LogMsg;
-use ::rerun::sink::MemorySinkStorage;
 use ::rerun::{
-    AnyValues, Arrows3D, Color, ComponentIdentifier, EntityPath, LineStrips3D, Mesh3D, Points3D, RecordingStream,
-    RecordingStreamBuilder, RecordingStreamResult, Scalars, SeriesLines, SeriesPoints, StoreId, TextDocument,
-    Transform3D, ViewCoordinates,
+    AnyValues, Arrows3D, Color, ComponentIdentifier, EntityPath, LineStrips3D, Mesh3D, Points3D, SeriesLines,
+    SeriesPoints, StoreId, TextDocument, Transform3D, ViewCoordinates,
 };
-use std::collections::BTreeMap;
 use std::error::Error;
 
 /// Sizes on the screen, in points, so that they are legible at any zoom.
@@ -40,6 +39,9 @@ const EDGED_TRIANGLES: usize = 4_000;
 /// Opacity of the ground, of 255: what is below it, and forces on it, should be seen.
 const GROUND_ALPHA: u8 = 70;
 
+/// Half the length of a way, in radii of its body, from which it is a bar in the picture of a camera that goes along.
+const BAR: f64 = 9.0;
+
 /// Cosine of the angle between two facets below which their edge is one of the body's.
 const SHARP: f64 = 0.94;
 
@@ -50,30 +52,32 @@ const LIGHT_EDGE_COLOUR: Rgb = [190, 205, 225];
 const LIMIT_COLOUR: Rgb = [225, 87, 89];
 const AXES_COLOURS: [Rgb; 3] = [[235, 80, 80], [100, 210, 90], [90, 140, 250]];
 
-/// Name and first messages of the recording. `bodies` are the bodies' entities.
+/// Name and first messages of the recording. `bodies` are the bodies' entities; one that is shown live has no end yet.
 ///
 /// # Errors
 /// Rerun's own.
-pub fn messages(header: &Header, bodies: &[DrawnBodies]) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
-    let (stream, memory) = stream(header)?;
-    let store = memory.store_id().ok_or("Rerun made no recording")?;
-
-    let mut messages = layout::messages(header, None)?;
-    describe(header, &stream)?;
+pub fn messages(
+    header: &Header,
+    bodies: &[DrawnBodies],
+    is_live: bool,
+) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
+    let store = store(header)?;
+    let mut stream = Statics::new(store.clone());
+    stream.begin()?;
+    describe(header, &mut stream, is_live)?;
     if header.streams.bodies {
         for DrawnBodies { path, bodies, colour } in bodies {
             let body = &header.bodies[bodies[0]];
-            stream.log_static(path.clone(), &surface(body, *colour, u8::MAX))?;
+            stream.log(path.clone(), &surface(body, *colour, u8::MAX))?;
             if header.bodies.len() <= EDGED_BODIES {
-                details(body, path, &stream)?;
+                details(body, path, &mut stream)?;
             }
         }
     }
-    walls(header, &stream)?;
-    ground(header, header.ground.0, header.ground.1, &stream)?;
-    styles(header, &stream)?;
-    messages.extend(memory.take());
-    Ok((store, messages))
+    walls(header, &mut stream)?;
+    ground(header, header.ground.0, header.ground.1, &mut stream)?;
+    styles(header, &mut stream)?;
+    Ok((store, stream.messages()))
 }
 
 /// Id of the recording, with the build in it: cases of another build have the same id, and the viewer would merge
@@ -88,8 +92,8 @@ fn recording_id(header: &Header) -> String {
 /// # Errors
 /// Rerun's own.
 pub fn ending(header: &Header, ending: &Ending, seen: &Seen) -> Result<Vec<LogMsg>, Box<dyn Error>> {
-    let (stream, memory) = stream(header)?;
-    stream.send_recording_name(header.name.ended(ending.outcome))?;
+    let mut stream = Statics::new(store(header)?);
+    stream.name(&header.name.ended(ending.outcome))?;
     let run = AnyValues::default()
         .with_component::<Text>("outcome", [ending.outcome.name()])
         .with_component::<Scalar>("end_time_s", [ending.end_time_s])
@@ -105,35 +109,35 @@ pub fn ending(header: &Header, ending: &Ending, seen: &Seen) -> Result<Vec<LogMs
         Some(x) => run.with_component::<Scalar>(column, [x]),
         None => run.with_component::<Text>(column, [schema::text(cell)]),
     });
-    stream.send_property(schema::METADATA, &run)?;
-    stream.log_static(HEADLINE, &TextDocument::from_markdown(headline::page(header, ending)))?;
+    stream.property(schema::METADATA, &run)?;
+    stream.log(HEADLINE, &TextDocument::from_markdown(headline::page(header, ending)))?;
     if let Some(flight) = &ending.flight {
-        stream.log_static(FLIGHT, &TextDocument::from_markdown(headline::flight_page(flight)))?;
+        stream.log(FLIGHT, &TextDocument::from_markdown(headline::flight_page(flight)))?;
     }
     let camera = camera(header, seen, ending.story.calm_until_s);
     if let Some(Camera { middle, half_m, .. }) = camera {
-        ground(header, middle, 1.6 * half_m, &stream)?;
+        ground(header, middle, 1.6 * half_m, &mut stream)?;
     }
-    // One that the camera goes along with would be a bar through the picture.
-    if !camera.is_some_and(|camera| camera.follows) {
-        trails(header, seen, &stream)?;
+    if camera.is_some_and(|camera| camera.follows) {
+        followed(header, &mut stream)?;
     }
-    marks(header, ending, seen, &stream)?;
-    // The recording is there already: what opens one is left out.
+    // A long one that the camera goes along with would be a bar through the picture.
+    let radius_m = header.bodies.first().map_or(0.0, |body| body.bounding_radius_m);
+    if !camera.is_some_and(|camera| camera.follows && camera.half_m > BAR * radius_m) {
+        trails(header, seen, &mut stream)?;
+    }
+    marks(header, ending, seen, &mut stream)?;
     let mut messages = layout::messages(header, Some((ending, seen, camera)))?;
-    messages.extend(memory.take().into_iter().filter(|message| matches!(message, LogMsg::ArrowMsg(..))));
+    messages.extend(stream.messages());
     Ok(messages)
 }
 
-fn stream(header: &Header) -> Result<(RecordingStream, MemorySinkStorage), Box<dyn Error>> {
-    Ok(RecordingStreamBuilder::new(application(&header.name.begun())?)
-        .recording_id(recording_id(header))
-        .enabled(true)
-        .memory()?)
+fn store(header: &Header) -> Result<StoreId, Box<dyn Error>> {
+    Ok(StoreId::recording(application(&header.name.begun())?, recording_id(header)))
 }
 
-fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
-    stream.send_recording_name(header.name.begun())?;
+fn describe(header: &Header, stream: &mut Statics, is_live: bool) -> Appended {
+    stream.name(&header.name.begun())?;
     // A path is never empty, which is all that is asked of a name.
     let named = header.axes.iter().filter_map(|(path, value)| Some((ComponentIdentifier::try_new(path).ok()?, value)));
     let axes = named.fold(AnyValues::default(), |run, (field, value)| match value.as_f64() {
@@ -148,7 +152,7 @@ fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<
         .with_component::<Text>("build", [header.build.as_str()]);
     let run = run.with_component::<Scalar>(ENERGY_UNIT, [header.energy_unit.1]);
     let run = header.step_s.into_iter().fold(run, |run, step_s| run.with_component::<Scalar>("step_s", [step_s]));
-    stream.send_property(schema::METADATA, &run)?;
+    stream.property(schema::METADATA, &run)?;
     // Longer than what a text in it may have.
     let longest = header.config_yaml.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let fence = "`".repeat(3.max(longest + 1));
@@ -159,13 +163,13 @@ fn describe(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<
         header.build,
         header.config_yaml.trim_end()
     );
-    stream.log_static(CONFIG, &TextDocument::from_markdown(page))?;
-    stream.log_static(HEADLINE, &TextDocument::from_markdown(headline::begun(header)))?;
-    stream.log_static("/", &ViewCoordinates::RIGHT_HAND_Y_UP())?;
-    stream.log_static(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())?;
+    stream.log(CONFIG, &TextDocument::from_markdown(page))?;
+    stream.log(HEADLINE, &TextDocument::from_markdown(headline::begun(header, is_live)))?;
+    stream.log("/", &ViewCoordinates::RIGHT_HAND_Y_UP())?;
+    stream.log(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())?;
     let scale = scale(header);
     if scale != 1.0 {
-        stream.log_static(WORLD, &Transform3D::from_scale(scale as f32))?;
+        stream.log(WORLD, &Transform3D::from_scale(scale as f32))?;
     }
     Ok(())
 }
@@ -219,7 +223,7 @@ fn corners_and_normal(body: &BodyHeader, triangle: &[u32; 3]) -> Option<([[f64; 
 }
 
 /// What makes a turn visible: edges, nodes that touch, places on pins, and of a body without a shape its axes.
-pub fn details(body: &BodyHeader, path: &EntityPath, stream: &RecordingStream) -> RecordingStreamResult<()> {
+pub fn details(body: &BodyHeader, path: &EntityPath, stream: &mut Statics) -> Appended {
     let below = |name: &str| path.join(&EntityPath::from_single_string(name));
     let strips = if body.triangles.len() <= EDGED_TRIANGLES { edges(body) } else { Vec::new() };
     if !strips.is_empty() {
@@ -228,21 +232,21 @@ pub fn details(body: &BodyHeader, path: &EntityPath, stream: &RecordingStream) -
         let lines =
             LineStrips3D::new(strips.iter().map(|strip| strip.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>()));
         let lines = lines.with_colors([color(edge_colour)]).with_radii([Radius::new_ui_points(EDGE_RADIUS)]);
-        stream.log_static(below("edges"), &lines)?;
+        stream.log(below("edges"), &lines)?;
     }
     if body.touches_with_nodes {
         let nodes = Points3D::new(body.vertices_m.iter().map(|p| p.map(|x| x as f32)));
         let nodes = nodes.with_colors([color(EDGE_COLOUR)]).with_radii([Radius::new_ui_points(NODE_RADIUS)]);
-        stream.log_static(below("nodes"), &nodes)?;
+        stream.log(below("nodes"), &nodes)?;
     }
     if !body.pins_m.is_empty() {
         let arms = LineStrips3D::new(body.pins_m.iter().map(|p| vec![[0.0f32; 3], p.map(|x| x as f32)]));
         let arms = arms.with_colors([color(schema::CONTAINER_COLOUR)]).with_radii([Radius::new_ui_points(LINE_RADIUS)]);
-        stream.log_static(below("arms"), &arms)?;
+        stream.log(below("arms"), &arms)?;
         let pins = Points3D::new(body.pins_m.iter().map(|p| p.map(|x| x as f32)));
         let pins =
             pins.with_colors([color(schema::CONTAINER_COLOUR)]).with_radii([Radius::new_ui_points(POINT_RADIUS)]);
-        stream.log_static(below("pins"), &pins)?;
+        stream.log(below("pins"), &pins)?;
     }
     if body.has_no_shape {
         let axis = |i: usize| {
@@ -250,35 +254,44 @@ pub fn details(body: &BodyHeader, path: &EntityPath, stream: &RecordingStream) -
             std::array::from_fn::<f32, 3, _>(|k| if k == i { (1.4 * reach_m) as f32 } else { 0.0 })
         };
         let axes = Arrows3D::from_vectors([0, 1, 2].map(axis)).with_colors(AXES_COLOURS.map(color));
-        stream.log_static(below("axes"), &axes.with_radii([Radius::new_ui_points(ARROW_RADIUS)]))?;
+        stream.log(below("axes"), &axes.with_radii([Radius::new_ui_points(ARROW_RADIUS)]))?;
     }
     Ok(())
 }
 
-/// Edges of a mesh by their ends, with the normals of the facets that meet there.
-type Edges = BTreeMap<[[u64; 3]; 2], ([[f64; 3]; 2], Vec<[f64; 3]>)>;
+/// An edge of a mesh: its ends, and the normals of the facets that meet there.
+struct Edge {
+    ends: [[f64; 3]; 2],
+    normals: Vec<[f64; 3]>,
+}
 
-fn all_edges(body: &BodyHeader) -> Edges {
+/// Every edge once, in an order that goes by places alone.
+fn all_edges(body: &BodyHeader) -> Vec<Edge> {
     let place = |p: [f64; 3]| p.map(|x| if x == 0.0 { 0 } else { x.to_bits() });
-    // Facets may have corners of their own at the same place.
-    let mut facets = Edges::new();
+    let mut sides = Vec::with_capacity(3 * body.triangles.len());
     for triangle in &body.triangles {
         let Some((corners, normal)) = corners_and_normal(body, triangle) else { continue };
         let length = norm(normal);
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
             let mut ends = [place(corners[a]), place(corners[b])];
             ends.sort_unstable();
-            let at = facets.entry(ends).or_insert_with(|| ([corners[a], corners[b]], Vec::new()));
-            at.1.push(normal.map(|x| x / length));
+            sides.push((ends, [corners[a], corners[b]], normal.map(|x| x / length)));
         }
     }
-    facets
+    // Facets may have corners of their own at the same place. (Stable: the first of its sides gives an edge its ends.)
+    sides.sort_by_key(|(places, ..)| *places);
+    let edges = sides.chunk_by(|a, b| a.0 == b.0);
+    edges.map(|same| Edge { ends: same[0].1, normals: same.iter().map(|side| side.2).collect() }).collect()
 }
 
 fn sharp_edges(body: &BodyHeader) -> Vec<Vec<[f64; 3]>> {
+    // What has no shape is drawn as an ellipsoid.
+    if body.has_no_shape {
+        return Vec::new();
+    }
     let is_sharp = |normals: &[[f64; 3]]| !matches!(normals, [a, b] if dot(*a, *b) > SHARP);
-    let edges = all_edges(body).into_values();
-    edges.filter(|(_, normals)| is_sharp(normals)).map(|(ends, _)| ends.to_vec()).collect()
+    let edges = all_edges(body).into_iter();
+    edges.filter(|edge| is_sharp(&edge.normals)).map(|edge| edge.ends.to_vec()).collect()
 }
 
 /// Lines on a body: of a mesh its squares, of another one the sharp edges, of a round one its three great circles.
@@ -291,8 +304,8 @@ fn edges(body: &BodyHeader) -> Vec<Vec<[f64; 3]>> {
             let oblique = along.iter().filter(|x| x.abs() > 1e-9 * norm(along)).count() > 1;
             oblique && matches!(normals, [a, b] if dot(*a, *b) > FLAT)
         };
-        let edges = all_edges(body).into_values();
-        return edges.filter(|(ends, normals)| !is_diagonal(*ends, normals)).map(|(ends, _)| ends.to_vec()).collect();
+        let edges = all_edges(body).into_iter();
+        return edges.filter(|edge| !is_diagonal(edge.ends, &edge.normals)).map(|edge| edge.ends.to_vec()).collect();
     }
     let sharp = sharp_edges(body);
     if sharp.is_empty() { great_circles(body) } else { sharp }
@@ -329,11 +342,11 @@ fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 /// The edges of a container of box form.
-pub fn walls(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
+pub fn walls(header: &Header, stream: &mut Statics) -> Appended {
     if header.container_strips_m.is_empty() {
         return Ok(());
     }
-    stream.log_static(CONTAINER, &container(header))
+    stream.log(CONTAINER, &container(header))
 }
 
 fn container(header: &Header) -> LineStrips3D {
@@ -345,7 +358,7 @@ fn container(header: &Header) -> LineStrips3D {
 }
 
 /// The ground: a box's floor, squares of planes about the middle of the motion.
-pub fn ground(header: &Header, middle: [f64; 3], half_m: f64, stream: &RecordingStream) -> RecordingStreamResult<()> {
+pub fn ground(header: &Header, middle: [f64; 3], half_m: f64, stream: &mut Statics) -> Appended {
     let squares: Vec<[[f64; 3]; 4]> = match header.container_box_m() {
         Some((low, high)) => {
             let corner = |x: f64, z: f64| [x, low[1], z];
@@ -359,42 +372,45 @@ pub fn ground(header: &Header, middle: [f64; 3], half_m: f64, stream: &Recording
     let corners = squares.iter().flat_map(|square| [0, 1, 2, 0, 2, 3].map(|i: usize| square[i].map(|x| x as f32)));
     let [r, g, b] = GROUND_COLOUR;
     let mesh = Mesh3D::new(corners).with_albedo_factor(*Color::from_unmultiplied_rgba(r, g, b, GROUND_ALPHA));
-    stream.log_static(GROUND, &mesh)?;
+    stream.log(GROUND, &mesh)?;
     if header.container_strips_m.is_empty() {
         let border = |square: &[[f64; 3]; 4]| [0, 1, 2, 3, 0].map(|i: usize| square[i].map(|x| x as f32)).to_vec();
         let lines = LineStrips3D::new(squares.iter().map(border)).with_colors([color(schema::CONTAINER_COLOUR)]);
-        stream.log_static(CONTAINER, &lines.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
+        stream.log(CONTAINER, &lines.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
     }
     Ok(())
 }
 
+/// A cube about the body that the camera goes along with, by two corners of it: nothing is drawn of a triangle without
+/// area.
+fn followed(header: &Header, stream: &mut Statics) -> Appended {
+    let Some(body) = header.bodies.first() else { return Ok(()) };
+    let half_m = followed_half_m(body.bounding_radius_m) as f32;
+    let corners = [-half_m, half_m].into_iter().flat_map(|x| [[x; 3]; 3]);
+    stream.log(followed_path(&body.name), &Mesh3D::new(corners))
+}
+
 /// The ways of the bodies, each in its body's colour.
-fn trails(header: &Header, seen: &Seen, stream: &RecordingStream) -> RecordingStreamResult<()> {
+fn trails(header: &Header, seen: &Seen, stream: &mut Statics) -> Appended {
     for (i, way) in seen.ways().filter(|_| header.streams.bodies) {
         let [r, g, b] = schema::BODY_COLOURS[i % schema::BODY_COLOURS.len()];
         let line = LineStrips3D::new([way.to_vec()]).with_colors([Color::from_unmultiplied_rgba(r, g, b, 140)]);
         let path = EntityPath::from(TRAILS).join(&EntityPath::from_single_string(&*header.bodies[i].name));
-        stream.log_static(path, &line.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
+        stream.log(path, &line.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
     }
     Ok(())
 }
 
 /// Marks on the plots of energy: the limit of divergence, the steps that gained energy.
-fn marks(header: &Header, ending: &Ending, seen: &Seen, stream: &RecordingStream) -> Result<(), Box<dyn Error>> {
+fn marks(header: &Header, ending: &Ending, seen: &Seen, stream: &mut Statics) -> Result<(), Box<dyn Error>> {
     if !header.streams.energy || seen.energy_j.is_empty() {
         return Ok(());
     }
-    let at = |step: u64, time_s: f64| {
-        stream.set_duration_secs(SIM_TIME, time_s);
-        stream.set_time_sequence(STEP, i64::try_from(step).unwrap_or(i64::MAX));
-    };
     let start_j = ending.story.start_j;
     if let Some(factor) = header.energy_factor.filter(|_| !seen.log_energy.is_empty()) {
-        stream.log_static(LIMIT, &line(&format!("diverged: × {}", brief(factor)), LIMIT_COLOUR))?;
-        for (step, time_s) in [(0, 0.0), (ending.steps, ending.end_time_s)] {
-            at(step, time_s);
-            stream.log(LIMIT, &Scalars::single(libm::log10(factor)))?;
-        }
+        stream.log(LIMIT, &line(&format!("diverged: × {}", brief(factor)), LIMIT_COLOUR))?;
+        let ends = times(&[0, ending.steps], &[0.0, ending.end_time_s]);
+        stream.series(LIMIT, &ends, &[libm::log10(factor); 2])?;
     }
     if ending.story.gains.is_empty() {
         return Ok(());
@@ -403,38 +419,40 @@ fn marks(header: &Header, ending: &Ending, seen: &Seen, stream: &RecordingStream
         let points = SeriesPoints::new().with_colors([color(LIMIT_COLOUR)]).with_names(["steps that gain energy"]);
         points.with_marker_sizes([MARK_SIZE])
     };
-    stream.log_static(GAINS, &style())?;
-    stream.log_static(LOG_GAINS, &style())?;
-    for EnergyGain { step, time_s, after_j, .. } in &ending.story.gains {
-        at(*step, *time_s);
-        stream.log(GAINS, &Scalars::single(*after_j / header.energy_unit.1))?;
-        if let Some(part) = log_part(*after_j, Some(start_j)).filter(|_| start_j > 0.0) {
-            stream.log(LOG_GAINS, &Scalars::single(part))?;
-        }
-    }
-    Ok(())
+    stream.log(GAINS, &style())?;
+    stream.log(LOG_GAINS, &style())?;
+    let gains = &ending.story.gains;
+    let series = |stream: &mut Statics, path: &'static str, value: &dyn Fn(f64) -> Option<f64>| {
+        let valued = || gains.iter().filter_map(|gain| Some((gain, value(gain.after_j)?)));
+        let steps: Vec<u64> = valued().map(|(gain, _)| gain.step).collect();
+        let times_s: Vec<f64> = valued().map(|(gain, _)| gain.time_s).collect();
+        let values: Vec<f64> = valued().map(|(_, value)| value).collect();
+        if values.is_empty() { Ok(()) } else { stream.series(path, &times(&steps, &times_s), &values) }
+    };
+    series(stream, GAINS, &|after_j| Some(after_j / header.energy_unit.1))?;
+    series(stream, LOG_GAINS, &|after_j| log_part(after_j, Some(start_j)).filter(|_| start_j > 0.0))
 }
 
 /// Colours, sizes and names of what follows sample by sample.
-fn styles(header: &Header, stream: &RecordingStream) -> RecordingStreamResult<()> {
+fn styles(header: &Header, stream: &mut Statics) -> Appended {
     let streams = header.streams;
     if streams.contacts {
-        stream.log_static(CONTACTS, &Points3D::update_fields().with_radii([Radius::new_ui_points(POINT_RADIUS)]))?;
-        stream.log_static(CONTACT_COUNT, &line("contacts", schema::CONTAINER_COLOUR))?;
+        stream.log(CONTACTS, &Points3D::update_fields().with_radii([Radius::new_ui_points(POINT_RADIUS)]))?;
+        stream.log(CONTACT_COUNT, &line("contacts", schema::CONTAINER_COLOUR))?;
     }
     if streams.forces {
         let style = Arrows3D::update_fields().with_colors([color(schema::FORCE_COLOUR)]);
-        stream.log_static(FORCES, &style.with_radii([Radius::new_ui_points(ARROW_RADIUS)]))?;
-        stream.log_static(CONTACT_FORCE, &line("sum of |force| [N]", schema::FORCE_COLOUR))?;
+        stream.log(FORCES, &style.with_radii([Radius::new_ui_points(ARROW_RADIUS)]))?;
+        stream.log(CONTACT_FORCE, &line("sum of |force| [N]", schema::FORCE_COLOUR))?;
         let sliding = schema::mode_colour(crate::record::sample::ContactMode::Sliding);
-        stream.log_static(FRICTION_USE, &line("largest |f_t| / μ f_n", sliding))?;
+        stream.log(FRICTION_USE, &line("largest |f_t| / μ f_n", sliding))?;
     }
     if streams.energy {
         for series in &schema::ENERGY_SERIES {
             let unit = if series.is_length() { "m" } else { header.energy_unit.0 };
-            stream.log_static(energy_path(series), &line(&format!("{} [{unit}]", series.name), series.colour))?;
+            stream.log(energy_path(series), &line(&format!("{} [{unit}]", series.name), series.colour))?;
         }
-        stream.log_static(LOG_ENERGY_TOTAL, &line("log₁₀ E / E₀", schema::BODY_COLOURS[1]))?;
+        stream.log(LOG_ENERGY_TOTAL, &line("log₁₀ E / E₀", schema::BODY_COLOURS[1]))?;
     }
     Ok(())
 }

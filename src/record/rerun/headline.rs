@@ -29,12 +29,14 @@ const GROWN: f64 = 10.0;
 const MOST_SHOWN: usize = 24;
 const MOST_ROWS: usize = 12;
 
-/// Page of a recording that was cut before its end.
-pub fn begun(header: &Header) -> String {
-    format!(
-        "# Not finished\n\nThe run, or its recording, was cut: nothing is known about its end here.\n\n{}",
-        asked(header, None)
-    )
+/// Page of a recording before its end: one that was cut, or one that is shown while its run goes on.
+pub fn begun(header: &Header, is_live: bool) -> String {
+    let (title, said) = if is_live {
+        ("Not finished yet", "The run goes on; this page says how it ended when it has.")
+    } else {
+        ("Not finished", "The run, or its recording, was cut: nothing is known about its end here.")
+    };
+    format!("# {title}\n\n{said}\n\n{}", asked(header, None))
 }
 
 /// Page of a run that has ended.

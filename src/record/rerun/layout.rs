@@ -6,9 +6,10 @@
 use super::camera::{Camera, rounded, scale, spacing_m};
 use super::names::{
     CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FLIGHT, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION,
-    SIM_TIME, application, body_path,
+    SIM_TIME, application, followed_path,
 };
 use super::seen::{Between, Seen};
+use super::statics::Statics;
 use crate::record::sample::{Ending, Header, norm};
 use crate::record::schema;
 use ::rerun::blueprint::{
@@ -151,15 +152,11 @@ impl Properties {
 
     /// Messages of the layout's store.
     fn messages(&self, store: &StoreId) -> Result<Vec<LogMsg>, Box<dyn Error>> {
-        let builder = RecordingStreamBuilder::from_store_id(store).enabled(true).send_properties(false);
-        let (stream, memory) = builder.memory()?;
-        stream.set_time_sequence("blueprint", 0);
+        let mut stream = Statics::of_layout(store.clone());
         for (path, value) in &self.0 {
             stream.log(path.as_str(), value.as_ref())?;
         }
-        let mut messages = memory.take();
-        messages.retain(|message| matches!(message, LogMsg::ArrowMsg(..)));
-        Ok(messages)
+        Ok(stream.messages())
     }
 }
 
@@ -307,7 +304,7 @@ pub fn eye(header: &Header, camera: Option<Camera>) -> Option<EyeControls3D> {
         let eye = EyeControls3D::new().with_position(drawn(camera.position)).with_look_target(drawn(camera.target));
         let eye = eye.with_eye_up([0.0, 1.0, 0.0]);
         return Some(match header.bodies.first().filter(|_| camera.follows) {
-            Some(body) => eye.with_tracking_entity(body_path(&body.name).to_string()),
+            Some(body) => eye.with_tracking_entity(followed_path(&body.name).to_string()),
             None => eye,
         });
     }

@@ -57,6 +57,11 @@ pub fn energy_path(series: &Series) -> EntityPath {
     if series.is_length() { PENETRATION.into() } else { format!("{ENERGY}/{}", series.name).into() }
 }
 
+/// What the viewer goes along with: a cube about a body, of which nothing is seen.
+pub fn followed_path(name: &str) -> EntityPath {
+    body_path(name).join(&EntityPath::from_single_string("about"))
+}
+
 /// A body's name is one part of the path, whatever characters it has.
 pub fn body_path(name: &str) -> EntityPath {
     EntityPath::from(BODIES).join(&EntityPath::from_single_string(name))

@@ -3,28 +3,30 @@
 use super::headline::level;
 use super::live::Live;
 use super::names::{LOG, SIM_TIME, STEP};
+use crate::record::ahead_file::AheadFile;
 use crate::record::sample::Event;
 use crate::record::schema;
 use ::rerun::external::re_log_encoding::Encoder;
 use ::rerun::log::{Chunk, ChunkId, LogMsg};
 use ::rerun::{EntityPath, Scalars, SerializedComponentColumn, StoreId, TextLog, TimeColumn};
 use std::error::Error;
-use std::fs::File;
-use std::io::BufWriter;
 
 /// Result of a write. Rerun's errors come from five crates; all end as the reason of a `RecordError`.
 pub type Appended = Result<(), Box<dyn Error>>;
 
 /// Where messages go: into a file, or to a viewer.
 pub enum Sink {
-    File(Encoder<BufWriter<File>>),
+    File(Encoder<AheadFile>, AheadFile),
     Viewer(Live),
+    /// Into memory, to stand ahead in a file.
+    Ahead(Encoder<Vec<u8>>),
 }
 
 impl Sink {
     pub fn append(&mut self, message: &LogMsg) -> Appended {
         match self {
-            Sink::File(encoder) => drop(encoder.append(message)?),
+            Sink::File(encoder, _) => drop(encoder.append(message)?),
+            Sink::Ahead(encoder) => drop(encoder.append(message)?),
             Sink::Viewer(viewer) => viewer.send(message),
         }
         Ok(())
@@ -32,15 +34,24 @@ impl Sink {
 
     pub fn flush(&mut self) -> Appended {
         match self {
-            Sink::File(encoder) => encoder.flush_blocking()?,
+            Sink::File(encoder, _) => encoder.flush_blocking()?,
+            Sink::Ahead(_) => {}
             Sink::Viewer(viewer) => viewer.flush(),
         }
         Ok(())
     }
 
+    /// Bytes that are due and written; 0 of what is no file.
+    pub fn whole(&self) -> u64 {
+        match self {
+            Sink::File(_, file) => file.whole(),
+            Sink::Viewer(_) | Sink::Ahead(_) => 0,
+        }
+    }
+
     /// The end of a file; a viewer needs none.
     pub fn finish(&mut self) -> Appended {
-        if let Sink::File(encoder) = self {
+        if let Sink::File(encoder, _) = self {
             encoder.finish()?;
         }
         self.flush()
@@ -54,6 +65,27 @@ pub struct Out {
 }
 
 impl Out {
+    /// Lets all that follows stand ahead in the file, up to `end_ahead`, which takes what is given back; None of what
+    /// is no file.
+    pub fn begin_ahead(&mut self) -> Result<Option<Sink>, Box<dyn Error>> {
+        if !matches!(self.sink, Sink::File(..)) {
+            return Ok(None);
+        }
+        let mut encoder = Encoder::local()?;
+        encoder.do_not_emit_footer();
+        Ok(Some(std::mem::replace(&mut self.sink, Sink::Ahead(encoder))))
+    }
+
+    pub fn end_ahead(&mut self, due: Sink) -> Appended {
+        let ahead = std::mem::replace(&mut self.sink, due);
+        if let (Sink::Ahead(encoder), Sink::File(_, file)) = (ahead, &self.sink) {
+            let bytes = encoder.into_inner()?;
+            let head = Encoder::local()?.into_inner()?.len();
+            file.ahead(bytes.get(head..).unwrap_or_default())?;
+        }
+        Ok(())
+    }
+
     /// A batch of one entity: as many rows as there are times.
     pub fn columns(
         &mut self,
@@ -61,10 +93,7 @@ impl Out {
         times: &Times,
         columns: impl Iterator<Item = SerializedComponentColumn>,
     ) -> Appended {
-        let timelines = times.iter().map(|column| (*column.timeline().name(), column.clone())).collect();
-        let components = columns.map(|column| (column.descriptor, column.list_array)).collect();
-        let chunk = Chunk::from_auto_row_ids(ChunkId::new(), path, timelines, components)?;
-        self.sink.append(&LogMsg::ArrowMsg(self.store.clone(), chunk.to_arrow_msg()?))
+        self.sink.append(&chunk(&self.store, path, times, columns)?)
     }
 
     pub fn scalars(&mut self, path: EntityPath, times: &Times, values: impl Iterator<Item = f64>) -> Appended {
@@ -87,6 +116,22 @@ impl Out {
             .with_many_level(events.iter().map(|event| level(event.severity)));
         self.columns(path, &times(&column(|event| event.step), &times_s), text.columns_of_unit_batches()?)
     }
+}
+
+/// A chunk of one entity, with as many rows as there are times.
+///
+/// # Errors
+/// Rerun's own.
+pub fn chunk(
+    store: &StoreId,
+    path: EntityPath,
+    times: &Times,
+    columns: impl Iterator<Item = SerializedComponentColumn>,
+) -> Result<LogMsg, Box<dyn Error>> {
+    let timelines = times.iter().map(|column| (*column.timeline().name(), column.clone())).collect();
+    let components = columns.map(|column| (column.descriptor, column.list_array)).collect();
+    let chunk = Chunk::from_auto_row_ids(ChunkId::new(), path, timelines, components)?;
+    Ok(LogMsg::ArrowMsg(store.clone(), chunk.to_arrow_msg()?))
 }
 
 /// The two timelines of a batch.

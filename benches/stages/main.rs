@@ -16,6 +16,10 @@ use gotai::experiment::ExperimentFile;
 use gotai::experiment::types::{Cone, Correction, Experiment, Iteration, Limits, Local, Order, Solver};
 use gotai::measure::Judge;
 use gotai::model::{Model, pose_of_solid};
+use gotai::record::Recorder;
+use gotai::record::mcap::McapRecorder;
+use gotai::record::rerun::RerunRecorder;
+use gotai::record::sample::{Batch, ContactSample};
 use gotai::record::writer::Target;
 use gotai::run::advance::{Advance, only_step};
 use gotai::scene::build;
@@ -34,6 +38,11 @@ use gotai::work::Work;
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
+
+mod raw;
+#[allow(dead_code, reason = "of what the tests record, a part")]
+#[path = "../../tests/record/synthetic.rs"]
+mod synthetic;
 
 fn main() {
     divan::main();
@@ -311,4 +320,53 @@ fn recording(bencher: Bencher, to: &str) {
         let place = Place { references: None, recording: planned.recording(&dir, targets) };
         study::measure(&planned.case.experiment, &model, start.clone(), &place).recorded.is_ok()
     });
+}
+
+const SAMPLES: u64 = 20_000;
+
+/// Samples of one body with eight contacts, in batches as full ones are.
+fn batches() -> Vec<Batch> {
+    let batch = |from: u64| {
+        let mut batch = Batch::default();
+        for i in from..from + 1000 {
+            let all = synthetic::ALL;
+            synthetic::push(&mut batch, i, all);
+            let lowest = synthetic::body(i).position_m;
+            batch.contacts.truncate(batch.contacts.len() - batch.contacts_len.pop().unwrap() as usize);
+            batch.contacts_len.push(8);
+            batch.contacts.extend((0..8).map(|k| ContactSample {
+                body: 0,
+                other: None,
+                point_m: lowest.map(|x| x + 0.1 * f64::from(k)),
+                normal: [0.0, 1.0, 0.0],
+                force_n: [lowest[1], 9.8 + 0.01 * i as f64, f64::from(k)],
+                gap_m: -1e-4 * lowest[1],
+                friction_use: 0.5,
+                mode: Default::default(),
+            }));
+        }
+        batch
+    };
+    (0..SAMPLES).step_by(1000).map(batch).collect()
+}
+
+/// One body and eight contacts at every step, into both kinds of file: by their libraries alone, and by this program.
+#[divan::bench(args = ["raw mcap", "mcap", "raw rerun", "rerun"], sample_count = 10)]
+fn files(bencher: Bencher, by: &str) {
+    let batches = batches();
+    let dir = folder("files");
+    let header = synthetic::header(synthetic::ALL);
+    bencher.counter(ItemsCount::new(SAMPLES)).bench_local(|| match by {
+        "raw mcap" => raw::mcap(&dir.join("raw.mcap"), &batches),
+        "raw rerun" => raw::rerun(&dir.join("raw.rrd"), &batches),
+        "mcap" => written(Box::new(McapRecorder::create(&dir.join("a.mcap"), &header).unwrap()), &batches),
+        _ => written(Box::new(RerunRecorder::create(&dir.join("a.rrd"), &header).unwrap()), &batches),
+    });
+}
+
+fn written(mut file: Box<dyn Recorder>, batches: &[Batch]) {
+    for batch in batches {
+        file.write(batch).unwrap();
+    }
+    file.finish(&synthetic::ending()).unwrap();
 }

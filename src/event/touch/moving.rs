@@ -20,6 +20,9 @@ const BORDER: f64 = 2e-9;
 /// Of the smaller body's size: so near to it, what is round and has come over a border is on the edge there.
 const ON_EDGE: f64 = 1e-8;
 
+/// The same: parts whose gap differs by more from the one that was found are others.
+const ELSEWHERE: f64 = 1e-6;
+
 /// What meets what.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Touch {
@@ -73,7 +76,8 @@ impl Touch {
             }
         }
         touch.slack_m = (touch.inside_m(state) >= -slack_m).then_some(slack_m);
-        Some(touch)
+        let off_m = (touch.here(state).contact.gap_m - found.gap_m).abs();
+        (off_m <= ELSEWHERE * sizes_m().fold(f64::INFINITY, f64::min)).then_some(touch)
     }
 
     /// It may come to a border.

@@ -136,7 +136,7 @@ def faults(rows, names, smallest_m):
     ended = [row.get("outcome") == "finished" for row in rows]
     found = [] if all(ended) else ["does not end"]
     if all(ended):
-        sensitivity = max(1, *(row["sensitivity"] or 1 for row in rows))
+        sensitivity = max(1, *(row.get("sensitivity") or 1 for row in rows))
         apart_m = max(abs(rows[0][f"{n}.position_m.{k}"] - rows[1][f"{n}.position_m.{k}"]) for n in names for k in "xyz")
         if apart_m > 10 * sensitivity * TOLERANCES[0]:
             found.append("depends on the tolerance")
@@ -168,7 +168,13 @@ def main():
         def judge(k):
             text, what, names, smallest_m = of(k)
             rows = [row(gotai, text, Path(folder) / f"{k} {t:g}", t) for t in TOLERANCES]
-            return k, what, faults(rows, names, smallest_m), rows
+            found = faults(rows, names, smallest_m)
+            if "depends on the tolerance" in found:
+                # The growth of errors costs three more runs: only where it may excuse something.
+                asked = text.replace("measure: [state]", "measure: [state, sensitivity]")
+                rows[0] = row(gotai, asked, Path(folder) / f"{k} again", TOLERANCES[0])
+                found = faults(rows, names, smallest_m)
+            return k, what, found, rows
 
         kinds, wrong, fallbacks, ghosts = {}, 0, 0, 0
         with ThreadPoolExecutor(os.cpu_count()) as pool:

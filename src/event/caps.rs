@@ -7,8 +7,9 @@
 //! whichever else would sink: a cap that tips does so over one point, in the direction of its tilt. A rim that falls
 //! flat goes on about its last point, up to the moment when the cap is flat; then all of it strikes.
 
+use super::flush::{is_one_base, seat};
 use super::forces::{Held, NO_SLIP, meeting_m_s};
-use super::shown::{ROLLS, shown};
+use super::shown::{ROLLS, face_toward, shown};
 use super::touch::{Standing, Touch};
 use crate::collide::Contact;
 use crate::collide::closed::{SOME, delta_m};
@@ -163,10 +164,11 @@ pub fn level_found(model: &Model, state: &mut State, found: &[Contact]) -> bool 
         };
         let Some(normal) = normal else { continue };
         let tilt = cap.lean_W(&state.bodies[of], &normal).norm();
-        let closed = || found.iter().filter(|other| is_same_cap(contact, other)).count();
+        let closed = || found.iter().filter(|other| is_same_cap(model, state, [contact, *other])).count();
         if (LEVEL..=FLAT).contains(&tilt) || ((FLAT..=ROLLS).contains(&tilt) && closed() >= 4) {
-            let gaps_m = found.iter().filter(|other| is_same_cap(contact, other)).map(|contact| contact.gap_m);
-            cap.level(&mut state.bodies[of], &normal, gaps_m.fold(f64::INFINITY, f64::min));
+            let own = found.iter().filter(|other| is_same_cap(model, state, [contact, *other]));
+            let lowest_m = own.map(|contact| contact.gap_m).fold(f64::INFINITY, f64::min);
+            cap.level(&mut state.bodies[of], &normal, lowest_m);
             moved = true;
         }
     }
@@ -242,15 +244,23 @@ fn rim_side(feature: (u32, u32)) -> Option<u32> {
     }
 }
 
-fn is_same_cap(a: &Contact, b: &Contact) -> bool {
+/// Whether two contacts are points of one cap, on one plane.
+fn is_same_cap(model: &Model, state: &State, contacts: [&Contact; 2]) -> bool {
     let of = |contact: &Contact| {
-        let part = match contact.other {
-            None => (contact.feature.0, Some(contact.feature.1 % POINTS / 4)),
-            Some(_) => (0, rim_side(contact.feature)),
+        let Some(other) = contact.other else {
+            return (contact.body, None, (contact.feature.0, Some(contact.feature.1 % POINTS / 4)));
         };
-        (contact.body, contact.other, part)
+        match rim_side(contact.feature) {
+            Some(1) => (other, Some(contact.body), (0, Some(1))),
+            side => (contact.body, Some(other), (0, side.map(|_| 1))),
+        }
     };
-    of(a) == of(b)
+    let [(top_a, base_a, part_a), (top_b, base_b, part_b)] = contacts.map(of);
+    let is_one_base = match (base_a, base_b) {
+        (Some(a), Some(b)) => is_one_base(model, state, [a, b]),
+        (a, b) => a == b,
+    };
+    top_a == top_b && part_a == part_b && is_one_base
 }
 
 /// Calls `visit` for all that touches, cap by cap: where its contacts begin and end, and what it stands on; none, if
@@ -264,7 +274,7 @@ fn each_cap(
     let mut from = 0;
     while from < found.len() {
         let first = found[from];
-        let len = found[from..].iter().take_while(|other| is_same_cap(&first, other)).count();
+        let len = found[from..].iter().take_while(|other| is_same_cap(model, state, [&first, *other])).count();
         if let Some(footing) = Footing::of(model, state, &first)
             && len >= 4
             && visit(found, from..from + len, &footing)
@@ -290,9 +300,11 @@ pub fn turn(model: &Model, state: &State, found: &mut Vec<Contact>) {
         let most = |of: fn(&Contact) -> f64| found[group.clone()].iter().map(of).fold(0.0, f64::max);
         let restitution = most(|contact| contact.restitution);
         let tangential_restitution = most(|contact| contact.tangential_restitution);
+        let before = found[group.clone()].to_vec();
         for ((contact, u_B), node) in found[group].iter_mut().zip(rim_directions(&along_B)).zip(0..) {
             let like = Contact { restitution, tangential_restitution, ..first };
             *contact = footing.point(state, &like, &u_B, node);
+            seat(model, state, contact, &before);
         }
         false
     });
@@ -388,8 +400,14 @@ impl Sinking {
             let d_B = at.q_WB.inverse_transform_vector(&descent);
             let angle_rad = self.search(&first, footing).tried(libm::atan2(d_B.x, d_B.z));
             let u_B = Vector3::new(libm::sin(angle_rad), 0.0, libm::cos(angle_rad));
-            let point = footing.point(state, &first, &u_B, POINTS);
-            match found[group.clone()].iter().position(|contact| contact.feature == point.feature) {
+            let mut point = footing.point(state, &first, &u_B, POINTS);
+            seat(model, state, &mut point, &found[group.clone()]);
+            let own = |contact: &Contact| contact.feature.0.max(contact.feature.1);
+            let is_it = |contact: &Contact| match point.other {
+                None => contact.feature == point.feature,
+                Some(_) => own(contact) == own(&point),
+            };
+            match found[group.clone()].iter().position(is_it) {
                 Some(k) => found[group.start + k] = point,
                 None => found.insert(group.end, point),
             }
@@ -424,6 +442,17 @@ const NEARLY: f64 = 0.2;
 /// Part of a tilt that is sure to be left while the bound of the curvature is used.
 const KEPT: f64 = 0.5;
 
+/// Whether a body may have a face across a direction from it, on which a rim could come down.
+fn is_flat_toward(body: &Body, at: &BodyState, out: &Vector3<f64>) -> bool {
+    match body.solid() {
+        Some((Solid::Box { .. } | Solid::Convex(_), _)) => {
+            face_toward(body, &at.q_WB.inverse_transform_vector(out)).is_some()
+        }
+        Some((Solid::Cylinder { .. }, _)) => true,
+        Some((Solid::Sphere { .. } | Solid::Capsule { .. } | Solid::Ellipsoid { .. }, _)) | None => false,
+    }
+}
+
 /// Of two bodies that touch so, and turn no faster than this against each other. None: no cap does.
 pub fn rolling(
     bodies: [&Body; 2],
@@ -435,7 +464,9 @@ pub fn rolling(
         let normal = if k == 0 { touch.normal } else { -touch.normal };
         let cap = Cap::facing(bodies[k], &at[k], &normal)?;
         let tilt = cap.lean_W(&at[k], &normal).norm();
-        (tilt <= NEARLY).then_some((cap, normal, tilt))
+        // A cap along its own normal has all its points among those of the contact test.
+        let may_roll = tilt > FLAT || is_flat_toward(bodies[1 - k], &at[1 - k], &normal);
+        (tilt <= NEARLY && may_roll).then_some((cap, normal, tilt))
     };
     let caps = [0, 1].map(of);
     let there = || caps.iter().enumerate().filter_map(|(k, of)| Some((k, of.as_ref()?)));
@@ -499,12 +530,14 @@ impl Rim {
         Some(Rim { cap, standing })
     }
 
-    fn is_same(&self, own: &Touch, other: &Rim, touch: &Touch) -> bool {
-        let of = |touch: &Touch| {
-            let (body, other, feature) = touch.key();
-            (body, other, if other.is_none() { feature.0 } else { 0 })
+    fn is_same(&self, (model, state): (&Model, &State), [own, touch]: [&Touch; 2], other: &Rim) -> bool {
+        let base = |touch: &Touch, rim: &Rim| touch.bodies().find(|i| *i != rim.standing.of);
+        let is_on_one = match (base(own, self), base(touch, other)) {
+            (Some(a), Some(b)) => is_one_base(model, state, [a, b]),
+            (None, None) => own.key().2.0 == touch.key().2.0,
+            _ => false,
         };
-        of(own) == of(touch) && self.standing.of == other.standing.of && self.cap.first == other.cap.first
+        is_on_one && self.standing.of == other.standing.of && self.cap.first == other.cap.first
     }
 
     /// Direction from the cap's centre to a point of the body on its rim.
@@ -526,7 +559,9 @@ pub fn has_turned(model: &Model, held: &[Held], state: &State) -> bool {
             return lean.norm() < LANDS * FLAT;
         }
         let Some(toward_B) = of_own.toward_B() else { return false };
-        let same = |other: &&Held| rim(other).is_some_and(|of| of_own.is_same(&own.touch, &of, &other.touch));
+        let same = |other: &&Held| {
+            rim(other).is_some_and(|of| of_own.is_same((model, state), [&own.touch, &other.touch], &of))
+        };
         // Three of its points hold a cap flat.
         let is_flat = held.iter().filter(same).count() >= 3;
         !is_flat && (lean.norm() > TIPS * FLAT || lean.dot(&(at.q_WB * toward_B)) < -BEYOND)

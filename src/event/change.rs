@@ -2,7 +2,7 @@
 //! face or the end of an edge.
 
 use super::caps;
-use super::decide::{Change, Margin, margin};
+use super::decide::{Change, Margin, PULL, margin};
 use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, meeting_m_s};
 use super::look::Paths;
 use crate::collide::Key;
@@ -12,9 +12,6 @@ use nalgebra::Vector3;
 
 /// Looks at the forces in a step of the integrator.
 const LOOKS: u32 = 4;
-
-/// A pull, or a force outside of its cone, relative to the largest: more is no rounding.
-const PULL: f64 = -1e-11;
 
 /// A force that is next to none, and one next to the edge of its cone, relative to the largest: where a change has been
 /// found to the last bit of time, what changes is nearer by far.

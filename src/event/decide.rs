@@ -12,6 +12,8 @@ use super::touch::Touch;
 use crate::collide::Key;
 use crate::math::full_pivot::Selection;
 use crate::model::Model;
+use crate::solve::block::Block;
+use crate::solve::twist::Twist;
 use crate::solve::{Impulse, exact_contact};
 use crate::state::State;
 use crate::work::Work;
@@ -25,6 +27,8 @@ pub struct Change {
     /// However slowly, what slips has not come to its end.
     pub slips_on: bool,
     pub opening: Vec<(Key, Vector3<f64>)>,
+    /// These have begun to open a moment before, and go on if nothing brings them back.
+    pub opened: Vec<(Key, Vector3<f64>)>,
     pub slipping: Vec<(Key, Vector3<f64>)>,
 }
 
@@ -47,6 +51,9 @@ const KEEPS_ON: f64 = 1e-12;
 /// Of a body's size: points that are nearer to each other are one.
 pub const SAME: f64 = 1e-6;
 
+/// A pull, or a force outside of its cone, relative to the largest: more is no rounding.
+pub const PULL: f64 = -1e-11;
+
 /// A margin that is not known, over the largest force: slightly positive, as redundant contacts could share otherwise.
 const NOT_KNOWN: f64 = 1e-3;
 
@@ -58,14 +65,72 @@ pub fn decide(
     gathered: &mut Gathered,
     work: &mut Work,
 ) -> Decision {
-    // What has come to be touched in the meantime may have the name of what opens, where outlines cross.
-    let opens = |touch: &Touch| {
-        let near_m = SAME * model.bodies[touch.key().0].bounding_radius_m;
+    // What has come to be touched in the meantime may have the name of what opens, where outlines cross, and what opens
+    // another one.
+    let opens = |touch: &Touch, places: &[(Key, Vector3<f64>)]| {
+        let (body, other, _) = touch.key();
+        let near_m = SAME * model.bodies[body].bounding_radius_m;
         let is_there = |place: &Vector3<f64>| (touch.here(state).contact.p_WC - place).norm() <= near_m;
-        let opens = |(key, place): &(Key, Vector3<f64>)| *key == touch.key() && (key.1.is_none() || is_there(place));
-        change.opening.iter().any(opens)
+        let is_it = |(key, place): &(Key, Vector3<f64>)| match other {
+            None => *key == touch.key(),
+            Some(_) => (key.0, key.1) == (body, other) && is_there(place),
+        };
+        places.iter().any(is_it)
     };
-    let touches: Vec<Touch> = touches.into_iter().filter(|touch| !opens(touch)).collect();
+    let opens_now: Vec<bool> = touches.iter().map(|touch| opens(touch, &change.opening)).collect();
+    let opened = touches.iter().map(|touch| opens(touch, &change.opened));
+    let mut opening: Vec<bool> = opens_now.iter().zip(opened).map(|(now, before)| *now || before).collect();
+    let decide_now = |opening: &[bool], gathered: &mut Gathered, work: &mut Work| {
+        let left = touches.iter().zip(opening).filter(|(_, opens)| !**opens).map(|(touch, _)| touch.clone());
+        decide_all((model, state), left.collect(), change, gathered, work)
+    };
+    loop {
+        let decision = decide_now(&opening, gathered, work);
+        // Of several that carry nothing, not all of them may leave at once, but the last one does.
+        let is_last = opens_now.iter().zip(&opening).filter(|(now, opens)| **now && **opens).count() == 1;
+        let may = |i: &usize| opening[*i] && !(is_last && opens_now[*i]);
+        let leaving: Vec<usize> = (0..touches.len()).filter(may).collect();
+        let comes_back = match &decision {
+            Decision::Holds(_, solved) if !leaving.is_empty() => {
+                first_closing((model, state), &touches, leaving, (gathered, solved))
+            }
+            _ => None,
+        };
+        match comes_back {
+            Some(i) => opening[i] = false,
+            None => return decision,
+        }
+    }
+}
+
+/// Of the largest acceleration without contact: a contact that opens does not come nearer.
+const COMES_BACK: f64 = 1e-9;
+
+/// The one that comes nearer the fastest, of contacts that should open, by the forces of the others.
+fn first_closing(
+    (model, state): (&Model, &State),
+    touches: &[Touch],
+    of: Vec<usize>,
+    (gathered, solved): (&Gathered, &Solved),
+) -> Option<usize> {
+    let mut own = Gathered::until(gathered.deadline);
+    own.gather(model, state, of.iter().map(|i| &touches[*i]));
+    let mut added = solved.added.clone();
+    added.resize(model.bodies.len(), Twist::ZERO);
+    let scale = own.free.iter().map(|free| free.v.norm()).fold(0.0, f64::max);
+    let closes = |(i, block): (&usize, &Block)| (*i, block.velocity(&added).x);
+    let fastest = of.iter().zip(&own.problem.blocks).map(closes).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (fastest.1 < -COMES_BACK * scale).then_some(fastest.0)
+}
+
+/// Of all of these.
+fn decide_all(
+    (model, state): (&Model, &State),
+    touches: Vec<Touch>,
+    change: &Change,
+    gathered: &mut Gathered,
+    work: &mut Work,
+) -> Decision {
     if touches.is_empty() {
         return Decision::Holds(Vec::new(), Solved::default());
     }
@@ -290,7 +355,7 @@ pub fn margin(model: &Model, state: &State, held: &[Held], gathered: &mut Gather
     for island in &gathered.islands {
         let own: Vec<usize> = island.iter().copied().filter(|i| *i < held.len()).collect();
         let of_own = least_of(&own);
-        let law = if of_own < 0.0 && own.len() > 1 { law_of(model, state, held, &own, gathered, work) } else { None };
+        let law = if of_own < PULL && own.len() > 1 { law_of(model, state, held, &own, gathered, work) } else { None };
         least = least.min(law.as_ref().map_or(of_own, |(_, goes_on)| if *goes_on { NOT_KNOWN } else { of_own }));
         law.iter().for_each(|(of, _)| own.iter().zip(of).for_each(|(i, of)| p[*i] = *of));
     }

@@ -138,3 +138,10 @@ pub fn changes(model: &Model, [before, after]: [&State; 2], part: f64) -> bool {
     };
     (0..model.bodies.len()).any(changes)
 }
+
+/// Forces of contacts, world axes; none if one of them pulls or is outside of its cone.
+pub fn steady(gathered: &Gathered, solved: &Solved, contacts: usize) -> Vec<Vector3<f64>> {
+    let blocks = || gathered.problem.blocks.iter().zip(&solved.p).take(contacts);
+    let are_lawful = blocks().all(|(block, p)| is_lawful(&block.in_world(p), &block.frame[0], block.friction));
+    if are_lawful { blocks().map(|(block, p)| block.in_world(p)).collect() } else { Vec::new() }
+}

@@ -26,6 +26,10 @@ const MOST: u32 = 200;
 /// Fictitious slip over the largest acceleration.
 const FAST: f64 = 1e3;
 
+/// Times that the direction of the fictitious slip is set right, by a thousandth each time, and what of it is rounding.
+const TURNS: u32 = 5;
+const TURNED: f64 = 1e-13;
+
 /// What is left of a fictitious slip that is stopped, relative to it: of one that is not, nearly all.
 const STOPPED: f64 = 1e-6;
 
@@ -39,28 +43,53 @@ pub enum Law {
 
 /// The law of all contacts, of which what slips slips on.
 pub fn by_law(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Law {
-    let mut problem = gathered.problem.clone();
     let scale = gathered.scale();
-    for (block, mode) in problem.blocks.iter_mut().zip(modes) {
-        if let Mode::Slide(d) = mode {
-            block.b.y += FAST * scale * d.dot(&block.frame[1]);
-            block.b.z += FAST * scale * d.dot(&block.frame[2]);
-        }
-    }
+    let mut problem = gathered.problem.clone();
     let mut p = vec![Impulse::zeros(); problem.blocks.len()];
-    if !newton::solve_evenly(&problem, &newton::to_rounding(MOST, gathered.deadline), &mut p, work) {
-        if gathered.deadline.is_over() || !is_nearly_solved(&problem, &p) {
-            return Law::Unsolved;
+    let mut aside = vec![Vector3::zeros(); modes.len()];
+    let mut solved = gathered.without_forces();
+    // Forces are against the fictitious slip and what accelerates it: what of that is across is taken off.
+    for _ in 0..TURNS {
+        for (((block, own), mode), aside) in
+            problem.blocks.iter_mut().zip(&gathered.problem.blocks).zip(modes).zip(&aside)
+        {
+            if let Mode::Slide(d) = mode {
+                let slip_W = d * (FAST * scale) - aside;
+                block.b.y = own.b.y + slip_W.dot(&block.frame[1]);
+                block.b.z = own.b.z + slip_W.dot(&block.frame[2]);
+            }
         }
-        work.unsolved += 1;
+        if !newton::solve_evenly(&problem, &newton::to_rounding(MOST, gathered.deadline), &mut p, work) {
+            if gathered.deadline.is_over() || !is_nearly_solved(&problem, &p) {
+                return Law::Unsolved;
+            }
+            work.unsolved += 1;
+        }
+        solved = gathered.solved(p.clone(), true);
+        let mut turned = 0.0_f64;
+        for (i, mode) in modes.iter().enumerate() {
+            if let Mode::Slide(d) = mode
+                && *d != Vector3::zeros()
+            {
+                let block = &gathered.problem.blocks[i];
+                let a_W = block.along_W(&block.velocity(&solved.added));
+                let across = a_W - d * d.dot(&a_W);
+                if solved.p[i].x > 0.0 {
+                    turned = turned.max((across - aside[i]).norm());
+                }
+                aside[i] = across;
+            }
+        }
+        if turned <= TURNED * FAST * scale {
+            break;
+        }
     }
-    let solved = gathered.solved(p, true);
     let mut held = Vec::new();
     for (i, mode) in modes.iter().enumerate() {
         let (block, p) = (&gathered.problem.blocks[i], &solved.p[i]);
         let a = block.velocity(&solved.added);
         if let Mode::Slide(d) = mode
-            && is_stopped(block, p, &a, FAST * scale * d)
+            && is_stopped(block, p, &a, FAST * scale * d - aside[i])
         {
             return Law::Jams;
         }

@@ -10,7 +10,7 @@
 //! - `change`: when a contact that holds stops doing so
 //! - `watch`: when the next gap closes, and the proof that none was missed, of two bodies in `pairs`, from `look` to
 //!   look
-//! - `which`: what bodies that share an edge alone do to each other
+//! - `which`: what bodies that share an edge alone do to each other; `flush`: blocks side by side
 //! - `impact`: the laws of impact at one moment; `zeno`: which of them is the last that matters
 //!
 //! Errors. A gap beyond δ = 1e-13 of the body (and rounding of its coordinates) is never stepped over. Impacts that
@@ -24,6 +24,7 @@ pub mod decide;
 pub mod dense;
 pub mod ending;
 pub mod field;
+pub mod flush;
 pub mod forces;
 pub mod impact;
 pub mod law;

@@ -54,8 +54,9 @@ const MOST_ARRIVING: u32 = 200;
 
 /// Parts of two bodies that face each other.
 struct Parted {
-    /// In which none can touch.
+    /// In which none can touch; none of those that do not.
     safe_s: f64,
+    others_s: f64,
     /// One does.
     touching: bool,
     /// So many are closed and stay so.
@@ -85,6 +86,8 @@ struct Two<'a> {
     centres: [&'a Vector3<f64>; 2],
     bounds: [Bounds; 2],
     resting: Vec<&'a Held>,
+    /// Where the one that moves stands on others than the other one, neither of which do.
+    footing: Vec<&'a Held>,
     /// All that is held.
     held: &'a [Held],
     sizes: [f64; 2],
@@ -92,8 +95,25 @@ struct Two<'a> {
     between_m_s2: f64,
 }
 
+/// What holds the one of a pair that moves on bodies that do not, if the other one does not.
+fn footing<'a>(paths: &Paths, pair: [usize; 2], held: &'a [Held]) -> Vec<&'a Held> {
+    let is_still = |i: usize| paths.model.bodies[i].driven;
+    let [moving, still] = if is_still(pair[0]) { [pair[1], pair[0]] } else { pair };
+    if is_still(moving) || !is_still(still) {
+        return Vec::new();
+    }
+    let on_another = |held: &&Held| {
+        let mut bodies = held.touch.bodies();
+        held.touch.key().1.is_some()
+            && bodies.any(|i| i == moving)
+            && held.touch.bodies().any(|i| i != still && is_still(i))
+    };
+    held.iter().filter(on_another).collect()
+}
+
 /// Both at one time.
 struct Now {
+    t_s: f64,
     at: [BodyState; 2],
     poses: [Pose; 2],
     delta_m: f64,
@@ -114,6 +134,7 @@ impl<'a> Two<'a> {
             centres: [centre_a, centre_b],
             bounds,
             resting: held.iter().filter(is_theirs).collect(),
+            footing: footing(paths, pair, held),
             held,
             sizes: bodies.map(|body| body.bounding_radius_m),
             between_m_s2: (bounds[0].acceleration - bounds[1].acceleration).norm(),
@@ -130,6 +151,7 @@ impl<'a> Two<'a> {
         let speeds = [0, 1].map(|k| speed_m_s(self.paths.model, self.bodies[k], &at[k]));
         let pose = |k: usize| pose_of_solid(self.centres[k], &at[k]);
         Now {
+            t_s,
             at,
             poses: [0, 1].map(pose),
             delta_m: delta_m(self.smaller_m(), at[0].p_WB.amax().max(at[1].p_WB.amax()) + self.sizes[0]),
@@ -147,7 +169,7 @@ impl<'a> Two<'a> {
     fn balls(&self, window: Window, reach_m: f64, work: &mut Work) -> Option<f64> {
         let toward_m_s2 = self.toward_m_s2(self.centres.map(|centre| centre.norm()));
         march(window, self.paths.deadline, |t_s| {
-            let Now { at, poses, delta_m, slow_m_s } = self.now(t_s, work);
+            let Now { at, poses, delta_m, slow_m_s, .. } = self.now(t_s, work);
             let rate = |k: usize| at[k].v_WB + at[k].w_WB.cross(&(poses[k].p_W - at[k].p_WB));
             let look = Look::of_points(poses[0].p_W - poses[1].p_W, rate(0) - rate(1), reach_m, toward_m_s2);
             Some((look.safe_s(delta_m, slow_m_s), look.is_touching(delta_m, slow_m_s)))
@@ -168,7 +190,7 @@ impl<'a> Two<'a> {
                 return Some((look.safe_s(now.delta_m, now.slow_m_s), false));
             }
             self.find(&now, &mut found);
-            let Parted { safe_s, touching, lingering } = self.parts(&now, &found);
+            let Parted { safe_s, others_s, touching, lingering } = self.parts(&now, &found);
             // What comes to be touched beside what is held is to be held, too.
             let is_new = known.replace(lingering).is_some_and(|known| lingering > known);
             if !self.resting.is_empty() && is_new {
@@ -188,6 +210,8 @@ impl<'a> Two<'a> {
                 // What they shared has got an area, or comes to be touched.
                 Way::Shared | Way::Arriving => Some((safe_s, true)),
                 Way::Apart if touching => match self.arrives_s(t_s, window, work) {
+                    // Others may be there before.
+                    Some(arrives_s) if arrives_s > t_s + others_s => Some((others_s, false)),
                     Some(arrives_s) => {
                         way = Way::Arriving;
                         Some((arrives_s - t_s, false))
@@ -284,26 +308,31 @@ impl<'a> Two<'a> {
         let Now { at, delta_m, slow_m_s, .. } = now;
         let near_m = NEAR * self.smaller_m();
         let closing = self.closing_m_s(at);
-        let (mut safe_s, mut touching, mut lingering) = (f64::INFINITY, false, 0);
+        let (mut safe_s, mut others_s) = (f64::INFINITY, f64::INFINITY);
+        let (mut touching, mut lingering) = (false, 0);
         let held = self.places(at);
-        for touch in found.iter().filter(|touch| !self.is_held(&held, touch)) {
+        for touch in found.iter().filter(|touch| !self.is_held(&held, now, touch)) {
             if touch.gap_m > near_m {
                 let (gap_m, rate_m_s) = (touch.gap_m - near_m / 2.0, -closing);
                 let bound = Look { gap_m, rate_m_s, toward_m_s2: self.between_m_s2, ..Look::EMPTY };
-                safe_s = safe_s.min(bound.safe_s(*delta_m, *slow_m_s));
+                let of_touch_s = bound.safe_s(*delta_m, *slow_m_s);
+                (safe_s, others_s) = (safe_s.min(of_touch_s), others_s.min(of_touch_s));
                 continue;
             }
             let velocity = |k: usize| at[k].v_WB + at[k].w_WB.cross(&(touch.p_W - at[k].p_WB));
             let rate_m_s = touch.normal.dot(&(velocity(0) - velocity(1)));
             let toward_m_s2 = self.rolling_m_s2(closing);
             let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2, known_s: near_m / closing, ..Look::EMPTY };
-            safe_s = safe_s.min(self.rolling_s(now, touch, &look));
+            let of_touch_s = self.rolling_s(now, touch, &look);
+            safe_s = safe_s.min(of_touch_s);
             let touches = look.is_touching(*delta_m, *slow_m_s);
+            others_s = if touches { others_s } else { others_s.min(of_touch_s) };
             touching |= touches;
             lingering += usize::from(!touches && look.gap_m <= *delta_m && look.rate_m_s <= *slow_m_s);
         }
         let way_m = near_m.max(self.smaller_m() * WAY);
-        Parted { safe_s: safe_s.min(way_m / closing.max(f64::MIN_POSITIVE)), touching, lingering }
+        let way_s = way_m / closing.max(f64::MIN_POSITIVE);
+        Parted { safe_s: safe_s.min(way_s), others_s: others_s.min(way_s), touching, lingering }
     }
 
     /// The safe time of such a look, of a cap that is nearly flat: its lowest point rolls along the rim.
@@ -329,20 +358,38 @@ impl<'a> Two<'a> {
         self.resting.iter().map(here).collect()
     }
 
-    fn is_held(&self, held: &[Contact], touch: &Found) -> bool {
+    /// The same of the body that moves, by others that do not; along its normals from the other one of the pair.
+    fn footing_beside(&self, now: &Now) -> Vec<Contact> {
+        let moving = usize::from(self.bodies[0].driven);
+        let here = |held: &&Held| {
+            let still = |i: usize| if i == self.pair[moving] { now.at[moving] } else { self.paths.at(i, now.t_s) };
+            let at: Vec<(usize, BodyState)> = held.touch.bodies().map(|i| (i, still(i))).collect();
+            let of = |i: usize| at.iter().find(|(j, _)| *j == i).map_or(&at[0].1, |(_, at)| at);
+            let contact = held.touch.here_of(of).contact;
+            let is_first = contact.body == self.pair[moving];
+            // From the second of the pair to the first.
+            let sign = if is_first == (moving == 0) { 1.0 } else { -1.0 };
+            Contact { normal: contact.normal * sign, ..contact }
+        };
+        self.footing.iter().map(here).collect()
+    }
+
+    fn is_held(&self, held: &[Contact], now: &Now, touch: &Found) -> bool {
         let is_same = |contact: &Contact| {
             // The lowest point of a rim is held, wherever it is.
             caps::are_of_one_rim(contact.feature, touch.feature)
                 || (contact.p_WC - touch.p_W).norm() <= SAME * self.smaller_m()
         };
-        held.iter().any(is_same) || self.is_kept(held, touch)
+        held.iter().any(is_same) || self.is_kept(held, now, touch)
     }
 
     /// Whether what is held keeps it, too: a point of the plane of three points, or of the line of two, where faces lie
     /// flush. When its support is needed, one that is held opens.
-    fn is_kept(&self, held: &[Contact], touch: &Found) -> bool {
+    fn is_kept(&self, held: &[Contact], now: &Now, touch: &Found) -> bool {
         let least_m = SPREAD * self.smaller_m();
-        let flush = |contact: &&Contact| {
+        let others = self.footing_beside(now);
+        let held: Vec<&Contact> = held.iter().chain(&others).collect();
+        let flush = |contact: &&&Contact| {
             contact.normal.cross(&touch.normal).norm() <= FLUSH && contact.normal.dot(&touch.normal) > 0.0
         };
         let mut flush = held.iter().filter(flush).map(|contact| contact.p_WC);

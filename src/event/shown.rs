@@ -88,6 +88,23 @@ impl Border {
     }
 }
 
+impl Border {
+    /// The point of the border that is next to one beyond it, in a face with this normal.
+    pub fn onto(&self, p_B: &Vector3<f64>, normal_B: &Vector3<f64>) -> Vector3<f64> {
+        let mut on = *p_B;
+        if let Border::Walls(walls) = self {
+            for (wall, offset_m) in walls {
+                let along = wall - normal_B * normal_B.dot(wall);
+                let beyond_m = wall.dot(&on) - offset_m;
+                if beyond_m > 0.0 && along != Vector3::zeros() {
+                    on -= along * (beyond_m / along.norm_squared());
+                }
+            }
+        }
+        on
+    }
+}
+
 pub struct Facing {
     pub spot: Spot,
     pub face: Option<Face>,

@@ -35,15 +35,33 @@ const BESIDE: f64 = 1e-11;
 /// Speed below which a slip fades, before it ends: what is left out is a part of the tolerance.
 #[derive(Clone, Copy, Debug)]
 pub struct Slow {
-    pub fading_m_s: f64,
+    fading_m_s: f64,
+    /// Slips that were to end, and did not, since the last other event: what is pushed on however slowly.
+    pub failed: u32,
 }
+
+/// Of the speed below which a slip fades, after one that did not.
+const FAILED: f64 = 0.25;
 
 impl Slow {
     /// One that fades ends after s²/2a.
     pub fn new(model: &Model, tolerance_m: f64) -> Self {
         let (g, size_m) = falls(model);
-        Slow { fading_m_s: (g * size_m).sqrt() * (FADING * tolerance_m / size_m).sqrt() }
+        Slow { fading_m_s: (g * size_m).sqrt() * (FADING * tolerance_m / size_m).sqrt(), failed: 0 }
     }
+
+    pub fn fading_m_s(&self) -> f64 {
+        self.fading_m_s * libm::pow(FAILED, f64::from(self.failed))
+    }
+}
+
+/// Of the speed below which a slip fades: so much of it is left where it has not.
+const STILL_SLIPS: f64 = 1e-3;
+
+/// Whether some slip that was to end goes on.
+pub fn go_on_fading(slow: &Slow, state: &State, held: &[Held]) -> bool {
+    let slips = |held: &Held| held.touch.here(state).slip_W().norm() > STILL_SLIPS * slow.fading_m_s();
+    held.iter().any(|held| held.slip == Slip::Fading && slips(held))
 }
 
 /// A slip that has just begun.
@@ -101,7 +119,7 @@ pub fn look(
         }
         let braked = -a_W.dot(&slip);
         held.slip = match held.slip {
-            _ if braked > 0.0 && speed < slow.fading_m_s && is_known => Slip::Fading,
+            _ if braked > 0.0 && speed < slow.fading_m_s() && is_known => Slip::Fading,
             Slip::Young(until_m_s) if speed <= until_m_s => Slip::Young(until_m_s),
             _ if is_known => Slip::Fast,
             _ => Slip::Young(KNOWN * meeting),
@@ -112,7 +130,7 @@ pub fn look(
         if held.slip == Slip::Fading {
             let ends_s = OVER_END * speed * speed / braked;
             pace.ends_s = Some(pace.ends_s.map_or(ends_s, |other_s: f64| other_s.max(ends_s)));
-        } else if braked > 0.0 && is_known {
+        } else if braked > 0.0 && is_known && (slow.failed == 0 || speed > slow.fading_m_s) {
             // Not over its end, where its direction is singular, before it fades.
             pace.most_s = pace.most_s.min(BEFORE_END * speed * speed / braked);
         }

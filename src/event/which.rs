@@ -6,6 +6,7 @@
 //! no rate is one, accelerations say the same: those that the other contacts leave.
 
 use super::decide::{Change, Decision, decide};
+use super::flush;
 use super::forces::{Gathered, NO_SLIP, meeting_m_s};
 use super::touch::Touch;
 use crate::collide::Contact;
@@ -88,8 +89,13 @@ struct Aside {
 }
 
 /// Leaves, of pairs that share an edge alone, the contacts of those that come nearer. `found`: in the order of their
-/// keys, and closed.
+/// keys, and closed. Blocks that lie flush are one (`flush`).
 pub fn choose(model: &Model, state: &State, found: &mut Vec<Contact>, gathered: &mut Gathered, work: &mut Work) {
+    choose_axes(model, state, found, gathered, work);
+    flush::merge(model, state, found);
+}
+
+fn choose_axes(model: &Model, state: &State, found: &mut Vec<Contact>, gathered: &mut Gathered, work: &mut Work) {
     let mut aside = Vec::new();
     let mut kept = Vec::with_capacity(found.len());
     for group in found.chunk_by(|a, b| (a.body, a.other) == (b.body, b.other)) {
@@ -122,8 +128,7 @@ pub fn choose(model: &Model, state: &State, found: &mut Vec<Contact>, gathered: 
     *found = kept;
 }
 
-/// Contacts of a pair with one axis: those found; where something round is beside a face, with its edge, if it strikes
-/// that. What moves along the face comes over it, or has left it.
+/// Contacts of a pair with one axis: those found; where something round is beside a face, with its edge.
 fn beside(model: &Model, state: &State, group: &[Contact]) -> Vec<Contact> {
     let is_round = |i: usize| {
         let solid = model.bodies[i].solid();
@@ -137,13 +142,8 @@ fn beside(model: &Model, state: &State, group: &[Contact]) -> Vec<Contact> {
     if !touches_beside(solid_a, &pose_a, solid_b, &pose_b, band_m(solid_a, solid_b), &mut points) {
         return group.to_vec();
     }
-    let speed = meeting_m_s(model, state, pair.into_iter());
-    let strikes = |contact: &Contact| {
-        let velocity = contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]);
-        contact.normal.dot(&velocity) < -GRAZING * speed
-    };
     let contacts = points.iter().map(|point| contact(point, &group[0], at));
-    contacts.filter(|contact| is_closed_to_delta(model, contact) && strikes(contact)).collect()
+    contacts.filter(|contact| is_closed_to_delta(model, contact)).collect()
 }
 
 /// Contacts of the first pair that the others leave to come nearer; it is set aside no longer.

@@ -1,7 +1,7 @@
 //! Impacts that would never end (Zeno): which bounce is the last that matters, and which rocking is rest.
 
-use super::forces::meeting_m_s;
-use crate::collide::closed::delta_at_m;
+use super::forces::{NO_SLIP, meeting_m_s};
+use crate::collide::closed::{SOME, delta_at_m, is_closed_to_delta};
 use crate::collide::{Contact, Key};
 use crate::model::Model;
 use crate::state::State;
@@ -93,4 +93,17 @@ fn falling_m_s2(model: &Model, contact: &Contact) -> f64 {
 pub fn approach_m_s(model: &Model, state: &State, contact: &Contact) -> (f64, f64) {
     let speed = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
     (-speed, meeting_m_s(model, state, contact.ends().map(|(i, ..)| i)))
+}
+
+/// Leaves what is closed, and what strikes with it, however long its lever: what closes within the time in which it is
+/// not known when the fastest of what is closed strikes.
+pub fn keep_closed(model: &Model, state: &State, found: &mut Vec<Contact>) {
+    let known_s = |contact: &Contact| {
+        let (approach, scale) = approach_m_s(model, state, contact);
+        (approach > NO_SLIP * scale).then(|| SOME * delta_at_m(model, contact) / approach)
+    };
+    let closed = found.iter().filter(|contact| is_closed_to_delta(model, contact));
+    let within_s = closed.filter_map(known_s).reduce(f64::min).unwrap_or(0.0);
+    let strikes = |contact: &Contact| contact.gap_m <= within_s * approach_m_s(model, state, contact).0;
+    found.retain(|contact| is_closed_to_delta(model, contact) || strikes(contact));
 }

@@ -130,6 +130,11 @@ impl Axes<'_> {
             Solid::Capsule { half_height_m, .. } | Solid::Cylinder { half_height_m, .. } => *half_height_m,
             _ => return None,
         };
+        // The middle line of a cylinder that is tilted tells nothing of its rim.
+        let is_tilted = matches!(round.solid, Solid::Cylinder { .. }) && best.normal.dot(&round.axis()).abs() > ALONG;
+        if is_tilted {
+            return None;
+        }
         let corners = of.face_corners(face);
         let mut is_over = corners.is_empty();
         of_face(self.a, self.b, &best, self.size_m(), &mut |_| is_over = true);

@@ -5,14 +5,14 @@
 
 use super::stretch::{self, Stretch};
 use crate::collide::approach::Approach;
-use crate::collide::closed::{MARGIN, is_closed_to_delta};
-use crate::collide::{Contact, Detector, Reach, SolvedContact};
+use crate::collide::closed::MARGIN;
+use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
 use crate::deadline::Deadline;
 use crate::event::caps::{self, Sinking};
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
 use crate::event::dense::{Dense, project};
-use crate::event::ending::{self, is_lawful};
+use crate::event::ending::{self, steady};
 use crate::event::field::Field;
 use crate::event::forces::{Gathered, Held, NO_SLIP, Solved};
 use crate::event::impact;
@@ -23,7 +23,7 @@ use crate::event::slip::{self, Pace, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch;
 use crate::event::which;
-use crate::event::zeno::{Zeno, approach_m_s, lose_together};
+use crate::event::zeno::{Zeno, approach_m_s, keep_closed, lose_together};
 use crate::experiment::types::{EventDriven as Settings, Impact};
 use crate::math::full_pivot::Selection;
 use crate::model::Model;
@@ -81,6 +81,8 @@ pub struct EventDriven {
     /// Ends of slips that are known in closed form.
     ends_s: Option<f64>,
     next: Event,
+    /// What has begun to open since the last impact, and where.
+    opened: Vec<(Key, Vector3<f64>)>,
     detector: Detector,
     found: Vec<Contact>,
     /// Looked into from outside between two steps, too.
@@ -141,6 +143,7 @@ impl EventDriven {
             dense: Dense::default(),
             ends_s: None,
             next: Event::Start,
+            opened: Vec::new(),
             detector: Detector::default(),
             found: Vec::with_capacity(16),
             gathered: RefCell::default(),
@@ -190,6 +193,11 @@ impl EventDriven {
         let event = std::mem::replace(&mut self.next, Event::Step);
         self.work.events += u64::from(matches!(event, Event::Impact | Event::Change(_)));
         let mut blow = false;
+        if !matches!(event, Event::Step | Event::Change(_)) {
+            self.opened.clear();
+        }
+        let goes_on = matches!(&event, Event::Step | Event::Change(Change { slips_on: true, .. }));
+        self.slow.failed *= u32::from(goes_on);
         match event {
             Event::Step => {}
             Event::Start | Event::Impact => {
@@ -208,7 +216,9 @@ impl EventDriven {
             }
             Event::Change(change) => {
                 self.detect(model, state);
+                let change = Change { opened: self.opened.clone(), ..change };
                 self.regroup(model, state, &change);
+                self.opened.extend_from_slice(&change.opening);
             }
             Event::Jam => {
                 self.detect(model, state);
@@ -274,17 +284,17 @@ impl EventDriven {
             if caps::level_found(model, state, &self.found) {
                 self.look_around(model, state);
             }
-            caps::turn(model, state, &mut self.found);
             if model.touching_pairs {
                 which::choose(model, state, &mut self.found, self.gathered.get_mut(), &mut self.work);
             }
+            caps::turn(model, state, &mut self.found);
         }
     }
 
     fn look_around(&mut self, model: &Model, state: &State) {
         let reach = Reach { margin: MARGIN };
         self.detector.detect(model, state, &reach, &mut self.found, &mut self.work);
-        self.found.retain(|contact| is_closed_to_delta(model, contact));
+        keep_closed(model, state, &mut self.found);
     }
 
     /// An impact, if something comes nearer.
@@ -324,7 +334,7 @@ impl EventDriven {
 
     /// What holds from now on, and how everything moves.
     fn regroup(&mut self, model: &Model, state: &mut State, change: &Change) {
-        let slow_m_s = if change.slips_on { 0.0 } else { self.slow.fading_m_s };
+        let slow_m_s = if change.slips_on { 0.0 } else { self.slow.fading_m_s() };
         let change = &Change { slow_m_s, ..change.clone() };
         let (mut solved, mut sinking) = (Solved::default(), Sinking::default());
         for _ in 0..POINTS {
@@ -416,6 +426,7 @@ impl EventDriven {
         if ending_s.is_none() || !others.is_empty() || ending::changes(model, [&self.scratch, state], ending::NOTHING) {
             // Not all of it holds, or slides on; before its end it does.
             let slips_on = ending_s.is_none() && over_s.is_none_or(|over_s| state.time_s < from_s + over_s);
+            self.slow.failed += u32::from(slip::go_on_fading(&self.slow, state, &self.held));
             self.next = Event::Change(Change { slips_on, ..Change::default() });
         }
         self.span = if at_once { Span::Blow } else { Span::Ending { step_s: state.time_s - from_s } };
@@ -586,11 +597,4 @@ impl EventDriven {
             }
         }
     }
-}
-
-/// Forces of contacts, world axes; none if one of them pulls or is outside of its cone.
-fn steady(gathered: &Gathered, solved: &Solved, contacts: usize) -> Vec<Vector3<f64>> {
-    let blocks = || gathered.problem.blocks.iter().zip(&solved.p).take(contacts);
-    let are_lawful = blocks().all(|(block, p)| is_lawful(&block.in_world(p), &block.frame[0], block.friction));
-    if are_lawful { blocks().map(|(block, p)| block.in_world(p)).collect() } else { Vec::new() }
 }

@@ -5,7 +5,7 @@ use super::lines::Crossing;
 use super::parts::Parts;
 use super::plane::Plane;
 use super::rates::pair;
-use super::recognise::parts;
+use super::recognise::{over_border, parts};
 use super::{ball_on_line, balls, lines, plane};
 use crate::collide::{Contact, Key};
 use crate::event::shown::{Border, Line, within_m};
@@ -16,6 +16,12 @@ use nalgebra::Vector3;
 /// Of the bounding radii: so far beyond a border is not beyond it. The contact test takes points as one within half of
 /// it.
 const BORDER: f64 = 2e-9;
+
+/// Of the smaller body's size: so near to it, what is round and has come over a border is on the edge there.
+const ON_EDGE: f64 = 1e-8;
+
+/// The same: parts whose gap differs by more from the one that was found are others.
+const ELSEWHERE: f64 = 1e-6;
 
 /// What meets what.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,9 +65,19 @@ impl Touch {
     /// None: parts whose motion along each other is not known here.
     pub fn new(model: &Model, state: &State, found: &Contact) -> Option<Self> {
         let mut touch = Touch { found: *found, parts: parts(model, state, found)?, slack_m: None };
-        let slack_m = BORDER * found.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m).sum::<f64>();
+        let sizes_m = || found.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m);
+        let slack_m = BORDER * sizes_m().sum::<f64>();
+        if touch.inside_m(state) < -slack_m
+            && let Some(parts) = over_border(model, state, found, &touch.parts)
+        {
+            let over = Touch { parts, ..touch.clone() };
+            if over.here(state).contact.gap_m.abs() <= ON_EDGE * sizes_m().fold(f64::INFINITY, f64::min) {
+                touch = over;
+            }
+        }
         touch.slack_m = (touch.inside_m(state) >= -slack_m).then_some(slack_m);
-        Some(touch)
+        let off_m = (touch.here(state).contact.gap_m - found.gap_m).abs();
+        (off_m <= ELSEWHERE * sizes_m().fold(f64::INFINITY, f64::min)).then_some(touch)
     }
 
     /// It may come to a border.

@@ -1,9 +1,11 @@
 //! Which kind of contact one is that the contact test has found.
 
+use super::ball_on_line::Beside;
 use super::crossing::{Disc, OnRim, Outline};
 use super::curved::{Curved, Side};
+use super::lines::Crossing;
 use super::parts::Parts;
-use super::plane::Plane;
+use super::plane::{self, Plane};
 use crate::collide::Contact;
 use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, ROLLS, Spot, face_toward, shown};
 use crate::model::{Body, Geometry, Model};
@@ -63,13 +65,18 @@ fn lowest(body: &Body, at: &BodyState, node: u32, found: &Contact) -> Option<Par
 /// Of unit vectors: less than this is parallel.
 const PARALLEL: f64 = 1e-6;
 
+/// Of the bounding radii: points of the contact test that are one.
+const BESIDE: f64 = 2e-9;
+
 fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Option<Parts> {
     let bodies = [found.body, other];
     let at = bodies.map(|i| &state.bodies[i]);
     let p_B = at.map(|at| at.q_WB.inverse_transform_vector(&(found.p_WC - at.p_WB)));
     let show = |side: usize, out: Vector3<f64>| {
         let out_B = at[side].q_WB.inverse_transform_vector(&out);
-        shown(&model.bodies[bodies[side]], &p_B[side], &out_B, found.gap_m)
+        let at = |off_m: f64| shown(&model.bodies[bodies[side]], &p_B[side], &out_B, off_m);
+        // A point that the contact test has put to the end of something is beside it by as much.
+        at(found.gap_m).or_else(|| at(BESIDE * bodies.map(|i| model.bodies[i].bounding_radius_m).iter().sum::<f64>()))
     };
     let on = |of: usize, face: &Face, base: usize, spot: Option<&Spot>| {
         let plane = Plane {
@@ -113,6 +120,93 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
     }
     let near = [(0, toward(1, found.normal), &a), (1, toward(0, -found.normal), &b)];
     near.into_iter().find_map(|(of, face, own)| Some(on(of, &face?, 1 - of, spot(own).as_ref())))
+}
+
+/// The same of what has come over the border of a face or the end of an edge or a round side: with what is there. None:
+/// there is nothing.
+pub(super) fn over_border(model: &Model, state: &State, found: &Contact, parts: &Parts) -> Option<Parts> {
+    let at = |i: usize| &state.bodies[i];
+    match parts {
+        Parts::OnPlane { of, part, plane } => over_face(model, state, found, (*of, part), plane),
+        Parts::Lines(lines) => {
+            let bodies = [found.body, found.other?];
+            let Crossing { s, t, .. } = Crossing::new(&bodies.map(at), lines);
+            let spots = [0, 1].map(|i| end_of(&model.bodies[bodies[i]], &lines[i], [s, t][i]));
+            let is_line = |spot: &Spot| matches!(spot, Spot::Line(_));
+            if spots.iter().all(is_line) {
+                return None;
+            }
+            round(&spots[0], &spots[1]).or_else(|| curved(state, found, [&spots[0], &spots[1]]))
+        }
+        Parts::BallOnLine { first, ball, line } => {
+            let bodies = [found.body, found.other?];
+            let Beside { s, .. } = Beside::new(bodies.map(at), *first, ball, line);
+            let end = end_of(&model.bodies[bodies[usize::from(*first)]], line, s);
+            let ball = Spot::Part(Part::Ball(ball.clone()));
+            let spots = if *first { [&ball, &end] } else { [&end, &ball] };
+            let is_line = matches!(end, Spot::Line(_));
+            if is_line { None } else { round(spots[0], spots[1]).or_else(|| curved(state, found, spots)) }
+        }
+        Parts::Balls(_) | Parts::OnRim(_) | Parts::Curved(_) => None,
+    }
+}
+
+/// What is at so far along a line: it, or what it ends in.
+fn end_of(body: &Body, line: &Line, along_m: f64) -> Spot {
+    let end_m = along_m.clamp(line.ends_m[0], line.ends_m[1]);
+    if end_m == along_m {
+        return Spot::Line(line.clone());
+    }
+    let end_B = line.point_B + line.direction_B * end_m;
+    Spot::Part(match body.solid() {
+        Some((Solid::Cylinder { radius_m, .. }, _)) => {
+            Part::Rim { centre_B: end_B, axis_B: line.direction_B, radius_m: *radius_m }
+        }
+        _ => Part::Ball(Ball { centre_B: end_B, radius_m: line.radius_m, cone: Vec::new() }),
+    })
+}
+
+/// The tilt (rad) of a rim whose lowest point is told well by its normal.
+const LEANS: f64 = 1e-3;
+
+/// What is round, on the edge of the face over whose border it has come.
+fn over_face(
+    model: &Model,
+    state: &State,
+    found: &Contact,
+    (of, part): (usize, &Part),
+    plane: &Plane,
+) -> Option<Parts> {
+    let base = plane.of?;
+    let at = |i: usize| &state.bodies[i];
+    let out_W = at(base).q_WB * plane.normal;
+    // Of a rim that is nearly flat, and of one that ends a cap, but beside a ball, the normal alone does not tell the
+    // point.
+    let is_told = match part {
+        Part::Ball(ball) => ball.radius_m > 0.0,
+        Part::Rim { axis_B, .. } => (at(of).q_WB * axis_B).cross(&out_W).norm() > LEANS,
+        Part::Ellipsoid { .. } => !matches!(plane.border, Border::Round { .. }),
+    };
+    if !is_told || (matches!(part, Part::Rim { .. }) && matches!(plane.border, Border::Round { .. })) {
+        return None;
+    }
+    let (contact, _) = plane::here(found, &at, of, part, plane);
+    let p_B = at(base).q_WB.inverse_transform_vector(&(contact.p_WC - at(base).p_WB));
+    let edge = match &plane.border {
+        Border::Nowhere => return None,
+        Border::Walls(_) => {
+            let on = plane.border.onto(&p_B, &plane.normal);
+            shown(&model.bodies[base], &on, &plane.normal, 0.0)?.spot
+        }
+        Border::Round { centre_B, radius_m } => {
+            let n = plane.normal;
+            let centre_B = centre_B + n * (plane.offset_m - n.dot(centre_B));
+            Spot::Part(Part::Rim { centre_B, axis_B: Vector3::y(), radius_m: *radius_m })
+        }
+    };
+    let own = Spot::Part(part.clone());
+    let spots = if of == found.body { [&own, &edge] } else { [&edge, &own] };
+    round(spots[0], spots[1]).or_else(|| curved(state, found, spots))
 }
 
 /// What lies beside a cap meets its rim, however little the normal is off the cap's.

@@ -1,5 +1,6 @@
 //! One point of contact.
 
+use crate::model::Model;
 use nalgebra::Vector3;
 
 /// One point of contact of a body with the container or with another body.
@@ -34,6 +35,11 @@ impl Contact {
     pub fn ends(&self) -> impl Iterator<Item = (usize, Vector3<f64>, f64)> {
         let other = self.other.map(|other| (other, self.r_OC_W, -1.0));
         std::iter::once((self.body, self.r_BC_W, 1.0)).chain(other)
+    }
+
+    /// Whether it is held against what nothing moves.
+    pub fn is_fixed(&self, model: &Model) -> bool {
+        self.other.is_none_or(|other| model.bodies[other].driven) || model.bodies[self.body].driven
     }
 
     /// Velocity of the body's point against the other's, in m/s, world axes, from the bodies' velocities and angular

@@ -129,18 +129,19 @@ pub(super) struct Met {
     pub before: Vector3<f64>,
     pub free: Vector3<f64>,
     pub after: Vector3<f64>,
-    /// What bodies that turn freely add to the mean through the step.
+    /// What a body that turns freely adds to the mean through the step, against what nothing moves.
     pub turning: Vector3<f64>,
     /// The first body of its island.
     pub island: usize,
 }
 
 impl Met {
-    fn new(contact: &Contact, moved: &[Moved], island: usize) -> Self {
+    fn new(model: &Model, contact: &Contact, moved: &[Moved], island: usize) -> Self {
         let relative = |motion: fn(&Moved) -> &Motion| -> Vector3<f64> {
             contact.velocity(|i| [motion(&moved[i]).v, motion(&moved[i]).w])
         };
-        let turning = contact.velocity(|i| [Vector3::zeros(), moved[i].turning]);
+        let turns = |i: usize| if contact.is_fixed(model) { moved[i].turning } else { Vector3::zeros() };
+        let turning = contact.velocity(|i| [Vector3::zeros(), turns(i)]);
         let [before, free, after] = [relative(|m| &m.before), relative(|m| &m.free), relative(|m| &m.after)];
         Met { before, free, after, turning, island }
     }
@@ -187,7 +188,7 @@ impl Exchange {
         self.islands.find(model, contacts.iter().map(|solved| solved.contact));
         self.met.clear();
         for SolvedContact { contact, .. } in contacts {
-            self.met.push(Met::new(contact, &self.moved, self.islands.of(model, contact)));
+            self.met.push(Met::new(model, contact, &self.moved, self.islands.of(model, contact)));
         }
     }
 }

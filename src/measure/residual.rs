@@ -103,13 +103,13 @@ impl<'a> Seen<'a> {
 
     /// A gap closes by the mean velocity through the step, or, where the contacts would give energy for that, by the
     /// velocity after the impulses.
-    fn missed(&self, impulse_W: &Vector3<f64>) -> f64 {
-        let missed = self.missed_by_mean(impulse_W);
-        if self.motion.turning == 0.0 {
-            return missed;
-        }
+    fn missed(&self, impulse_W: &Vector3<f64>, is_struck: bool) -> f64 {
+        let missed = |seen: &Seen| match is_struck {
+            true => seen.missed_by_impact(impulse_W),
+            false => seen.missed_by_mean(impulse_W),
+        };
         let motion = NormalMotion { turning: 0.0, ..self.motion };
-        missed.min(Seen { motion, ..*self }.missed_by_mean(impulse_W))
+        missed(self).min(missed(&Seen { motion, ..*self }))
     }
 
     /// Friction is against the velocity after, where a contact lasts against the mean.
@@ -204,8 +204,7 @@ impl ResidualLedger {
         }
         for (SolvedContact { contact, impulse_W }, met) in contacts.iter().zip(&exchange.met) {
             let (seen, is_struck) = (seen(contact, met), struck[met.island]);
-            let missed = if is_struck { seen.missed_by_impact(impulse_W) } else { seen.missed(impulse_W) };
-            *max = Some(max.unwrap_or(0.0).max(relative(missed, seen.scale)));
+            *max = Some(max.unwrap_or(0.0).max(relative(seen.missed(impulse_W, is_struck), seen.scale)));
             let lasts = seen.holds_on(impulse_W).filter(|_| !is_struck);
             last_on.extend(lasts.map(|hold| (contact.key(), hold)));
         }

@@ -98,10 +98,11 @@ impl ContactProblem {
         self.couple();
     }
 
-    /// Asks for gaps to close by the mean velocities of the step: `turning` is what every body's mean angular velocity
+    /// Asks for gaps to what nothing moves to close by the mean velocities of the step: `turning` is what every body's mean angular velocity
     /// has beyond that after the impulses (`Body::turns_on`).
     pub fn turn(&mut self, contacts: &[Contact], model: &Model, turning: &[Vector3<f64>], through: (Approach, f64)) {
-        for (block, contact) in self.blocks.iter_mut().zip(contacts) {
+        let contacts = self.blocks.iter_mut().zip(contacts).filter(|(_, contact)| contact.is_fixed(model));
+        for (block, contact) in contacts {
             let turning = contact.normal.dot(&contact.velocity(|i| [Vector3::zeros(), turning[i]]));
             if turning != block.turning {
                 block.turn(contact, model, turning, through);

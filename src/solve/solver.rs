@@ -6,6 +6,9 @@ use super::{Impulse, auto, newton, nncg};
 use crate::experiment::types::Solver;
 use crate::work::Work;
 
+/// Residual of an iteration that counts as solved.
+const ITERATED: f64 = 1e-6;
+
 /// A solver with its scratch.
 #[derive(Clone, Debug)]
 pub enum ContactSolver {
@@ -28,11 +31,11 @@ impl ContactSolver {
         }
     }
 
-    /// Part of the tolerance that may be missing of a solution; of an iteration that has settled all of it.
-    pub fn leaves(&self) -> f64 {
+    /// Residual up to which impulses need not be improved where something next to nothing else is asked for.
+    pub fn may_miss(&self, tolerance: f64) -> f64 {
         match self {
-            ContactSolver::Auto(_) | ContactSolver::Newton(_) => auto::KEPT,
-            ContactSolver::Pgs(_) | ContactSolver::Nncg(_) => 1.0,
+            ContactSolver::Auto(_) | ContactSolver::Newton(_) => auto::KEPT * tolerance,
+            ContactSolver::Pgs(_) | ContactSolver::Nncg(_) => tolerance.max(ITERATED),
         }
     }
 

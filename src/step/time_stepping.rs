@@ -213,7 +213,7 @@ impl TimeStepping {
         let after_s = self.made_s - before_s;
         self.note_lasting(model, state);
         self.take_solution();
-        self.turning.note(&self.scratch.solved);
+        self.turning.note(model, &self.scratch.solved);
         let pushed = self.find_push(model, state, self.made_s);
         // 3. Velocities. 4. Position and attitude.
         let s = &mut self.scratch;
@@ -378,7 +378,7 @@ impl TimeStepping {
         s.impulses.resize(s.problem.blocks.len(), Impulse::zeros());
         s.work.tangent_rows += if self.sweeps.friction { 2 * s.found.len() as u64 } else { 0 };
         let mut settled = s.problem.blocks.is_empty();
-        let enough = self.solver.leaves() * self.sweeps.tolerance;
+        let enough = self.solver.may_miss(self.sweeps.tolerance);
         for _ in 0..MOST_SOLVES {
             settled = settled || self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work);
             s.problem.response(&s.impulses, &mut s.response);

@@ -5,15 +5,17 @@
 //! step, and bears on a few of its points. What bodies turn on depends on the impulses. So it is worked out with those
 //! of the last step first, and again when those of the step are known, until it asks for nothing else.
 //!
-//! It is left out where it does not matter or cannot be had: bodies that fewer than three contacts pressed in the last
-//! step, contacts that would give energy for it, as they may have to open at first, and what is then not solved. There
-//! gaps close by the velocities after the impulses, as if nothing turned on.
+//! It is left out where it does not matter or cannot be had: bodies that in the last step fewer than three contacts
+//! pressed, or another body that moves, or that a pin holds; contacts that would give energy for it, as they may have to
+//! open at first; and what is then not solved. There gaps close by the velocities after the impulses, as if nothing
+//! turned on.
 
 use super::scratch::Scratch;
 use crate::collide::approach::Approach;
 use crate::collide::islands::Islands;
 use crate::collide::{Contact, SolvedContact};
 use crate::model::Model;
+use crate::model::pins::Anchor;
 use crate::solve::missed::strict_residual;
 use crate::solve::twist::Twist;
 use crate::state::State;
@@ -34,7 +36,7 @@ pub(super) struct Turning {
     round: u32,
     /// The impulses of the round before were a solution.
     was_solved: bool,
-    /// Of every body: contacts that pressed it in the last step.
+    /// Of every body: contacts with what nothing moves that pressed it in the last step; none if another body did.
     pressed: Vec<u32>,
     /// Of every body: its contacts are to know nothing of it in this step.
     is_left_out: Vec<bool>,
@@ -65,6 +67,12 @@ impl Turning {
         self.pressed.resize(model.bodies.len(), 0);
         self.is_left_out.clear();
         self.is_left_out.extend(self.pressed.iter().map(|pressed| through.0 != Approach::Start || *pressed < FACE));
+        for pin in &model.pins {
+            self.is_left_out[pin.body] = true;
+            if let Anchor::Body(other, _) = pin.anchor {
+                self.is_left_out[other] = true;
+            }
+        }
         self.look(model, state, scratch, None, through.1);
     }
 
@@ -138,9 +146,14 @@ impl Turning {
     }
 
     /// Keeps which bodies the contacts of a step have pressed.
-    pub(super) fn note(&mut self, solved: &[SolvedContact]) {
+    pub(super) fn note(&mut self, model: &Model, solved: &[SolvedContact]) {
         self.pressed.fill(0);
-        let pressing = solved.iter().filter(|solved| solved.impulse_W != Vector3::zeros());
-        pressing.flat_map(|solved| solved.contact.ends()).for_each(|(i, ..)| self.pressed[i] += 1);
+        let pressing = || solved.iter().filter(|solved| solved.impulse_W != Vector3::zeros());
+        let ends = |fixed: bool| {
+            let contacts = pressing().map(|solved| &solved.contact).filter(move |c| c.is_fixed(model) == fixed);
+            contacts.flat_map(Contact::ends)
+        };
+        ends(true).for_each(|(i, ..)| self.pressed[i] += 1);
+        ends(false).for_each(|(i, ..)| self.pressed[i] = 0);
     }
 }

@@ -3,7 +3,7 @@
 use super::error::CliError;
 use super::output::say;
 use crate::build_info::{BUILD, PROGRAM};
-use crate::check::{Cells, Judged, Schema, judge};
+use crate::check::{Cells, Judged, Magnitudes, Schema, judge};
 use crate::experiment::ExperimentFile;
 use crate::experiment::filter::shown_cell;
 use crate::experiment::types::Experiment;
@@ -351,6 +351,7 @@ fn add_experiment(subject: &mut Subject, dir: &Path) {
         }
     }
     if let Some(first) = cases.first() {
+        subject.magnitudes = Magnitudes::of(first);
         subject.question = subject.question.take().or_else(|| first.question.clone());
         let clock = first.clock();
         let time = format!("{} s, the first case in steps of {} s", clock.end_s, clock.step_s);
@@ -394,7 +395,8 @@ fn verdicts(file: &ExperimentFile, subject: &mut Subject) -> Vec<Judged> {
     let known = Schema::new(file.axes(), file.search().and_then(|search| search.over), &[]);
     let more: Vec<String> =
         frame.names().filter(|name| !known.columns.iter().any(|known| known == name)).map(str::to_string).collect();
-    let schema = Schema::new(file.axes(), file.search().and_then(|search| search.over), &more);
+    let mut schema = Schema::new(file.axes(), file.search().and_then(|search| search.over), &more);
+    schema.magnitudes = subject.magnitudes;
     // All columns of many rows by name would take more memory than the rows: those that an expectation can ask for.
     let asked = format!("{:?}", file.expect());
     let is_asked = |name: &&str| {

@@ -411,3 +411,62 @@ fn names_are_letters_and_nothing_else() {
         assert!(!figure.plotly().to_string().contains("<img"), "{}", figure.name);
     }
 }
+
+/// Twelve series have no room: one problem is drawn, never the mean of two.
+#[test]
+fn trials_are_not_pooled_over_problems() {
+    let (methods, steps, problems) = (["a", "b", "c", "d", "e", "f"], [0.1, 0.05], [1.0, 1000.0]);
+    let mut rows = Vec::new();
+    for method in methods {
+        for step_s in steps {
+            for problem in problems {
+                rows.push(row(json!({
+                    "case": format!("{}", rows.len()), "method.free": method, "time.step_s": step_s, "v": problem,
+                    "outcome": "finished", "error_position_m": 1e-3 * problem * step_s * step_s, "wall_s": 1e-3 / step_s,
+                })));
+            }
+        }
+    }
+    let axes = vec![axis("method.free", json!(methods)), axis("time.step_s", json!(steps)), axis("v", json!(problems))];
+    let all = figures(&of_rows(rows, axes));
+    for name in ["pareto", "convergence"] {
+        let figure = all.iter().find(|figure| figure.name == name).unwrap();
+        assert!(figure.finding.ends_with(" Of v = 1 alone, of 2 values."), "{}", figure.finding);
+        let dots = figure.marks.iter().filter(|mark| mark.drawn == Drawn::Line).flat_map(|mark| &mark.dots);
+        for dot in dots {
+            assert!(dot.row.is_some(), "{name}: {}", dot.said);
+            let error = if name == "pareto" { dot.x } else { dot.y };
+            assert!(error < 2e-5, "{name}: {error}");
+        }
+    }
+}
+
+/// Errors of 1e-16 m on positions of 1 m fall as chance has it: no order, and no rank.
+#[test]
+fn what_is_rounding_has_neither_an_order_nor_a_rank() {
+    let errors = |method: &str| match method {
+        "exact" => [1.6e-14, 8.9e-16, 4.4e-16, 0.0],
+        _ => [1e-2, 2.5e-3, 6.25e-4, 1.5625e-4],
+    };
+    let mut rows = Vec::new();
+    for (rank, method) in ["exact", "plain"].into_iter().enumerate() {
+        for (i, error) in errors(method).into_iter().enumerate() {
+            let step_s = 0.1 / f64::from(1 << i);
+            rows.push(row(json!({
+                "case": format!("{}", rows.len()), "method.free": method, "time.step_s": step_s, "outcome": "finished",
+                "error_position_m": error, "wall_s": (rank + 1) as f64 * 1e-3 / step_s,
+            })));
+        }
+    }
+    let steps: Vec<f64> = (0..4).map(|i| 0.1 / f64::from(1 << i)).collect();
+    let axes = vec![axis("method.free", json!(["exact", "plain"])), axis("time.step_s", json!(steps))];
+    let all = figures(&of_rows(rows, axes));
+    let finding = |name: &str| all.iter().find(|figure| figure.name == name).unwrap().finding.clone();
+    assert!(
+        !finding("convergence").contains("exact") && finding("convergence").contains("plain 2.00"),
+        "{}",
+        finding("convergence")
+    );
+    let said = "the first with no error but rounding (up to 1.42e-14 m) is exact in 0.02 s";
+    assert!(finding("pareto").contains(said), "{}", finding("pareto"));
+}

@@ -1,8 +1,8 @@
 //! The order of a method: the slope of log error against log step.
 //!
 //! Points in the rounding floor say nothing about the order and are left out: from coarse to fine, everything from
-//! where an error far below the largest stops falling, or is below what is known to be rounding. What is fitted is the slope of the least-squares line through
-//! the rest (L3).
+//! where an error far below the largest stops falling, or is below what is known to be rounding. What is fitted is the
+//! slope of the least-squares line through the rest (L3).
 
 /// A fitted order.
 #[derive(Clone, Debug, PartialEq)]

@@ -263,6 +263,13 @@ impl<'a> Ground<'a> {
         notes
     }
 
+    /// What a figure pools that has these axes; None where it pools nothing.
+    pub fn pooled_beside(&self, drawn: &[&Levels]) -> Option<String> {
+        let beside = self.axes.iter().filter(|axis| drawn.iter().all(|drawn| axis.path != drawn.path));
+        let beside: Vec<String> = beside.map(|axis| format!("{} ({} values)", axis.path, axis.len())).collect();
+        (!beside.is_empty()).then(|| format!("pooled over {}", beside.join(", ")))
+    }
+
     /// Numbers of a column, by the levels of an axis and of another; rows that failed are left out.
     pub fn grouped(&self, x: &Levels, series: Option<&Levels>, column: &str) -> Vec<Vec<Vec<f64>>> {
         let failed = self.ended("failed");

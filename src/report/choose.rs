@@ -27,8 +27,7 @@ pub fn figures(subject: &Subject) -> Vec<Figure> {
     let title = "Run time against error";
     let all = [
         is_grid.then(|| map::map(&ground, MOST)).flatten(),
-        Some(pareto::figure(title, &tried, &subject.magnitudes))
-            .map(of_trials)
+        Some(of_trials(pareto::figure(title, &tried, &subject.magnitudes)))
             .filter(|figure| figure.marks.iter().any(|mark| figure.shown(mark).next().is_some())),
         convergence::figure(&tried, &subject.magnitudes).map(of_trials),
         critical::figure(&ground.pooled(MOST_CRITICAL)),

@@ -1,11 +1,10 @@
 //! Cases that an unmet expectation names: those that are out of bounds, or against the trend, or of a cell that is; the
 //! worst first.
 
-use super::numbers::{count, levels, number, numbers, order_of, quantity_of, spread};
+use super::numbers::{count, levels, number, order_in, order_of, quantity_of, spread};
 use super::schema::{Cells, Schema, selected, strata};
 use crate::experiment::expect::{Expectation, What};
 use crate::experiment::predicate::{Bounds, Column, Predicate, Quantity};
-use crate::math::order;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -156,9 +155,7 @@ fn of_order<'a>(
     let name = column.to_string();
     let mut all = Vec::new();
     for cell in strata(rows.iter().copied(), |row| row, &others) {
-        let points = numbers(&cell, &x).and_then(|x| Ok(x.into_iter().zip(numbers(&cell, column)?)));
-        let slope = points.map(|points| order::fit(&points.map(|(x, y)| (x, y.abs())).collect::<Vec<_>>()));
-        let off = match slope {
+        let off = match order_in(schema, &cell, &x, column) {
             Ok(Some(order)) if bounds.contain(order.slope) => continue,
             Ok(Some(order)) => excess(bounds, order.slope),
             Ok(None) | Err(_) => f64::INFINITY,

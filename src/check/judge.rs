@@ -3,12 +3,13 @@
 //! No row selected, a null or a number that is not finite: not met, never a pass.
 
 use super::failing::{Failing, failing};
-use super::numbers::{compared, count, levels, mean, number, numbers, order_of, quantile, range, short, spread, value};
+use super::numbers::{
+    compared, count, floor_of, levels, mean, number, numbers, order_in, order_of, quantile, range, short, spread, value,
+};
 use super::schema::{Cells, Schema, selected, strata};
 use crate::experiment::expect::{Comparison, Expectation, What};
 use crate::experiment::filter::Filter;
 use crate::experiment::predicate::{Bounds, Column, Predicate, Quantity};
-use crate::math::order;
 use crate::math::trend::{cochran_armitage, mann_kendall};
 use serde::Serialize;
 
@@ -197,14 +198,10 @@ fn of_order(schema: &Schema, rows: &[&Cells], column: &Column, against: &str, bo
     let (x, others) = order_of(schema, against);
     let mut orders = Vec::new();
     for cell in strata(rows.iter().copied(), |row| row, &others) {
-        let points = numbers(&cell, &x).and_then(|x| Ok(x.into_iter().zip(numbers(&cell, column)?)));
-        let points: Vec<_> = match points {
-            Ok(points) => points.map(|(x, y)| (x, y.abs())).collect(),
+        match order_in(schema, &cell, &x, column) {
+            Ok(Some(order)) => orders.push(order),
+            Ok(None) => return Verdict::not(without_order(schema, &cell, column)),
             Err(missing) => return Verdict::not(missing),
-        };
-        match order::fit(&points) {
-            Some(order) => orders.push(order),
-            None => return Verdict::not("fewer than two points above rounding"),
         }
     }
     let slopes: Vec<f64> = orders.iter().map(|order| order.slope).collect();
@@ -218,6 +215,16 @@ fn of_order(schema: &Schema, rows: &[&Cells], column: &Column, against: &str, bo
         measured += &format!("; {floor} points in rounding left out");
     }
     Verdict { measured, met: slopes.iter().all(|slope| bounds.contain(*slope)) }
+}
+
+/// Why a cell has no order.
+fn without_order(schema: &Schema, cell: &[&Cells], column: &Column) -> String {
+    let largest = numbers(cell, column).unwrap_or_default().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let floor = floor_of(schema, column);
+    if cell.len() > 1 && largest <= floor {
+        return format!("nothing but rounding: at most {} ({} is rounding)", short(largest), short(floor));
+    }
+    "fewer than two points above rounding".to_string()
 }
 
 fn of_equal(schema: &Schema, rows: &[&Cells], column: &str, across: &str, within_rel: f64) -> Verdict {

@@ -11,6 +11,7 @@ mod join;
 mod judge;
 mod known;
 mod numbers;
+mod rounding;
 mod schema;
 mod signed;
 
@@ -20,5 +21,6 @@ pub use join::Side;
 pub use judge::{Judged, in_turn, judge};
 pub use known::{numbers as refuse_no_numbers, refuse_unknown};
 pub use numbers::short;
+pub use rounding::Magnitudes;
 pub use schema::{Cells, Schema, cells_of};
 pub use signed::{OneSided, one_sided};

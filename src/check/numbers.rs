@@ -3,6 +3,7 @@
 use super::schema::{Cells, Schema};
 use crate::experiment::expect::Comparison;
 use crate::experiment::predicate::{Column, Predicate, Quantity};
+use crate::math::order::{Order, fit_above};
 use serde_json::Value;
 
 pub(super) fn compared(how: Comparison, of: f64, to: f64) -> f64 {
@@ -58,6 +59,18 @@ pub(super) fn order_of<'a>(schema: &'a Schema, against: &str) -> (Column, Vec<&'
     // The step that was made, where rounding to a whole number of steps has changed it.
     let x = Column::new(if against == "time.step_s" { "step_used_s" } else { against });
     (x, if schema.axis(against).is_some() { schema.others(against) } else { Vec::new() })
+}
+
+/// Size below which a column is rounding; of a quotient none is known.
+pub(super) fn floor_of(schema: &Schema, column: &Column) -> f64 {
+    if column.divided_by.is_some() { 0.0 } else { schema.magnitudes.floor(&column.name) }
+}
+
+/// Order of a column's sizes in a cell, above rounding; `Ok(None)` with fewer than two of them.
+pub(super) fn order_in(schema: &Schema, cell: &[&Cells], x: &Column, column: &Column) -> Result<Option<Order>, String> {
+    let sizes = numbers(cell, column)?.into_iter().map(f64::abs);
+    let points: Vec<(f64, f64)> = numbers(cell, x)?.into_iter().zip(sizes).collect();
+    Ok(fit_above(&points, floor_of(schema, column)))
 }
 
 /// Largest difference of a component over the rows, relative to the largest norm of the vector; of texts 0 or infinite.

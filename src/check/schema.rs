@@ -1,5 +1,6 @@
 //! The columns that rows will have, and rows as `check` reads them.
 
+use super::rounding::Magnitudes;
 use crate::experiment::axes::Axes;
 use crate::experiment::filter::{Filter, is_same};
 use crate::heading::Headings;
@@ -20,6 +21,8 @@ pub struct Schema {
     groups: Vec<Vec<String>>,
     /// All columns, axes among them.
     pub columns: Vec<String>,
+    /// Sizes that rounding is relative to.
+    pub magnitudes: Magnitudes,
 }
 
 impl Schema {
@@ -38,6 +41,7 @@ impl Schema {
             axes: shown,
             groups: axes.groups.iter().map(|group| group.iter().map(path).collect()).collect(),
             columns,
+            magnitudes: Magnitudes::default(),
         }
     }
 

@@ -214,7 +214,7 @@ fn write(
     let of_engine = |row: &Trial| Trial { method: String::new(), ..row.clone() };
     let drawn = rows.iter().cloned().chain(beside.iter().map(of_engine)).collect();
     let subject = Subject { trials: drawn, ..Subject::default() };
-    let figure = pareto::figure(title, &tried::trials(&Ground::of(&subject)));
+    let figure = pareto::figure(title, &tried::trials(&Ground::of(&subject)), &subject.magnitudes);
     let failed = |error: &dyn std::fmt::Display| CliError::Machine(format!("{}: {error}", dir.display()));
     let mut json = serde_json::to_vec(documents).map_err(|error| failed(&error))?;
     json.push(b'\n');

@@ -2,6 +2,7 @@
 //! is.
 
 use super::output::wrapped;
+use crate::check::Magnitudes;
 use crate::report::cut;
 use crate::rows::trials::{self, Trial, order};
 
@@ -22,7 +23,8 @@ pub fn bench_table(rows: &[Trial], beside: &[Trial], most: usize) -> String {
     let of_engine = |row: &Trial| Trial { method: format!("{}: {}", row.engine, row.method), ..row.clone() };
     let all: Vec<Trial> = rows.iter().cloned().chain(beside.iter().map(of_engine)).collect();
     let head = ["", "step_s | tol.", "steps", column, "wall_s", "median_s", "outcome"].map(String::from);
-    let lines: Vec<Line> = all.iter().zip(trials::pareto(&all)).map(|(row, on_front)| line(row, on_front)).collect();
+    let on_front = trials::pareto(&all, Magnitudes::default().floor(column));
+    let lines: Vec<Line> = all.iter().zip(on_front).map(|(row, on_front)| line(row, on_front)).collect();
     let shown = if has_ended_early { 7 } else { 6 };
     let mut widths: Vec<usize> = (0..shown)
         .map(|i| lines.iter().chain([&head]).map(|line| line[i].chars().count()).max().unwrap_or(0).max(1))
@@ -73,7 +75,7 @@ fn line(row: &Trial, on_front: bool) -> Line {
 
 /// Order of a method, and the slopes that it is of.
 fn order_said(rows: &[Trial], method: &str) -> Option<String> {
-    let order = order(rows, method)?;
+    let order = order(rows, method, Magnitudes::default().floor(&rows.first()?.error_kind))?;
     let pairwise: Vec<String> = order.pairwise.iter().map(|slope| format!("{slope:.2}")).collect();
     let own_steps = rows.iter().any(|row| row.method == method && row.step_s.is_none());
     let against = if own_steps { " in its own mean step" } else { "" };

@@ -6,7 +6,7 @@ use super::output::{print, print_as_it_is, print_json, say, width, wrapped};
 use super::reporting::Reported;
 use crate::report::choose::{figures, map_in_characters};
 use crate::report::figure::Figure;
-use crate::report::page::NOTHING_DRAWN;
+use crate::report::page::nothing_drawn;
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -74,7 +74,7 @@ impl Command {
                 say(format!("warning: {}: {warning}", reported.page.display()));
             }
             if figures.is_empty() {
-                print(wrapped(NOTHING_DRAWN, width().into(), "", ""));
+                print(wrapped(&nothing_drawn(&reported.subject), width().into(), "", ""));
             }
             let is_colored = self.output.is_colored();
             let map = map_in_characters(&reported.subject).filter(|_| !self.output.verbose);

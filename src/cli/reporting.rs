@@ -3,7 +3,7 @@
 use super::error::CliError;
 use super::output::say;
 use crate::build_info::{BUILD, PROGRAM};
-use crate::check::{Cells, Judged, Schema, judge};
+use crate::check::{Cells, Judged, Magnitudes, Schema, judge};
 use crate::experiment::ExperimentFile;
 use crate::experiment::filter::shown_cell;
 use crate::experiment::types::Experiment;
@@ -82,6 +82,7 @@ impl Reported {
         } else {
             subject.frame = frame_of(&subject.trials);
             subject.is_bench = true;
+            subject.warnings.extend(doubts_of_bench(&bench, subject.trials.len())?);
         }
         add_experiment(&mut subject, dir);
         add_conditions(&mut subject);
@@ -240,6 +241,21 @@ pub(super) fn read_trials(path: &Path) -> Result<Vec<Trial>, CliError> {
     })
 }
 
+/// What the trials of a bench are in doubt of, as it wrote that beside them.
+fn doubts_of_bench(path: &Path, of: usize) -> Result<Option<String>, CliError> {
+    let read: Value = serde_json::from_slice(&files::read(path)?).unwrap_or_default();
+    let trials = read.as_array().map_or(&[][..], Vec::as_slice);
+    let mut doubts = Vec::new();
+    for trial in trials {
+        let said = trial["warnings"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        let at = ["step_s", "tolerance"].iter().find_map(|key| Some(format!(" at {key} = {}", trial[key].as_f64()?)));
+        let name = trial["method"].as_str().unwrap_or_default();
+        doubts.extend(said.map(|said| format!("{name}{}: {said}", at.clone().unwrap_or_default())));
+    }
+    let n = doubts.len();
+    Ok((n > 0).then(|| format!("In doubt: {n} of {of} trials. {}.", doubts.join("; "))))
+}
+
 fn frame_of(trials: &[Trial]) -> RowFrame {
     RowFrame::of_rows(Vec::new(), trials.iter().map(cells))
 }
@@ -343,21 +359,37 @@ fn add_experiment(subject: &mut Subject, dir: &Path) {
     // Of another version it may be no experiment any more.
     let Ok(file) = file else { return };
     let cases = of_methods(&file);
+    if subject.is_bench {
+        for trial in subject.trials.iter().filter(|trial| trial.engine == "gotai") {
+            if !subject.methods.contains(&trial.method) {
+                subject.methods.push(trial.method.clone());
+            }
+        }
+    }
     for experiment in &cases {
         let word = experiment.method.word().to_string();
         subject.claims_to_solve |= experiment.method.facts().solves_contacts;
-        if !subject.methods.contains(&word) {
+        if !subject.is_bench && !subject.methods.contains(&word) {
             subject.methods.push(word);
         }
     }
     if let Some(first) = cases.first() {
+        subject.magnitudes = Magnitudes::of(first);
         subject.question = subject.question.take().or_else(|| first.question.clone());
         let clock = first.clock();
-        let time = format!("{} s, the first case in steps of {} s", clock.end_s, clock.step_s);
-        subject.conditions.push(("time".to_string(), time));
+        // A method that needs no step has none, and every trial of a bench has its own.
+        let of_steps = match first.time.step_s {
+            Some(_) if !subject.is_bench => format!(", the first case in steps of {} s", clock.step_s),
+            _ => String::new(),
+        };
+        subject.conditions.push(("time".to_string(), format!("{} s{of_steps}", clock.end_s)));
         let parts =
             [("method", serde_json::to_value(&first.method)), ("divergence", serde_json::to_value(&first.diverge))];
-        for (name, part) in parts.into_iter().filter_map(|(name, part)| Some((name, part.ok()?))) {
+        for (name, part) in parts
+            .into_iter()
+            .filter(|(name, _)| !(subject.is_bench && *name == "method"))
+            .filter_map(|(name, part)| Some((name, part.ok()?)))
+        {
             subject.conditions.push((format!("{name} of the first case"), part.to_string()));
         }
     }
@@ -394,7 +426,8 @@ fn verdicts(file: &ExperimentFile, subject: &mut Subject) -> Vec<Judged> {
     let known = Schema::new(file.axes(), file.search().and_then(|search| search.over), &[]);
     let more: Vec<String> =
         frame.names().filter(|name| !known.columns.iter().any(|known| known == name)).map(str::to_string).collect();
-    let schema = Schema::new(file.axes(), file.search().and_then(|search| search.over), &more);
+    let mut schema = Schema::new(file.axes(), file.search().and_then(|search| search.over), &more);
+    schema.magnitudes = subject.magnitudes;
     // All columns of many rows by name would take more memory than the rows: those that an expectation can ask for.
     let asked = format!("{:?}", file.expect());
     let is_asked = |name: &&str| {

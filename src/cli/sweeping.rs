@@ -5,7 +5,7 @@ use super::error::CliError;
 use super::output::say;
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen, table_of};
-use crate::check::{self, Failing, Judged, Schema, broken, cells_of, in_turn, judge, refuse_unknown};
+use crate::check::{self, Failing, Judged, Magnitudes, Schema, broken, cells_of, in_turn, judge, refuse_unknown};
 use crate::experiment::ExperimentFile;
 use crate::experiment::types::{RecordCases, RecordTo};
 use crate::measure::more;
@@ -208,7 +208,10 @@ impl PlannedSweep {
         }
         let search = self.file.search();
         names.extend(search.iter().flat_map(|_| columns::names(&SEARCH)));
-        let schema = Schema::new(self.file.axes(), search.and_then(|search| search.over), &names);
+        let mut schema = Schema::new(self.file.axes(), search.and_then(|search| search.over), &names);
+        if let Ok(first) = self.file.case(&vec![0; self.file.axes().axes.len()]) {
+            schema.magnitudes = Magnitudes::of(&first);
+        }
         refuse_unknown(&schema, self.file.expect(), search).map_err(|error| self.file.placed(error))?;
         Ok(PlannedSweep { judged_by: Some(schema), ..self })
     }

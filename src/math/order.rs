@@ -1,8 +1,8 @@
 //! The order of a method: the slope of log error against log step.
 //!
 //! Points in the rounding floor say nothing about the order and are left out: from coarse to fine, everything from
-//! where an error far below the largest stops falling. What is fitted is the slope of the least-squares line through
-//! the rest (L3).
+//! where an error far below the largest stops falling, or is below what is known to be rounding. What is fitted is the
+//! slope of the least-squares line through the rest (L3).
 
 /// A fitted order.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,13 +16,19 @@ pub struct Order {
 
 /// Order of (step, error) pairs, all positive; None with fewer than two points above the rounding floor.
 pub fn fit(points: &[(f64, f64)]) -> Option<Order> {
+    fit_above(points, 0.0)
+}
+
+/// The same where errors up to a size are known to be rounding, whether they fall or not.
+pub fn fit_above(points: &[(f64, f64)], floor: f64) -> Option<Order> {
     let mut points: Vec<(f64, f64)> = points.iter().map(|(h, e)| (libm::log(*h), libm::log(*e))).collect();
     if points.iter().any(|(h, e)| !h.is_finite() || e.is_nan() || *e == f64::INFINITY) {
         return None;
     }
     points.sort_by(|a, b| b.0.total_cmp(&a.0));
     let all = points.len();
-    points.truncate(above_floor(&points));
+    let known = points.iter().take_while(|(_, e)| *e > libm::log(floor)).count();
+    points.truncate(known.min(above_floor(&points)));
     if points.len() < 2 {
         return None;
     }

@@ -17,13 +17,19 @@ pub fn figures(subject: &Subject) -> Vec<Figure> {
     let ground = Ground::of(subject);
     let coarse = ground.pooled(MOST_PLACES);
     let tried = tried::trials(&coarse);
+    let alone = tried::alone(&coarse);
+    // What is not among the trials is said where their figures say what they find.
+    let of_trials = |mut figure: Figure| {
+        figure.finding += &alone;
+        figure
+    };
     let is_grid = ground.chosen().count() > 1 && !subject.is_bench;
     let title = "Run time against error";
     let all = [
         is_grid.then(|| map::map(&ground, MOST)).flatten(),
-        Some(pareto::figure(title, &tried))
+        Some(of_trials(pareto::figure(title, &tried, &subject.magnitudes)))
             .filter(|figure| figure.marks.iter().any(|mark| figure.shown(mark).next().is_some())),
-        convergence::figure(&tried),
+        convergence::figure(&tried, &subject.magnitudes).map(of_trials),
         critical::figure(&ground.pooled(MOST_CRITICAL)),
         share::figure(&coarse),
         ensemble::figure(&coarse),

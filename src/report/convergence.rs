@@ -2,14 +2,16 @@
 
 use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, Mark};
 use super::number::{counted, plain, short};
-use super::pareto::{IS_AN_ORDER, in_words, unit};
+use super::pareto::{IS_AN_ORDER, in_words, unit, up_to};
 use super::tried::Tried;
+use crate::check::Magnitudes;
 use crate::rows::trials::{Trial, methods, order};
 
 /// The figure of trials. None where no method takes steps of several lengths.
-pub fn figure(tried: &[Tried]) -> Option<Figure> {
+pub fn figure(tried: &[Tried], magnitudes: &Magnitudes) -> Option<Figure> {
     let trials: Vec<Trial> = tried.iter().map(|tried| tried.trial.clone()).collect();
     let column = trials.first().map_or("error", |row| row.error_kind.as_str());
+    let floor = magnitudes.floor(column);
     let (mut marks, mut orders, mut rows) = (Vec::new(), Vec::new(), 0);
     for (colour, method) in methods(&trials).into_iter().enumerate() {
         let of_method = || tried.iter().filter(|tried| tried.trial.method == method);
@@ -21,7 +23,7 @@ pub fn figure(tried: &[Tried]) -> Option<Figure> {
         rows += of_method().map(|tried| tried.rows).sum::<usize>();
         let mut label = plain(method);
         // An error that does not fall with the step is rounding, or of another origin.
-        if let Some(order) = order(&trials, method).filter(|order| order.slope > IS_AN_ORDER) {
+        if let Some(order) = order(&trials, method, floor).filter(|order| order.slope > IS_AN_ORDER) {
             label += &format!(", order {:.2}", order.slope);
             let floor = if order.left_out > 0 { format!(" ({} in rounding)", order.left_out) } else { String::new() };
             orders.push((order.slope, format!("{} {:.2}{floor}", plain(method), order.slope)));
@@ -43,7 +45,7 @@ pub fn figure(tried: &[Tried]) -> Option<Figure> {
     marks.extend(triangles);
     let mut notes = vec![
         format!("n = {}", counted(rows, "row")),
-        "order: slope of log error in log step, least squares, rounding left out".to_string(),
+        format!("order: slope of log error in log step, least squares, rounding left out{}", up_to(floor, column)),
     ];
     if rows > tried.len() {
         notes.push("a point is the median of its runs".to_string());

@@ -3,7 +3,7 @@
 
 use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, Mark};
 use super::map::{Painted, critical, interval, sides, telling, verb};
-use super::number::{counted, plain, short};
+use super::number::{counted, in_percent, plain, short};
 use super::power_law::PowerFit;
 use super::subject::{Ground, Levels};
 use crate::heading::unit_of;
@@ -49,7 +49,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
                 dots: line,
             });
         }
-        laws.push(format!("{of}{}", said_of(fit, points.len())));
+        laws.push(format!("{of}{}{}", said_of(fit, &points), at_zero(dots.len() - points.len())));
         let drawn = if matches!(fit, PowerFit::Holds(_)) { Drawn::Points } else { Drawn::Line };
         marks.push(Mark { label, drawn, colour, dots });
     }
@@ -79,13 +79,24 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     })
 }
 
+/// What a law has no place for.
+fn at_zero(points: usize) -> String {
+    if points == 0 { String::new() } else { format!(", {} at 0 left out", counted(points, "point")) }
+}
+
 /// What a fit says, in words.
-fn said_of(fit: PowerFit, points: usize) -> String {
+fn said_of(fit: PowerFit, points: &[(f64, f64)]) -> String {
     match fit {
-        PowerFit::Holds(law) => format!("exponent {} ({points} places)", law.written()),
+        PowerFit::Holds(law) => {
+            // By how much the farthest point is off the law.
+            let off = points.iter().map(|(x, y)| (y / law.at(*x) - 1.0).abs()).fold(0.0, f64::max);
+            let off = if off < 0.01 { String::new() } else { format!(", up to {} off", in_percent(off)) };
+            format!("exponent {} ({} places{off})", law.written(), points.len())
+        }
         PowerFit::TooFew(1) => "too few places for a law (1)".to_string(),
         PowerFit::TooFew(places) => format!("too few places for a law ({places}; it takes 4)"),
         PowerFit::Scattered(law) => format!("too scattered for a law (exponent {})", law.written()),
+        PowerFit::Flat(law) => format!("no law: the exponent {} may be 0", law.written()),
         PowerFit::Bends(first, last) => {
             format!("no law: the exponent goes from {first:.2} to {last:.2}").replace("-0.00", "0.00")
         }

@@ -32,7 +32,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     let groups = ground.grouped(x, y, column);
     let is_log = x.is_logarithmic();
     let place = |level: usize| x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
-    let (mut marks, mut largest, mut zeros, mut n) = (Vec::new(), None, 0, 0);
+    let (mut marks, mut largest, mut zeros, mut floored, mut n) = (Vec::new(), None, 0, 0, 0);
     for (series, levels) in groups.iter().enumerate() {
         let name = y.map_or("all".to_string(), |y| y.labels[series].clone());
         let mut dots = Vec::new();
@@ -40,12 +40,15 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
             let mut sizes: Vec<f64> = values.iter().map(|x| x.abs()).filter(|x| x.is_finite()).collect();
             sizes.sort_by(f64::total_cmp);
             if sizes.is_empty() {
+                // A line does not go on over what is not known.
+                dots.push(Dot::at(place(level), f64::NAN));
                 continue;
             }
             n += sizes.len();
             let [low, middle, high] = [0.05, 0.5, 0.95].map(|q| quantile(&sizes, q));
             if middle == 0.0 {
                 zeros += 1;
+                dots.push(Dot::at(place(level), 0.0).with_bar(low, high));
                 continue;
             }
             let of = y.map_or(String::new(), |_| format!("{name}, "));
@@ -60,8 +63,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
             if largest.as_ref().is_none_or(|(largest, _)| middle > *largest * (1.0 + ALIKE)) {
                 largest = Some((middle, said.clone()));
             }
-            // What is zero lies below any logarithm: the band ends where the smallest number is.
-            let low = if low > 0.0 { low } else { sizes.iter().copied().find(|x| *x > 0.0).unwrap_or(middle) };
+            floored += usize::from(low == 0.0);
             dots.push(Dot::at(place(level), middle).with_bar(low, high).saying(said));
         }
         marks.push(Mark { label: name, drawn: Drawn::Line, colour: series, dots });
@@ -76,19 +78,26 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     marks.iter_mut().flat_map(|mark| &mut mark.dots).for_each(|dot| (dot.low, dot.high) = (None, None));
     bands.append(&mut marks);
     let (_, said) = largest?;
+    let is_drawn = |axis: &Levels| axis.path == x.path || y.is_some_and(|y| axis.path == y.path);
+    let is_of_seeds = ground.axes.iter().all(|axis| axis.is_of_seeds() || is_drawn(axis));
     let mut notes = ground.notes();
     notes.extend([Some(x), y].into_iter().flatten().filter(|axis| axis.numbers.is_none()).filter_map(Levels::note));
+    notes.extend(ground.pooled_beside(&[Some(x), y].into_iter().flatten().collect::<Vec<_>>()));
     notes.push(format!(
-        "lines: medians; areas: 5 to 95 % of the seeds{}",
+        "lines: medians; areas: 5 to 95 % of the {}{}",
+        if is_of_seeds { "seeds" } else { "runs" },
         if of == "all" { String::new() } else { format!(", of {of}") }
     ));
     notes.push(format!("{} of {}; of what diverged too", counted(n, "number"), counted(ground.frame().rows(), "row")));
+    if floored > 0 {
+        notes.push(format!("{} of areas at 0, drawn to the axis", counted(floored, "lower end")));
+    }
     if zeros > 0 {
         notes.push(format!("{} with a median of 0 not shown", counted(zeros, "point")));
     }
     Some(Figure {
         name: "ensemble".to_string(),
-        title: format!("Size of {column} over seeds"),
+        title: format!("Size of {column} over {}", if is_of_seeds { "seeds" } else { "runs" }),
         finding: format!("The median of |{column}| is largest for {said}."),
         x: along(x, is_log),
         y: FigureAxis { label: format!("|{column}|"), unit: "1".to_string(), scale: FigureScale::Logarithmic },
@@ -103,7 +112,7 @@ fn banded(marks: &[Mark]) -> Vec<usize> {
     if marks.len() <= BANDS {
         return (0..marks.len()).collect();
     }
-    let last = |series: &usize| marks[*series].dots.last().map(|dot| dot.y);
+    let last = |series: &usize| marks[*series].dots.iter().rev().map(|dot| dot.y).find(|y| *y > 0.0);
     let mut series: Vec<usize> = (0..marks.len()).filter(|series| last(series).is_some()).collect();
     series.sort_by(|a, b| last(a).unwrap_or_default().total_cmp(&last(b).unwrap_or_default()));
     match series[..] {

@@ -179,6 +179,24 @@ impl Figure {
         mark.dots.iter().filter(|dot| self.x.shows(dot.x) && self.y.shows(dot.y))
     }
 
+    /// Runs of neighbouring dots that have a place, and those that do not between them: a line ends where nothing is to
+    /// be seen.
+    pub fn unbroken<'a>(&self, mark: &'a Mark, y: impl Fn(&Dot) -> Option<f64>) -> Vec<&'a [Dot]> {
+        let is_seen = |dot: &Dot| self.x.shows(dot.x) && y(dot).is_some_and(|y| self.y.shows(y));
+        mark.dots.split(|dot| !is_seen(dot)).filter(|run| !run.is_empty()).collect()
+    }
+
+    /// Outlines of a band, one for every run of it; what is 0 on a logarithmic axis lies at its end.
+    pub fn outlines(&self, mark: &Mark) -> Vec<Vec<(f64, f64)>> {
+        let floor = self.extent()[1].0;
+        let low = |dot: &Dot| (dot.x, dot.low.filter(|y| self.y.shows(*y)).unwrap_or(floor));
+        let outline = |run: &[Dot]| {
+            let high = run.iter().filter_map(|dot| Some((dot.x, dot.high?)));
+            high.chain(run.iter().rev().map(low)).collect()
+        };
+        self.unbroken(mark, |dot| dot.high).into_iter().map(outline).collect()
+    }
+
     /// Shift of every mark to the right, as a part of the axis: error bars of several series at one place stand side by
     /// side.
     pub fn asides(&self) -> Vec<f64> {

@@ -133,15 +133,7 @@ pub fn map(ground: &Ground, most: usize) -> Option<Figure> {
         }
     };
     let mut notes = ground.notes();
-    let beside: Vec<String> = ground
-        .axes
-        .iter()
-        .filter(|axis| axis.path != x.path && y.is_none_or(|y| axis.path != y.path))
-        .map(|axis| format!("{} ({} values)", axis.path, axis.len()))
-        .collect();
-    if !beside.is_empty() {
-        notes.push(format!("pooled over {}", beside.join(", ")));
-    }
+    notes.extend(ground.pooled_beside(&[Some(x), y].into_iter().flatten().collect::<Vec<_>>()));
     notes.extend([Some(x), y].into_iter().flatten().filter_map(Levels::note));
     for axis in [Some(x), y].into_iter().flatten().filter(|axis| axis.len() > most) {
         notes.push(format!("{} values of {} are pooled into {most}", axis.len(), axis.path));
@@ -420,8 +412,10 @@ fn finding(ground: &Ground, painted: &Painted, cells: &[GridCell]) -> String {
                 n => most.map(|said| format!("; most in {n} cells, such as {said}")).unwrap_or_default(),
             };
             let ending = if n == 1 { "s" } else { "" };
+            // As many digits as tell the ends of the interval apart.
+            let digits = (1.0 - libm::log10(100.0 * (high - low)).floor()).clamp(1.0, 6.0) as usize;
             format!(
-                "{k} of {} {}{ending} ({:.1} %, 95 % interval {:.1} to {:.1} %){most}.",
+                "{k} of {} {}{ending} ({:.digits$} %, 95 % interval {:.digits$} to {:.digits$} %){most}.",
                 counted(n, "run"),
                 verb(outcome),
                 100.0 * k as f64 / n as f64,

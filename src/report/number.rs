@@ -39,6 +39,17 @@ pub fn percent(share: f64) -> String {
     }
 }
 
+/// A share in percent, in a sentence: two digits of what it is from none or from all.
+pub fn in_percent(share: f64) -> String {
+    let from_end = 100.0 * share.min(1.0 - share);
+    if !(from_end > 0.0 && from_end < 10.0) {
+        return percent(share);
+    }
+    let digits = (1.0 - libm::log10(from_end).floor()).clamp(1.0, 6.0) as usize;
+    let text = format!("{:.digits$}", 100.0 * share);
+    format!("{}%", text.trim_end_matches('0').trim_end_matches('.'))
+}
+
 /// `n cases`, `1 case`.
 pub fn counted(n: usize, what: &str) -> String {
     format!(

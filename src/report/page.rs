@@ -22,8 +22,12 @@ pub struct Page {
 }
 
 /// What stands where there is no figure.
-pub const NOTHING_DRAWN: &str =
-    "No axis has several values: there is nothing to compare in a figure, and the table has all that there is.";
+pub fn nothing_drawn(subject: &Subject) -> String {
+    if subject.frame.rows() == 0 && subject.planned > 0 {
+        return format!("0 of {} done: there is nothing to draw yet.", counted(subject.planned, "case"));
+    }
+    "No axis has several values: there is nothing to compare in a figure, and the table has all that there is.".into()
+}
 
 const STYLE: &str = include_str!("../../assets/report.css");
 const SCRIPT: &str = include_str!("../../assets/report.js");
@@ -106,7 +110,7 @@ fn html(subject: &Subject, figures: &[Figure], listing: &Listing) -> String {
     }
     verdicts(&mut out, subject);
     if figures.is_empty() {
-        let _ = writeln!(out, "<p class=\"notes\">{NOTHING_DRAWN}</p>");
+        let _ = writeln!(out, "<p class=\"notes\">{}</p>", escaped(&nothing_drawn(subject)));
     }
     for figure in figures {
         shown(&mut out, figure);

@@ -3,6 +3,7 @@
 use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, Mark};
 use super::number::{counted, plain, short};
 use super::tried::Tried;
+use crate::check::Magnitudes;
 use crate::heading::unit_of;
 use crate::rows::trials::{Trial, methods, order, pareto};
 
@@ -10,11 +11,12 @@ use crate::rows::trials::{Trial, methods, order, pareto};
 pub const IS_AN_ORDER: f64 = 0.2;
 
 /// The figure of trials.
-pub fn figure(title: &str, tried: &[Tried]) -> Figure {
+pub fn figure(title: &str, tried: &[Tried], magnitudes: &Magnitudes) -> Figure {
     let trials: Vec<Trial> = tried.iter().map(|tried| tried.trial.clone()).collect();
     let column = trials.first().map_or("error", |row| row.error_kind.as_str());
+    let floor = magnitudes.floor(column);
     let is_one_problem = tried.iter().all(|other| other.problem == tried[0].problem);
-    let on_front = if is_one_problem { pareto(&trials) } else { vec![false; trials.len()] };
+    let on_front = if is_one_problem { pareto(&trials, floor) } else { vec![false; trials.len()] };
     let mut front: Vec<Dot> =
         trials.iter().zip(&on_front).filter(|(_, on_it)| **on_it).filter_map(|(row, _)| dot(row, None)).collect();
     front.sort_by(|a, b| a.x.total_cmp(&b.x));
@@ -27,7 +29,7 @@ pub fn figure(title: &str, tried: &[Tried]) -> Figure {
         let mut label = plain(method);
         // None of another engine's best rows, which are of several methods, nor of what chooses its own steps.
         let has_steps = of_method.iter().all(|Tried { trial, .. }| trial.engine == "gotai" && trial.step_s.is_some());
-        if let Some(order) = order(&trials, method).filter(|order| has_steps && order.slope > IS_AN_ORDER) {
+        if let Some(order) = order(&trials, method, floor).filter(|order| has_steps && order.slope > IS_AN_ORDER) {
             label += &format!(", order {:.2}", order.slope);
         }
         // What a logarithm cannot show is said in words.
@@ -59,7 +61,7 @@ pub fn figure(title: &str, tried: &[Tried]) -> Figure {
     Figure {
         name: "pareto".to_string(),
         title: plain(title),
-        finding: if is_one_problem { finding(&trials, &on_front, column) } else { of_problems(tried) },
+        finding: if is_one_problem { finding(&trials, &on_front, (column, floor)) } else { of_problems(tried) },
         x: FigureAxis { label: in_words(column), unit: unit(column), scale: FigureScale::Logarithmic },
         y: FigureAxis {
             label: (if is_repeated { "run time, best" } else { "run time" }).to_string(),
@@ -84,7 +86,7 @@ fn dot(trial: &Trial, row: Option<usize>) -> Option<Dot> {
     Some(Dot { x: error, y: wall_s, low, high, said: plain(&said), row })
 }
 
-fn finding(trials: &[Trial], on_front: &[bool], column: &str) -> String {
+fn finding(trials: &[Trial], on_front: &[bool], (column, floor): (&str, f64)) -> String {
     let mut best: Vec<&str> = Vec::new();
     for (trial, _) in trials.iter().zip(on_front).filter(|(_, on_it)| **on_it) {
         if !best.contains(&trial.method.as_str()) {
@@ -98,6 +100,13 @@ fn finding(trials: &[Trial], on_front: &[bool], column: &str) -> String {
     let accurate = accurate.min_by(|a, b| a.0.total_cmp(&b.0));
     let most = accurate.map(|(error, wall_s, trial)| {
         let method = &trial.method;
+        if error <= floor {
+            return format!(
+                "; the first with no error but rounding{} is {method} in {} s",
+                up_to(floor, column),
+                short(wall_s)
+            );
+        }
         format!("; its smallest error, {} {}, is {method}'s in {} s", short(error), unit(column), short(wall_s))
     });
     plain(&format!(
@@ -125,6 +134,11 @@ fn of_problems(tried: &[Tried]) -> String {
         counted(problems.len(), "problem"),
         shown.join("; ")
     ))
+}
+
+/// What is rounding, for a note.
+pub fn up_to(floor: f64, column: &str) -> String {
+    if floor > 0.0 { format!(" (up to {} {})", short(floor), unit(column)) } else { String::new() }
 }
 
 /// Unit of an error; 1 of a ratio.

@@ -122,13 +122,14 @@ impl Figure {
         });
         match mark.drawn {
             Drawn::Band => {
-                let ends = |end: fn(&super::figure::Dot) -> Option<f64>| -> Vec<(f64, f64)> {
-                    mark.dots.iter().filter_map(|dot| Some((dot.x, end(dot)?))).collect()
+                let outlines = self.outlines(mark);
+                // A null ends an outline.
+                let all = |of: fn(&(f64, f64)) -> f64| -> Vec<Value> {
+                    let outlines: Vec<Vec<Value>> =
+                        outlines.iter().map(|outline| outline.iter().map(|point| json!(of(point))).collect()).collect();
+                    outlines.join(&Value::Null)
                 };
-                let mut around = ends(|dot| dot.high);
-                around.extend(ends(|dot| dot.low).into_iter().rev());
-                trace["x"] = around.iter().map(|point| json!(point.0)).collect();
-                trace["y"] = around.iter().map(|point| json!(point.1)).collect();
+                (trace["x"], trace["y"]) = (json!(all(|point| point.0)), json!(all(|point| point.1)));
                 trace["fill"] = json!("toself");
                 trace["fillcolor"] = json!(format!("{colour}2a"));
                 trace["hoverinfo"] = json!("skip");

@@ -52,6 +52,8 @@ pub enum PowerFit {
     TooFew(usize),
     /// The exponent is not known.
     Scattered(PowerLaw),
+    /// The exponent may be 0: its interval holds it.
+    Flat(PowerLaw),
     /// A parabola in the logarithms is better than chance would have it (t-test, 5 %): exponents at both ends.
     Bends(f64, f64),
     /// So many of the points have the law outside of their intervals, which chance leaves to one of twenty (binomial
@@ -77,6 +79,7 @@ impl PowerFit {
                 PowerFit::OutsideOfIntervals(n, points.len())
             }
             _ if margin > WIDEST => PowerFit::Scattered(law),
+            _ if law.exponent.abs() <= margin => PowerFit::Flat(law),
             _ => PowerFit::Holds(law),
         }
     }

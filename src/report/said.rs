@@ -39,7 +39,7 @@ pub fn table(figure: &Figure) -> (Vec<String>, Vec<Vec<String>>) {
     let headings = ["series", &figure.x.titled(), &figure.y.titled(), "from", "to"].map(str::to_string).to_vec();
     let is_told = |mark: &&super::figure::Mark| !matches!(mark.drawn, Drawn::Front | Drawn::Triangle);
     let rows = figure.marks.iter().filter(is_told).flat_map(|mark| {
-        mark.dots.iter().map(move |dot| {
+        mark.dots.iter().filter(|dot| !dot.y.is_nan()).map(move |dot| {
             let x = figure.x.names().map_or(dot.x.to_string(), |names| name(Some(names), dot.x as usize));
             let end = |end: Option<f64>| end.map_or(String::new(), |end| end.to_string());
             vec![mark.label.clone(), x, dot.y.to_string(), end(dot.low), end(dot.high)]

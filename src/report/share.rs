@@ -3,7 +3,7 @@
 use super::ensemble::along;
 use super::figure::{Dot, Drawn, Figure, FigureAxis, FigureScale, Mark};
 use super::map::{Painted, sides, telling, verb};
-use super::number::percent;
+use super::number::{in_percent, percent};
 use super::subject::{Ground, Levels};
 use crate::math::interval::{Interval, of_share};
 
@@ -51,13 +51,14 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     };
     let marks: Vec<Mark> = counts.iter().enumerate().map(mark).collect();
     let mut notes = ground.notes();
+    notes.extend(ground.pooled_beside(&[Some(x), y].into_iter().flatten().collect::<Vec<_>>()));
     notes.extend([Some(x), y].into_iter().flatten().filter(|axis| axis.numbers.is_none()).filter_map(Levels::note));
     let side_by_side = if y.is_some() { "; series stand side by side" } else { "" };
     notes.push(format!("bars: Wilson's interval, 95 %{side_by_side}"));
     Some(Figure {
         name: "share".to_string(),
         title: format!("Share of runs that {}", verb(outcome)),
-        finding: finding(&marks, x, outcome)?,
+        finding: finding(&marks, x, y, outcome)?,
         x: along(x, x.is_logarithmic()),
         y: FigureAxis { label: format!("share {outcome}"), unit: "1".to_string(), scale: FigureScale::Linear },
         field: None,
@@ -67,7 +68,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
 }
 
 /// What there is where the lines are farthest apart, or where a single one is highest.
-fn finding(marks: &[Mark], x: &Levels, outcome: &str) -> Option<String> {
+fn finding(marks: &[Mark], x: &Levels, y: Option<&Levels>, outcome: &str) -> Option<String> {
     let place = |level: usize| x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
     let at = |level: usize| {
         let here =
@@ -78,28 +79,32 @@ fn finding(marks: &[Mark], x: &Levels, outcome: &str) -> Option<String> {
     };
     let spread =
         |level: usize| at(level).map_or(-1.0, |(low, high)| if marks.len() > 1 { high.1 - low.1 } else { high.1 });
-    let level = (0..x.len()).max_by(|a, b| spread(*a).total_cmp(&spread(*b)))?;
+    let highest = |level: usize| at(level).map_or(-1.0, |(_, high)| high.1);
+    // Where no two lines differ, the highest place.
+    let rank = |a: usize, b: usize| spread(a).total_cmp(&spread(b)).then(highest(a).total_cmp(&highest(b)));
+    let level = (0..x.len()).max_by(|a, b| rank(*a, *b))?;
+    let of = |mark: &Mark| y.map_or(mark.label.clone(), |y| y.says(mark.colour));
     let (low, high) = at(level)?;
     let verb = verb(outcome);
     let sizes = || marks.iter().flat_map(|mark| mark.dots.iter().map(|dot| dot.y));
     if let Some(first) = sizes().next()
         && sizes().all(|y| y == first)
     {
-        return Some(format!("Everywhere {} of the runs {verb}.", percent(first)));
+        return Some(format!("Everywhere {} of the runs {verb}.", in_percent(first)));
     }
     Some(match marks.len() {
-        1 => format!("At {} {} of the runs {verb}, the most anywhere.", x.says(level), percent(high.1)),
+        1 => format!("At {} {} of the runs {verb}, the most anywhere.", x.says(level), in_percent(high.1)),
         // Of all series one alone has runs there, or all are alike.
         _ if low.1 == high.1 => {
-            format!("At {} {} of the runs {verb} ({}).", x.says(level), percent(high.1), high.0.label)
+            format!("At {} {} of the runs {verb} ({}).", x.says(level), in_percent(high.1), of(high.0))
         }
         _ => format!(
             "At {} between {} ({}) and {} ({}) of the runs {verb}.",
             x.says(level),
-            percent(low.1),
-            low.0.label,
-            percent(high.1),
-            high.0.label
+            in_percent(low.1),
+            of(low.0),
+            in_percent(high.1),
+            of(high.0)
         ),
     })
 }

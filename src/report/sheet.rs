@@ -165,14 +165,9 @@ impl Sheet {
             self.path(&[(left, top), (left, bottom), (right, bottom)], Ink::Muted, 1.2);
         }
         let middle = 0.5 * (left + right);
-        self.strokes.push(letters(
-            middle,
-            bottom + 42.0,
-            13.0,
-            TextAnchor::Middle,
-            Ink::Letters,
-            &cut(&figure.x.titled(), 80),
-        ));
+        let left_out = if every > 1 { format!(" (one of {every} is named)") } else { String::new() };
+        let title = figure.x.titled() + &left_out;
+        self.strokes.push(letters(middle, bottom + 42.0, 13.0, TextAnchor::Middle, Ink::Letters, &cut(&title, 80)));
         let mut up = letters(
             MARGIN + 6.0,
             0.5 * (top + bottom),
@@ -258,17 +253,17 @@ impl Sheet {
                 }
             }
             Drawn::Band => {
-                let ends = |of: fn(&Dot) -> Option<f64>| {
-                    let shown = dots.iter().filter_map(|dot| Some((dot.x, of(dot).filter(|y| figure.y.shows(*y))?)));
-                    shown.map(|(x, y)| self.at(figure, x, y)).collect::<Vec<_>>()
-                };
-                let mut points = ends(|dot| dot.high);
-                points.extend(ends(|dot| dot.low).into_iter().rev());
-                self.strokes.push(Stroke::Area { points, ink, opacity: 0.16, said: mark.label.clone() });
+                for outline in figure.outlines(mark) {
+                    let points = outline.into_iter().map(|(x, y)| self.at(figure, x, y)).collect();
+                    self.strokes.push(Stroke::Area { points, ink, opacity: 0.16, said: mark.label.clone() });
+                }
             }
             Drawn::Line | Drawn::Points => {
                 if mark.drawn == Drawn::Line {
-                    self.path(&points, ink, 2.0);
+                    for run in figure.unbroken(mark, |dot| Some(dot.y)) {
+                        let at = |dot: &Dot| self.at(figure, figure.shifted(dot.x, aside), dot.y);
+                        self.path(&run.iter().map(at).collect::<Vec<_>>(), ink, 2.0);
+                    }
                 }
                 for (dot, at) in dots.iter().zip(&points) {
                     if let (Some(low), Some(high)) = (dot.low, dot.high) {
@@ -324,7 +319,8 @@ impl Sheet {
             y = self.bar_of_colours(field, left, y) + 26.0;
         }
         for mark in &figure.marks {
-            if matches!(mark.drawn, Drawn::Triangle | Drawn::Band | Drawn::Dashed) || y > self.frame.bottom {
+            let is_beside = matches!(mark.drawn, Drawn::Triangle | Drawn::Band | Drawn::Dashed);
+            if is_beside || mark.dots.is_empty() || y > self.frame.bottom {
                 continue;
             }
             let ink = Ink::Fixed(COLOURS[mark.colour % COLOURS.len()]);

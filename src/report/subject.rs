@@ -3,7 +3,7 @@
 use super::frame::RowFrame;
 use super::labels::Labels;
 use super::number::{of_cell, plain, shown};
-use crate::check::Judged;
+use crate::check::{Judged, Magnitudes};
 use crate::heading::unit_of;
 use crate::rows::plan_file::PlanAxis;
 use crate::rows::trials::Trial;
@@ -31,6 +31,8 @@ pub struct Subject {
     /// Whether a method among them claims to solve the law of contact.
     pub claims_to_solve: bool,
     pub verdicts: Vec<Judged>,
+    /// Sizes that rounding is relative to.
+    pub magnitudes: Magnitudes,
     /// What is in doubt, or has to be said before anything is believed.
     pub warnings: Vec<String>,
     /// What is known of how the rows were made, by name.
@@ -259,6 +261,13 @@ impl<'a> Ground<'a> {
             }
         }
         notes
+    }
+
+    /// What a figure pools that has these axes; None where it pools nothing.
+    pub fn pooled_beside(&self, drawn: &[&Levels]) -> Option<String> {
+        let beside = self.axes.iter().filter(|axis| drawn.iter().all(|drawn| axis.path != drawn.path));
+        let beside: Vec<String> = beside.map(|axis| format!("{} ({} values)", axis.path, axis.len())).collect();
+        (!beside.is_empty()).then(|| format!("pooled over {}", beside.join(", ")))
     }
 
     /// Numbers of a column, by the levels of an axis and of another; rows that failed are left out.

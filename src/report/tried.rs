@@ -27,6 +27,48 @@ const ROUNDING: f64 = 1e-6;
 /// Most series of a figure.
 const MOST_SERIES: usize = 10;
 
+/// Axes that tell the series of a figure apart, and those of problems of which only the first value has room: a median
+/// over problems would be an error that no run has.
+struct Series<'a> {
+    by: Vec<&'a Levels>,
+    alone: Vec<&'a Levels>,
+}
+
+impl<'a> Series<'a> {
+    fn of(ground: &'a Ground) -> Self {
+        let mut by: Vec<&Levels> = ground.chosen().filter(|axis| !axis.is_step() && !axis.is_tolerance()).collect();
+        let mut alone = Vec::new();
+        while by.iter().map(|axis| axis.len()).product::<usize>() > MOST_SERIES {
+            let Some(last) = by.iter().rposition(|axis| !axis.is_of_methods()) else { break };
+            alone.push(by.remove(last));
+        }
+        Series { by, alone }
+    }
+
+    /// Number of series.
+    fn len(&self) -> usize {
+        self.by.iter().map(|axis| axis.len()).product()
+    }
+}
+
+fn accuracy<'a>(ground: &'a Ground) -> Vec<&'a Levels> {
+    ground.axes.iter().filter(|axis| axis.is_step() || axis.is_tolerance()).collect()
+}
+
+/// What the trials of rows are alone of, in sentences; empty where they are of all.
+pub fn alone(ground: &Ground) -> String {
+    if !ground.subject.trials.is_empty() || accuracy(ground).is_empty() {
+        return String::new();
+    }
+    let series = Series::of(ground);
+    let of = |axis: &&Levels| format!(" Of {} alone, of {} values.", axis.says(0), axis.len());
+    let mut said: String = series.alone.iter().map(of).collect();
+    if series.len() > MOST_SERIES {
+        said += &format!(" The first {MOST_SERIES} of {} series.", series.len());
+    }
+    said
+}
+
 /// Trials of a subject: those that it has, else those that its rows make.
 pub fn trials(ground: &Ground) -> Vec<Tried> {
     let known = &ground.subject.trials;
@@ -50,7 +92,7 @@ fn labelled(mut trial: Trial) -> Trial {
 
 fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
     let frame = ground.frame();
-    let accuracy: Vec<&Levels> = ground.axes.iter().filter(|axis| axis.is_step() || axis.is_tolerance()).collect();
+    let accuracy = accuracy(ground);
     if accuracy.is_empty() {
         return None;
     }
@@ -62,16 +104,14 @@ fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
     let of_all = ERRORS.iter().map(largest).fold(0.0, f64::max);
     let error = *ERRORS.iter().find(|name| largest(name) > ROUNDING * of_all)?;
     let errors = frame.numbers(error)?;
-    // One series for what the other axes are, where these are few.
-    let mut by: Vec<&Levels> = ground.chosen().filter(|axis| !axis.is_step() && !axis.is_tolerance()).collect();
-    while by.iter().map(|axis| axis.len()).product::<usize>() > MOST_SERIES {
-        by.pop();
-    }
+    // One series for what the other axes are.
+    let Series { by, alone } = Series::of(ground);
     let (wall, steps) = (frame.numbers("wall_s"), frame.numbers("steps"));
     let used = frame.numbers("step_used_s");
     let finished = ground.ended("finished");
     let mut groups: std::collections::BTreeMap<Vec<u32>, Vec<usize>> = std::collections::BTreeMap::new();
-    for row in 0..frame.rows() {
+    let is_there = |row: &usize| alone.iter().all(|axis| axis.of_row[*row] == Some(0));
+    for row in (0..frame.rows()).filter(is_there) {
         let key: Option<Vec<u32>> = by.iter().chain(&accuracy).map(|axis| axis.of_row[row]).collect();
         if let Some(key) = key {
             groups.entry(key).or_default().push(row);
@@ -112,7 +152,11 @@ fn of_rows(ground: &Ground) -> Option<Vec<Tried>> {
             problem,
         }
     };
-    Some(groups.into_iter().map(tried).collect())
+    let mut series: Vec<Vec<u32>> = groups.keys().map(|key| key[..by.len()].to_vec()).collect();
+    series.dedup();
+    series.truncate(MOST_SERIES);
+    let has_room = |(key, _): &(Vec<u32>, Vec<usize>)| series.iter().any(|series| key.starts_with(series));
+    Some(groups.into_iter().filter(has_room).map(tried).collect())
 }
 
 /// Trials of a table of a bench, ours or another program's: `step_s` may be called `dt`, and an error may be a word.

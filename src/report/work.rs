@@ -27,7 +27,7 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
     };
     let x = ground.chosen().max_by(|a, b| score(a).total_cmp(&score(b)))?;
     let place = |level: usize| x.numbers.as_ref().map_or(level as f64, |numbers| numbers[level]);
-    let mut said = Vec::new();
+    let (mut said, mut ranges) = (Vec::new(), Vec::new());
     let mut marks = Vec::new();
     for (colour, (name, _)) in counters.iter().enumerate() {
         let dot = |(level, values): (usize, &Vec<f64>)| {
@@ -38,28 +38,40 @@ pub fn figure(ground: &Ground) -> Option<Figure> {
         };
         let dots: Vec<Dot> = ground.grouped(x, None, name)[0].iter().enumerate().filter_map(dot).collect();
         let is_whole = |a: &Dot, b: &Dot| x.len() > 1 && [a.x, b.x] == [place(0), place(x.len() - 1)];
+        let (low, high) =
+            dots.iter().fold((f64::INFINITY, 0.0f64), |(low, high), dot| (low.min(dot.y), high.max(dot.y)));
+        ranges.push(format!("{name} {} to {}", short(low), short(high)));
         if let (Some(a), Some(b)) = (dots.first(), dots.last())
             && is_whole(a, b)
         {
             said.push(format!("{name} {} to {}", short(a.y), short(b.y)));
         }
+        if dots.is_empty() {
+            continue;
+        }
         let drawn = if x.numbers.is_some() { Drawn::Line } else { Drawn::Points };
         marks.push(Mark { label: name.to_string(), drawn, colour, dots });
     }
     said.truncate(3);
+    ranges.truncate(3);
     let mut notes = ground.notes();
+    notes.extend(ground.pooled_beside(&[x]));
     notes.extend(x.note().filter(|_| x.numbers.is_none()));
     notes.push("medians; a median of 0 is not shown".to_string());
     Some(Figure {
         name: "work".to_string(),
         title: "Work".to_string(),
         finding: match said.len() {
-            0 => format!("Medians along {}.", x.path),
+            0 => format!("Medians along {}, smallest to largest: {}.", x.path, ranges.join(", ")),
             _ => format!("Medians from {} to {}: {}.", x.says(0), x.says(x.len() - 1), said.join(", ")),
         },
         x: along(x, x.is_logarithmic()),
         y: FigureAxis {
-            label: "count in a run, median".to_string(),
+            // One alone has no legend that names it.
+            label: match &marks[..] {
+                [only] => format!("{} in a run, median", only.label),
+                _ => "count in a run, median".to_string(),
+            },
             unit: "1".to_string(),
             scale: FigureScale::Logarithmic,
         },

@@ -1,6 +1,6 @@
 //! The rows of a bench and what they say together: the order of every method, and who is on the Pareto front.
 
-use crate::math::order::{Order, fit};
+use crate::math::order::{Order, fit_above};
 use serde::{Deserialize, Serialize};
 
 /// One row of a bench. Fields are columns of `bench.csv` and keys of `bench.json`.
@@ -44,7 +44,7 @@ pub fn best_of_each_engine(rows: &[Trial]) -> Vec<Trial> {
     let mut best = Vec::new();
     for engine in engines {
         let own: Vec<Trial> = rows.iter().filter(|row| row.engine == engine).cloned().collect();
-        let on_front = pareto(&own);
+        let on_front = pareto(&own, 0.0);
         let mut front: Vec<Trial> =
             own.into_iter().zip(on_front).filter(|(_, is_on)| *is_on).map(|(row, _)| row).collect();
         front.sort_by(|a, b| a.wall_s.unwrap_or(f64::INFINITY).total_cmp(&b.wall_s.unwrap_or(f64::INFINITY)));
@@ -64,8 +64,9 @@ pub fn methods(rows: &[Trial]) -> Vec<&str> {
     methods
 }
 
-/// Order of a method: of the error in the step, or in the mean of its own steps (proportional to 1 / their number).
-pub fn order(rows: &[Trial], method: &str) -> Option<Order> {
+/// Order of a method: of the error in the step, or in the mean of its own steps (proportional to 1 / their number),
+/// above what is rounding.
+pub fn order(rows: &[Trial], method: &str, floor: f64) -> Option<Order> {
     let mut points: Vec<(f64, f64)> = Vec::new();
     for row in rows.iter().filter(|row| row.method == method) {
         let step = match (row.step_s, row.tolerance) {
@@ -77,13 +78,16 @@ pub fn order(rows: &[Trial], method: &str) -> Option<Order> {
             points.push((step, error));
         }
     }
-    fit(&points)
+    fit_above(&points, floor)
 }
 
-/// Whether each row is on the Pareto front: no other is at least as accurate and as fast, and one of both more. Closed
-/// forms do not compete: errors are measured against them.
-pub fn pareto(rows: &[Trial]) -> Vec<bool> {
-    let competing = |row: &Trial| row.point().filter(|_| row.step_s.or(row.tolerance).is_some());
+/// Whether each row is on the Pareto front: no other is at least as accurate and as fast, and one of both more; errors
+/// that are rounding are alike. Closed forms do not compete: errors are measured against them.
+pub fn pareto(rows: &[Trial], floor: f64) -> Vec<bool> {
+    let competing = |row: &Trial| {
+        let (error, wall_s) = row.point().filter(|_| row.step_s.or(row.tolerance).is_some())?;
+        Some((error.max(floor), wall_s))
+    };
     let beats = |a: (f64, f64), b: (f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;
     let is_beaten = |point| rows.iter().filter_map(competing).any(|other| beats(other, point));
     rows.iter().map(|row| competing(row).is_some_and(|point| !is_beaten(point))).collect()

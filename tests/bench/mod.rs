@@ -58,13 +58,13 @@ fn every_method_has_a_row_at_each_of_its_steps_or_tolerances() {
 #[test]
 fn the_fitted_orders_are_those_that_are_claimed() {
     let rows = rows(SPIN, &[]);
-    let slope = |method| order(&rows, method).unwrap().slope;
+    let slope = |method| order(&rows, method, 0.0).unwrap().slope;
     // measured: 0.98, 4.00
     assert!((slope("free explicit-euler") - 1.0).abs() < 0.1, "{}", slope("free explicit-euler"));
     assert!((slope("free rk4") - 4.0).abs() < 0.1, "{}", slope("free rk4"));
     // In its own mean step, from two tolerances. measured: 7.02
     assert!((6.0..10.0).contains(&slope("free dop853")), "{}", slope("free dop853"));
-    assert!(order(&rows, "closed form").is_none());
+    assert!(order(&rows, "closed form", 0.0).is_none());
     // The same closed form, once a step. measured: 8.2e-18
     assert!(rows.last().unwrap().error.unwrap() < 1e-15, "{:?}", rows.last());
 }
@@ -132,7 +132,7 @@ fn row(error: f64, wall_s: f64, step_s: Option<f64>) -> Trial {
 fn the_pareto_front_is_what_nothing_beats_and_no_closed_form() {
     let at = |error, wall_s| row(error, wall_s, Some(0.1));
     let rows = [at(1.0, 1.0), at(0.5, 2.0), at(0.6, 2.0), at(0.5, 3.0), at(0.5, 2.0), row(0.0, 0.1, None)];
-    assert_eq!(pareto(&rows), [true, true, false, false, true, false]);
+    assert_eq!(pareto(&rows, 0.0), [true, true, false, false, true, false]);
 }
 
 #[test]

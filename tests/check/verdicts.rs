@@ -190,6 +190,12 @@ fn an_order_is_fitted_in_every_cell() {
     check(one, &second, true, "pairwise 2.00 2.00");
     let mixed = rows(|step, place, _| json!({ "energy_drift_rel": if place == "moon" { step } else { step * step } }));
     check("{ order: energy_drift_rel, against: time.step_s, between: [1.9, 2.1] }", &mixed, false, "1 … 2 in 4 cells");
+    // Errors of 1e-15 rise and fall as chance has it: no bound is met by them.
+    let rounding = rows(|step, _, _| json!({ "error_position_m": 1e-16 / step }));
+    let any = "{ order: error_position_m, against: time.step_s, between: [-9, 9] }";
+    check(any, &rounding, false, "nothing but rounding: at most ");
+    let above = rows(|step, _, _| json!({ "error_position_m": 1e-6 / step }));
+    check(any, &above, true, "-1 in 4 cells");
 }
 
 #[test]

@@ -65,6 +65,9 @@ fn what_follows_no_law_of_a_power_has_none() {
     assert_eq!(fit(&[(1.0, 1.0), (1.0, 1.1), (2.0, 0.5), (2.0, 0.6)]), PowerFit::TooFew(2));
     let scattered = [(1.0, 1.0), (2.0, 8.0), (4.0, 0.5), (8.0, 6.0), (16.0, 1.0)];
     assert!(matches!(fit(&scattered), PowerFit::Scattered(_)), "{:?}", fit(&scattered));
+    // An exponent that may be 0 is no law.
+    let flat: Vec<(f64, f64)> = places.iter().zip([1.0, 1.06, 0.95, 1.05, 1.0]).map(|(x, y)| (*x, y)).collect();
+    assert!(matches!(fit(&flat), PowerFit::Flat(_)), "{:?}", fit(&flat));
     // Intervals that the law leaves: of five, two are more than chance.
     let narrow: Vec<(f64, f64)> = noisy.iter().map(|(_, y)| (0.999 * y, 1.001 * y)).collect();
     assert!(matches!(PowerFit::of(&noisy, &narrow), PowerFit::OutsideOfIntervals(n, 5) if n > 1));
@@ -218,7 +221,7 @@ fn a_share_that_one_series_alone_has_is_said_once() {
     let rows = vec![of(1, "x", "finished"), of(2, "x", "diverged"), of(1, "y", "finished"), of(2, "y", "failed")];
     let all = figures(&of_rows(rows, vec![axis("a", json!([1, 2])), axis("b", json!(["x", "y"]))]));
     let share = all.iter().find(|figure| figure.name == "share").unwrap();
-    assert_eq!(share.finding, "At a = 2 100% of the runs diverge (x).");
+    assert_eq!(share.finding, "At a = 2 100% of the runs diverge (b = x).");
     // One run is one.
     let one = figures(&of_rows(vec![of(1, "x", "finished")], vec![axis("a", json!([1, 2]))]));
     assert!(
@@ -410,4 +413,171 @@ fn names_are_letters_and_nothing_else() {
         assert!(!figure.characters(false).contains('\u{1b}'));
         assert!(!figure.plotly().to_string().contains("<img"), "{}", figure.name);
     }
+}
+
+/// Twelve series have no room: one problem is drawn, never the mean of two.
+#[test]
+fn trials_are_not_pooled_over_problems() {
+    let (methods, steps, problems) = (["a", "b", "c", "d", "e", "f"], [0.1, 0.05], [1.0, 1000.0]);
+    let mut rows = Vec::new();
+    for method in methods {
+        for step_s in steps {
+            for problem in problems {
+                rows.push(row(json!({
+                    "case": format!("{}", rows.len()), "method.free": method, "time.step_s": step_s, "v": problem,
+                    "outcome": "finished", "error_position_m": 1e-3 * problem * step_s * step_s, "wall_s": 1e-3 / step_s,
+                })));
+            }
+        }
+    }
+    let axes = vec![axis("method.free", json!(methods)), axis("time.step_s", json!(steps)), axis("v", json!(problems))];
+    let all = figures(&of_rows(rows, axes));
+    for name in ["pareto", "convergence"] {
+        let figure = all.iter().find(|figure| figure.name == name).unwrap();
+        assert!(figure.finding.ends_with(" Of v = 1 alone, of 2 values."), "{}", figure.finding);
+        let dots = figure.marks.iter().filter(|mark| mark.drawn == Drawn::Line).flat_map(|mark| &mark.dots);
+        for dot in dots {
+            assert!(dot.row.is_some(), "{name}: {}", dot.said);
+            let error = if name == "pareto" { dot.x } else { dot.y };
+            assert!(error < 2e-5, "{name}: {error}");
+        }
+    }
+}
+
+/// Errors of 1e-16 m on positions of 1 m fall as chance has it: no order, and no rank.
+#[test]
+fn what_is_rounding_has_neither_an_order_nor_a_rank() {
+    let errors = |method: &str| match method {
+        "exact" => [1.6e-14, 8.9e-16, 4.4e-16, 0.0],
+        _ => [1e-2, 2.5e-3, 6.25e-4, 1.5625e-4],
+    };
+    let mut rows = Vec::new();
+    for (rank, method) in ["exact", "plain"].into_iter().enumerate() {
+        for (i, error) in errors(method).into_iter().enumerate() {
+            let step_s = 0.1 / f64::from(1 << i);
+            rows.push(row(json!({
+                "case": format!("{}", rows.len()), "method.free": method, "time.step_s": step_s, "outcome": "finished",
+                "error_position_m": error, "wall_s": (rank + 1) as f64 * 1e-3 / step_s,
+            })));
+        }
+    }
+    let steps: Vec<f64> = (0..4).map(|i| 0.1 / f64::from(1 << i)).collect();
+    let axes = vec![axis("method.free", json!(["exact", "plain"])), axis("time.step_s", json!(steps))];
+    let all = figures(&of_rows(rows, axes));
+    let finding = |name: &str| all.iter().find(|figure| figure.name == name).unwrap().finding.clone();
+    assert!(
+        !finding("convergence").contains("exact") && finding("convergence").contains("plain 2.00"),
+        "{}",
+        finding("convergence")
+    );
+    let said = "the first with no error but rounding (up to 1.42e-14 m) is exact in 0.02 s";
+    assert!(finding("pareto").contains(said), "{}", finding("pareto"));
+}
+
+/// Where the median is 0 a line has a gap and no area is drawn straight across; a lower end of 0 is 0 and lies at the
+/// end of the axis.
+#[test]
+fn an_ensemble_has_zeros_and_gaps() {
+    let (places, seeds) = ([1.0, 2.0, 3.0, 4.0], 0..20);
+    let mut rows = Vec::new();
+    for place in places {
+        for seed in seeds.clone() {
+            let size = match place as u32 {
+                2 => 0.0,
+                // A tenth is 0: so is the 5 % quantile.
+                4 if seed < 2 => 0.0,
+                _ => 1e-3 * place * (1.0 + f64::from(seed)),
+            };
+            rows.push(row(json!({
+                "case": format!("{}", rows.len()), "x": place, "seed": seed, "outcome": "finished",
+                "energy_drift_rel": size,
+            })));
+        }
+    }
+    let axes = || vec![axis("x", json!(places)), axis("seed", json!((0..20).collect::<Vec<_>>()))];
+    let all = figures(&of_rows(rows.clone(), axes()));
+    let figure = all.iter().find(|figure| figure.name == "ensemble").unwrap();
+    let mark = |drawn: Drawn| figure.marks.iter().find(|mark| mark.drawn == drawn).unwrap();
+    let runs: Vec<usize> = figure.unbroken(mark(Drawn::Line), |dot| Some(dot.y)).iter().map(|run| run.len()).collect();
+    assert_eq!(runs, [1, 2]);
+    let band = mark(Drawn::Band);
+    assert_eq!(band.dots[3].low, Some(0.0));
+    let outlines = figure.outlines(band);
+    assert_eq!(outlines.iter().map(Vec::len).collect::<Vec<_>>(), [2, 4]);
+    // Last of the outline that goes back: the lower end at 4, then that at 3.
+    assert_eq!(outlines[1][2], (4.0, figure.extent()[1].0));
+    for note in ["1 lower end of areas at 0, drawn to the axis", "1 point with a median of 0 not shown"] {
+        assert!(figure.notes.iter().any(|said| said == note), "{:?}", figure.notes);
+    }
+    assert_eq!(figure.title, "Size of energy_drift_rel over seeds");
+    // An axis that is pooled besides makes them runs.
+    for (i, row) in rows.iter_mut().enumerate() {
+        row.insert("e".to_string(), json!(i % 2));
+        row.insert("f".to_string(), json!(i / 2 % 2));
+    }
+    let mut more = axes();
+    more.extend([axis("e", json!([0, 1])), axis("f", json!([0, 1]))]);
+    let all = figures(&of_rows(rows, more));
+    let figure = all.iter().find(|figure| figure.name == "ensemble").unwrap();
+    assert_eq!(figure.title, "Size of energy_drift_rel over runs");
+    let pooled = figure.notes.iter().find(|note| note.starts_with("pooled over ")).unwrap();
+    assert!(pooled.contains("(2 values)") && figure.notes.iter().any(|note| note.contains("5 to 95 % of the runs")));
+}
+
+#[test]
+fn shares_are_said_in_digits_that_tell() {
+    let of = |k: usize, n: usize| {
+        let rows = (0..n).map(|i| {
+            let outcome = if i < k { "stalled" } else { "finished" };
+            row(json!({ "case": i.to_string(), "a": i % 2, "seed": i / 2, "outcome": outcome }))
+        });
+        let seeds = (0..n / 2).collect::<Vec<_>>();
+        figures(&of_rows(rows.collect(), vec![axis("a", json!([0, 1])), axis("seed", json!(seeds))]))
+    };
+    let all = of(34, 6400);
+    let share = all.iter().find(|figure| figure.name == "share").unwrap();
+    assert_eq!(share.finding, "Everywhere 0.53% of the runs stall.");
+    let all = of(10, 10_000);
+    let map = gotai::report::choose::map_in_characters(&of_rows(
+        (0..10_000)
+            .map(|i| row(json!({ "case": i.to_string(), "a": i % 2, "outcome": if i < 10 { "stalled" } else { "finished" } })))
+            .collect(),
+        vec![axis("a", json!([0, 1]))],
+    ))
+    .unwrap();
+    assert!(map.finding.contains("(0.10 %, 95 % interval 0.05 to 0.18 %)"), "{}", map.finding);
+    assert!(!all.is_empty());
+}
+
+/// A single line has no other that it could differ from: its highest place is named, and its axis.
+#[test]
+fn a_share_names_the_highest_place_and_the_axis() {
+    let of =
+        |a: i32, b: f64, outcome: &str| row(json!({ "case": format!("{a}{b}"), "a": a, "b": b, "outcome": outcome }));
+    let rows = vec![of(1, 0.1, "stalled"), of(2, 0.2, "finished"), of(3, 0.1, "finished")];
+    let all = figures(&of_rows(rows, vec![axis("a", json!([1, 2, 3])), axis("b", json!([0.1, 0.2]))]));
+    let share = all.iter().find(|figure| figure.name == "share").unwrap();
+    assert_eq!(share.finding, "At a = 1 100% of the runs stall (b = 0.1).");
+}
+
+#[test]
+fn work_has_numbers_and_names() {
+    let rows = |of: fn(usize) -> u64| {
+        (0..4)
+            .map(|i| row(json!({ "case": i.to_string(), "a": i, "outcome": "finished", "work_sweeps": of(i) })))
+            .collect()
+    };
+    let axes = || vec![axis("a", json!([0, 1, 2, 3]))];
+    let all = figures(&of_rows(rows(|i| [0, 7, 30, 0][i]), axes()));
+    let work = all.iter().find(|figure| figure.name == "work").unwrap();
+    assert_eq!(work.finding, "Medians along a, smallest to largest: work_sweeps 7 to 30.");
+    assert_eq!(work.y.label, "work_sweeps in a run, median");
+}
+
+#[test]
+fn a_sweep_without_rows_says_how_many_it_has_planned() {
+    let subject = Subject { planned: 5, ..Subject::default() };
+    let said = gotai::report::page::nothing_drawn(&subject);
+    assert_eq!(said, "0 of 5 cases done: there is nothing to draw yet.");
+    assert!(Page::of(&subject, &[]).html.contains(&said));
 }

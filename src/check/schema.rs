@@ -45,6 +45,19 @@ impl Schema {
         }
     }
 
+    /// The columns and values of both.
+    pub fn or(mut self, other: Schema) -> Self {
+        for (path, values) in other.axes {
+            match self.axes.iter_mut().find(|(known, _)| *known == path) {
+                Some((_, known)) => known.extend(values),
+                None => self.axes.push((path, values)),
+            }
+        }
+        let more: Vec<String> = other.columns.into_iter().filter(|name| !self.columns.contains(name)).collect();
+        self.columns.extend(more);
+        self
+    }
+
     pub(super) fn axis(&self, name: &str) -> Option<&[Value]> {
         self.axes.iter().find(|(path, _)| path == name).map(|(_, values)| values.as_slice())
     }

@@ -170,12 +170,32 @@ impl ExperimentArgs {
     /// Default folder of results: recordings/<path of the config below configs/, without .yaml>, and what was set, so
     /// that no run overwrites the table of another one. What a folder of results keeps goes on there.
     pub(super) fn default_out(&self, config: &Path) -> PathBuf {
-        let kept = config.parent().filter(|dir| config.ends_with(EXPERIMENT) && Folder::is_one(dir));
-        let own = || Path::new("recordings").join(below_configs(config));
-        let mut folder = kept.map_or_else(own, Path::to_path_buf).into_os_string();
+        match kept_in(config) {
+            Some(dir) => self.suffixed(dir.to_path_buf()),
+            None => self.default_below(&below_configs(config)),
+        }
+    }
+
+    /// Default folder of results of this place below recordings/.
+    pub(super) fn default_below(&self, place: &Path) -> PathBuf {
+        self.suffixed(Path::new("recordings").join(place))
+    }
+
+    fn suffixed(&self, folder: PathBuf) -> PathBuf {
+        let mut folder = folder.into_os_string();
         folder.push(suffix(&self.given));
         folder.into()
     }
+
+    /// The file without what the flags change.
+    pub(super) fn load_as_written(config: &Path) -> Result<ExperimentFile, CliError> {
+        Ok(ExperimentFile::load_given(config, &[])?)
+    }
+}
+
+/// The folder of results that keeps this file as its question.
+pub(super) fn kept_in(config: &Path) -> Option<&Path> {
+    config.parent().filter(|dir| config.ends_with(EXPERIMENT) && Folder::is_one(dir))
 }
 
 /// Keys that change neither the motion nor the columns.

@@ -7,7 +7,7 @@ use super::output::{ProgressFlag, print, print_json, say, width};
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen};
 use super::reporting::{Known, OF_BENCH, Reported, others_of, write_beside};
-use super::sweeping::{Config, configs};
+use super::sweeping::{Config, configs, tell_apart};
 use crate::bench::{self, Contender, Ran, timing};
 use crate::experiment::ExperimentFile;
 use crate::experiment::bench::Bench;
@@ -92,7 +92,9 @@ impl Command {
     fn planned(&self) -> Result<Vec<PlannedBench>, CliError> {
         let given = self.config.display();
         let mut planned = Vec::new();
-        for config in configs(std::slice::from_ref(&self.config))? {
+        let mut configs = configs(std::slice::from_ref(&self.config))?;
+        tell_apart(&mut configs.iter_mut().collect::<Vec<_>>(), self.out.as_deref(), &self.experiment)?;
+        for config in configs {
             let file = self.experiment.load(&config.path)?;
             match file.bench().cloned() {
                 Some(bench) => {

@@ -74,7 +74,13 @@ impl Command {
     /// are put beside.
     fn planned(&self, without: &mut Vec<PathBuf>) -> (Vec<PlannedSweep>, Vec<Unchecked>) {
         let (mut planned, mut unchecked) = (Vec::new(), Vec::new());
-        for config in configs_of_each(&self.configs) {
+        let mut configs = configs_of_each(&self.configs);
+        let mut found: Vec<&mut Config> = configs.iter_mut().flatten().collect();
+        if let Err(error) = self.sweep.tell_apart(&mut found) {
+            unchecked.push(Unchecked { path: self.configs.first().cloned().unwrap_or_default(), error });
+            return (planned, unchecked);
+        }
+        for config in configs {
             let path = config.as_ref().map_or_else(|(path, _)| path.clone(), |config| config.path.clone());
             match config.map_err(|(_, error)| error).and_then(|config| self.plan_one(config)) {
                 Ok(Some(found)) => planned.push(found),

@@ -4,6 +4,7 @@ use super::error::CliError;
 use super::output::say;
 use super::sweeping::Swept;
 use crate::check::{Failing, Judged, MOST};
+use crate::files::quoted;
 use crate::record::story::shortest;
 use crate::record::writer::Target;
 use serde_json::{Value, json};
@@ -138,14 +139,5 @@ fn shown(cell: &Value) -> String {
         }
         Value::String(text) => text.clone(),
         other => other.to_string(),
-    }
-}
-
-/// A word as a shell takes it for one.
-pub(super) fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=~,:@%".contains(c);
-    match !word.is_empty() && word.chars().all(is_plain) {
-        true => word.to_string(),
-        false => format!("'{}'", word.replace('\'', r"'\''")),
     }
 }

@@ -1,7 +1,6 @@
 //! `gotai compare`: two folders of results, of two versions, methods or machines: what changed, by how much.
 
 use super::args::OutputArgs;
-use super::checked::quoted;
 use super::compare_page::page;
 use super::compared::{
     FACTOR, at, brief, cell, changed, described, factor, finding, interval, joined, others, outcomes,
@@ -11,6 +10,7 @@ use super::output::{Hue, counted, print, print_json, width, wrapped};
 use super::reporting::{BENCH, OF_BENCH, read_trials};
 use crate::check::{Cells, Change, CompareBy, Compared, Regression, Side, TOLERATED, compare};
 use crate::experiment::ExperimentFile;
+use crate::files::quoted;
 use crate::files::{FileError, read, write_whole};
 use crate::report::cut;
 use crate::rows::cells;

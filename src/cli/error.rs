@@ -1,13 +1,13 @@
 //! Errors of the commands, with their exit codes.
 
-use super::output::{print_json, say};
+use super::output::{has_document, print_json, say};
 use crate::experiment::ExperimentError;
 use crate::files::FileError;
 use crate::record::RecordError;
 use crate::sweep::folder::FolderError;
 use crate::sweep::runner::SweepError;
 use crate::sweep::store::StoreError;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::process::ExitCode;
 
 /// Reason why a command failed; it says the exit code.
@@ -42,6 +42,12 @@ impl CliError {
         document(&self.to_string(), self.code());
     }
 
+    /// Adds it to the document of what has been done all the same.
+    pub(super) fn put_into(&self, document: &mut Value) {
+        document["error"] = json!(self.to_string());
+        document["exit_code"] = json!(self.code());
+    }
+
     /// The exit code as a number: 2 of wrong input, 3 of a machine that failed.
     pub(super) fn code(&self) -> u8 {
         let input_is_wrong = match self {
@@ -54,9 +60,10 @@ impl CliError {
     }
 }
 
-/// Prints what went wrong as the one document of `--json`, if it was given: whoever reads documents gets one.
+/// Prints what went wrong as the one document of `--json`, if it was given and none is printed: whoever reads documents
+/// gets one.
 pub(super) fn document(said: &str, exit_code: u8) {
-    if std::env::args_os().any(|arg| arg == "--json") {
+    if !has_document() && std::env::args_os().any(|arg| arg == "--json") {
         print_json(&json!({ "error": said, "exit_code": exit_code }));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::args::{ExperimentArgs, OutputArgs};
 use super::error::CliError;
-use super::output::{print, print_json};
+use super::output::{counted, print, print_json};
 use crate::experiment::types::{Shape, Skip};
 use crate::plan::{self, Plan, Stage};
 use crate::record::sampler::steps_between;
@@ -69,7 +69,7 @@ impl Command {
             return Ok(ExitCode::SUCCESS);
         }
         let at_most = if file.search().is_some() { "at most " } else { "" };
-        print(format!("{} cases, {at_most}{} steps", cost.cases, cost.steps));
+        print(format!("{}, {at_most}{}", counted(cost.cases, "case"), counted(cost.steps as usize, "step")));
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let wall_s = cost.seconds / cores.min(cost.cases.max(1)) as f64;
         print(format!("{at_most}about {wall_s:.1} s on {cores} cores (from a trial of some cases)"));
@@ -81,7 +81,7 @@ impl Command {
             ));
         }
         for axis in &file.axes().axes {
-            print(format!("  axis {}: {} values", axis.path, axis.values.len()));
+            print(format!("  axis {}: {}", axis.path, counted(axis.values.len(), "value")));
         }
         tallies.iter().for_each(|tally| print(describe(tally)));
         Ok(ExitCode::SUCCESS)

@@ -1,6 +1,6 @@
 //! `gotai export`: the series of recordings as CSV or Parquet.
 
-use super::cut::{no_recording, warn_of_end};
+use super::cut::{half_written, no_recording, warn_of_end};
 use super::error::CliError;
 use super::ghosts::REPLAYS;
 use super::output::{print, say};
@@ -108,8 +108,9 @@ impl Command {
                     false => String::new(),
                 };
                 Err(CliError::Input(format!(
-                    "{}: expected recordings (.mcap), found none; make them with --record mcap{look}",
-                    path.display()
+                    "{}: expected recordings (.mcap), found none{}; make them with --record mcap{look}",
+                    path.display(),
+                    half_written(path)
                 )))
             }
         }
@@ -121,9 +122,11 @@ impl Command {
             return Err(CliError::Input(format!("{}: expected a recording, found no such file", path.display())));
         }
         if is_rrd(path) && !self.rounded {
+            // A file that is none would not be one with --rounded.
+            let cut = cut_rrd(path)?;
             return Err(CliError::Input(format!(
-                "{}: expected an .mcap, found an .rrd, whose positions are rounded; export the .mcap beside it, record \
-                 one with --record mcap, or take what there is with --rounded",
+                "{}: expected an .mcap, found an .rrd{cut}, whose positions are rounded; export the .mcap beside it, \
+                 record one with --record mcap, or take what there is with --rounded",
                 path.display()
             )));
         }
@@ -133,6 +136,24 @@ impl Command {
 
 fn is_rrd(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == Target::Rerun.extension())
+}
+
+/// What is to be said of an .rrd of ours that was cut.
+///
+/// # Errors
+/// It is none, or was cut in its head.
+#[cfg(feature = "rerun")]
+fn cut_rrd(path: &Path) -> Result<&'static str, CliError> {
+    use crate::record::rerun::mend::{is_cut, is_recording};
+    if !is_recording(path)? {
+        return Err(no_recording(path));
+    }
+    Ok(if is_cut(path)? { " that was cut" } else { "" })
+}
+
+#[cfg(not(feature = "rerun"))]
+fn cut_rrd(_: &Path) -> Result<&'static str, CliError> {
+    Ok("")
 }
 
 /// What an .rrd of ours shows.

@@ -1,9 +1,9 @@
 //! `gotai new`: a commented experiment to start from.
 
-use super::checked::quoted;
 use super::error::CliError;
 use super::output::print;
 use crate::experiment::nearest::nearest;
+use crate::files::quoted;
 use crate::files::{make_folder, write_whole};
 use clap::Args;
 use std::path::{Path, PathBuf};

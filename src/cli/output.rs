@@ -7,6 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Whether anything has been painted: only then does an escape sequence belong to what is printed.
 static IS_PAINTED: AtomicBool = AtomicBool::new(false);
+/// Whether a document has been printed: `--json` promises one.
+static HAS_DOCUMENT: AtomicBool = AtomicBool::new(false);
 
 /// When output has colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -158,9 +160,15 @@ pub fn say(text: impl std::fmt::Display) {
 
 /// Prints a document in one line; what is no letter is escaped, and so the data are whole.
 pub(super) fn print_json(value: &impl serde::Serialize) {
+    HAS_DOCUMENT.store(true, Ordering::Relaxed);
     let text = serde_json::to_string(value).unwrap_or_default();
     let escaped = |c: char| if is_shown(c) { c.to_string() } else { format!("\\u{:04x}", u32::from(c)) };
     print_as_it_is(text.chars().map(escaped).collect::<String>());
+}
+
+/// Whether `print_json` has printed one.
+pub(super) fn has_document() -> bool {
+    HAS_DOCUMENT.load(Ordering::Relaxed)
 }
 
 /// A number of things, whose plural ends with an s.

@@ -1,10 +1,11 @@
 //! `gotai repair`: a recording that was cut, with all that is whole of it, as a file that every reader takes.
 
-use super::cut::ends_at;
+use super::cut::{ends_at, half_written};
 use super::error::CliError;
 use super::ghosts::forget;
 use super::output::print;
 use crate::record::mend::{Whole, mend_mcap};
+use crate::record::read::recording_of;
 use crate::record::writer::Target;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -26,6 +27,10 @@ impl Command {
     /// The file is no recording, or the machine failed.
     pub fn run(self) -> Result<ExitCode, CliError> {
         let file = &self.file;
+        if file.is_dir() {
+            let (dir, more) = (file.display(), half_written(file));
+            return Err(CliError::Input(format!("{dir}: expected a recording, found a folder{more}")));
+        }
         if !file.is_file() {
             return Err(CliError::Input(format!("{}: expected a recording, found no such file", file.display())));
         }
@@ -44,7 +49,15 @@ impl Command {
                 )));
             }
         };
-        let Some(Whole { messages, until_s }) = mended else {
+        // Messages have the times at which they were written; what it shows ends with its last sample.
+        let shown = match mended {
+            Some(_) if ending == Target::Mcap.extension() => recording_of(&out)?.map(|recording| recording.until_s()),
+            _ => None,
+        };
+        let Some(Whole { messages, until_s }) = mended.map(|mended| match shown {
+            Some(until_s) => Whole { until_s, ..mended },
+            None => mended,
+        }) else {
             return Err(CliError::Input(format!(
                 "{}: expected a recording of which something is whole, found no message of one; nothing is written",
                 file.display()

@@ -73,17 +73,18 @@ impl Command {
             for warning in reported.subject.warnings.iter().filter(|_| !self.output.quiet) {
                 say(format!("warning: {}: {warning}", reported.page.display()));
             }
-            if figures.is_empty() {
+            let is_told = !self.output.quiet;
+            if figures.is_empty() && is_told {
                 print(wrapped(&nothing_drawn(&reported.subject), width().into(), "", ""));
             }
             let is_colored = self.output.is_colored();
-            let map = map_in_characters(&reported.subject).filter(|_| !self.output.verbose);
+            let map = map_in_characters(&reported.subject).filter(|_| !self.output.verbose && is_told);
             let drawn: Vec<&Figure> = if self.output.verbose { figures.iter().collect() } else { map.iter().collect() };
             for figure in drawn {
                 // The figure has cleaned its words, and has colours of its own.
                 print_as_it_is(format!("{}\n", figure.characters(is_colored)));
             }
-            if !self.output.verbose {
+            if !self.output.verbose && is_told {
                 figures.iter().filter(|figure| map.is_none() || figure.name != "map").for_each(|figure| {
                     print(wrapped(&format!("{}: {}", figure.title, figure.finding), width().into(), "", "  "));
                 });

@@ -8,6 +8,7 @@ use crate::experiment::ExperimentFile;
 use crate::experiment::filter::shown_cell;
 use crate::experiment::types::Experiment;
 use crate::files::{self, FileError, write_whole};
+use crate::outcome::Outcome;
 use crate::report::choose::figures;
 use crate::report::figure::Figure;
 use crate::report::frame::RowFrame;
@@ -110,6 +111,12 @@ impl Reported {
             return Err(wrong("it has none"));
         }
         if subject.frame.has("outcome") && subject.frame.has("case") {
+            let outcomes = (0..subject.frame.rows()).map(|row| subject.frame.text("outcome", row));
+            if let Some(other) = outcomes.into_iter().find(|word| Outcome::ALL.iter().all(|known| known.name() != word))
+            {
+                let known: Vec<&str> = Outcome::ALL.iter().map(|known| known.name()).collect();
+                return Err(wrong(&format!("an outcome is `{other}`, and not one of {}", known.join(", "))));
+            }
             subject.axes = axes_of(&subject.frame);
             subject.planned = subject.frame.rows();
         } else {

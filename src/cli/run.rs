@@ -9,10 +9,11 @@ use super::output::{print, print_json, say};
 use super::progress::Bar;
 use super::remarks::{Remarks, Seen, table_of};
 use super::replay::replay;
-use super::shown::{describe_plan, document, say_where, summary};
-use super::sweeping::{SweepArgs, Swept};
+use super::shown::{describe_plan, document, say_where, summary, to_open};
+use super::sweeping::{SweepArgs, Swept, refuse_unknown_names};
 use crate::experiment::ExperimentFile;
 use crate::experiment::types::RecordTo;
+use crate::files::quoted;
 use crate::outcome::Outcome;
 use crate::plan::Plan;
 use crate::record::read::experiment_of;
@@ -82,6 +83,7 @@ impl Command {
         }
         let file = self.load()?;
         let plan = SweepPlan::single(&file)?;
+        refuse_unknown_names(&self.config, &file, &plan, &self.experiment)?;
         let planned = &plan.cases[0];
         let case = &planned.case;
         let targets = self.run.targets(case.experiment.record.to)?;
@@ -108,9 +110,14 @@ impl Command {
         let (ended, kept) = run_one(case, &model, start, &place, &mut store);
         let name = planned.name.ended(ended.measured.outcome);
         let remarks = Remarks::about(&[Seen::of(&ended.measured, &case.experiment)], &[table_of(&dir)]);
+        let kept = kept.map_err(CliError::from);
         if self.output.json {
             let recording = (!targets.is_empty() && kept.is_ok()).then_some(name.as_str());
-            print_json(&document(case, recording, &model, &ended, &remarks));
+            let mut document = document(case, recording, &model, &ended, &remarks);
+            if let Err(error) = &kept {
+                error.put_into(&mut document);
+            }
+            print_json(&document);
         } else {
             print(summary(&case.id, &ended.measured));
         }
@@ -164,24 +171,26 @@ impl Command {
         }
         Swept::remarks(&[&swept]).say(self.output.quiet);
         if let Some(path) = shown.filter(|_| !self.output.quiet) {
-            say(format!("wrote {}   (open: gotai view {0})", path.display()));
+            say(to_open(&path));
         }
         Ok(ExitCode::from(u8::from(swept.failed() > 0)))
     }
 
     fn load(&self) -> Result<ExperimentFile, CliError> {
         let path = self.config.display();
+        let [word, kept] =
+            [self.config.display().to_string(), format!("{path}/experiment.yaml")].map(|word| quoted(&word));
         if Folder::is_one(&self.config) {
             return Err(CliError::Input(format!(
                 "{path}: expected an experiment file, found a folder of results; run one of its rows again with \
-                 --case ID (`gotai rows {path}` shows them), go on with all of them with `gotai sweep \
-                 {path}/experiment.yaml --out {path}`"
+                 --case ID (`gotai rows {word}` shows them), go on with all of them with `gotai sweep \
+                 {kept} --out {word}`"
             )));
         }
         if self.config.is_dir() {
             return Err(CliError::Input(format!(
                 "{path}: expected an experiment file, found a folder; run all experiments in it with `gotai sweep \
-                 {path}`"
+                 {word}`"
             )));
         }
         if self.config.extension().is_some_and(|ending| ending == "rrd") {

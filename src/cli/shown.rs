@@ -1,9 +1,10 @@
 //! Output of `run` about a run: a summary, or one JSON document with its columns, bodies and contacts.
 
-use super::output::say;
+use super::output::{counted, say};
 use super::remarks::Remarks;
 use crate::build_info::BUILD;
 use crate::case::Case;
+use crate::files::quoted;
 use crate::model::{self, Model};
 use crate::outcome::Outcome;
 use crate::plan::Plan;
@@ -72,6 +73,13 @@ fn numbers(v: &Vector3<f64>) -> Value {
 
 pub(super) fn summary(id: &str, m: &Measured) -> String {
     let number = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.6}"));
+    // Of whatever size: six digits that say something.
+    let telling = |x: Option<f64>| {
+        x.map_or("-".to_string(), |x| match x.abs() {
+            size if size == 0.0 || (1e-3..1e9).contains(&size) => format!("{x:.6}"),
+            _ => format!("{x:.5e}"),
+        })
+    };
     let relative = |x: Option<f64>| x.map_or("-".to_string(), |x| format!("{x:.2e}"));
     let count = |x: Option<u64>| x.map_or("-".to_string(), |x| x.to_string());
     let how = match (&m.outcome, &m.criterion) {
@@ -82,8 +90,8 @@ pub(super) fn summary(id: &str, m: &Measured) -> String {
     };
     let lines = [
         ("case", id.to_string()),
-        ("outcome", format!("{how} at {} s after {} steps", number(m.end_time_s), m.steps)),
-        ("energy", format!("{} J → {} J", number(m.energy_start_j), number(m.energy_end_j))),
+        ("outcome", format!("{how} at {} s after {}", number(m.end_time_s), counted(m.steps as usize, "step"))),
+        ("energy", format!("{} J → {} J", telling(m.energy_start_j), telling(m.energy_end_j))),
         ("energy drift, rise", format!("{}, {}", relative(m.energy_drift_rel), relative(m.energy_rise_max_rel))),
         ("momentum drift", relative(m.linear_momentum_drift_rel)),
         ("angular momentum drift", relative(m.angular_momentum_drift_rel)),
@@ -115,12 +123,18 @@ pub(super) fn describe_plan(plan: &Plan) {
     }
 }
 
+/// Says that a recording is there, and how to open it.
+pub(super) fn to_open(path: &Path) -> String {
+    let path = path.display().to_string();
+    format!("wrote {path}   (open: gotai view {})", quoted(&path))
+}
+
 /// Prints where the recordings are, and how to open them.
 pub(super) fn say_where(dir: &Path, name: &str, targets: &[Target]) {
     for target in targets {
         let path = target.path(dir, name);
         match target {
-            Target::Rerun => say(format!("wrote {}   (open: gotai view {0})", path.display())),
+            Target::Rerun => say(to_open(&path)),
             Target::Mcap => say(format!("wrote {}", path.display())),
         }
     }

@@ -1,9 +1,10 @@
 //! `gotai sweep`: the axes' cases on all cores, a row each; run again, it does only what is missing.
 
 use super::error::CliError;
-use super::output::{cleaned, print_as_it_is, print_json, say, width, wrapped};
+use super::output::{cleaned, counted, print_as_it_is, print_json, say, width, wrapped};
 use super::reporting::{Known, Reported, write_beside};
 use super::sweeping::{SweepArgs, Swept, configs};
+use crate::files::quoted;
 use crate::outcome::Outcome;
 use crate::record::writer::Target;
 use crate::report::choose::map_in_characters;
@@ -32,9 +33,10 @@ impl Command {
     pub fn run(self) -> Result<ExitCode, CliError> {
         // Every case of every file is checked before the first run.
         let pool = self.sweep.run.pool()?;
-        let configs = configs(std::slice::from_ref(&self.config))?.into_iter();
+        let mut configs = configs(std::slice::from_ref(&self.config))?;
+        self.sweep.tell_apart(&mut configs.iter_mut().collect::<Vec<_>>())?;
         let plan = |config| self.sweep.load(&config).and_then(|file| self.sweep.planned(config, file, None));
-        let planned = configs.map(|config| pool.install(|| plan(config)));
+        let planned = configs.into_iter().map(|config| pool.install(|| plan(config)));
         let planned = planned.collect::<Result<Vec<_>, _>>()?;
         let mut swept = Vec::with_capacity(planned.len());
         for planned in &planned {
@@ -85,7 +87,11 @@ impl Command {
 /// Why runs ended early, and the command that shows them.
 fn where_to_look(swept: &Swept) -> String {
     let mut text = String::new();
+    let is_search = swept.rows.iter().any(|row| verdict_of(row).is_some());
     for outcome in [Outcome::Diverged, Outcome::Stalled, Outcome::Failed] {
+        if is_search && outcome != Outcome::Failed {
+            continue;
+        }
         let of = || swept.rows.iter().filter(|row| row.measured.outcome == outcome);
         let mut criteria: Vec<(&str, usize)> = Vec::new();
         for criterion in of().filter_map(|row| row.measured.criterion.as_deref()) {
@@ -98,7 +104,7 @@ fn where_to_look(swept: &Swept) -> String {
         let shown: Vec<String> = criteria.iter().take(4).map(|(criterion, n)| format!("{criterion} {n}")).collect();
         if of().next().is_some() {
             let name = outcome.name();
-            let dir = swept.dir.display();
+            let dir = quoted(&swept.dir.display().to_string());
             let said = format!("{name}: {} ({});", of().count(), shown.join(", "));
             text += &format!("{}\n", beside(&said, &format!("gotai rows {dir} --where outcome={name}"), ""));
         }
@@ -106,13 +112,24 @@ fn where_to_look(swept: &Swept) -> String {
     text
 }
 
+/// The verdict of a search in a row of one.
+fn verdict_of(row: &Row) -> Option<&str> {
+    row.measured.more.get("search_verdict")?.as_str()
+}
+
+fn verdict_count(rows: &[Row], verdict: &str) -> usize {
+    rows.iter().filter(|row| verdict_of(row) == Some(verdict)).count()
+}
+
 fn summary(swept: &Swept) -> String {
-    let mut text = format!("{}: {} cases, {} run now", swept.config.display(), swept.planned, swept.ran);
-    for outcome in Outcome::ALL {
-        match count(&swept.rows, outcome) {
-            0 => {}
-            n => text += &format!(" · {n} {}", outcome.name()),
-        }
+    let mut text = format!("{}: {}, {} run now", swept.config.display(), counted(swept.planned, "case"), swept.ran);
+    // Rows of a search are of the runs at one end of their brackets, whose outcomes are its means.
+    let verdicts = ["found", "below", "above"].map(|verdict| (verdict, verdict_count(&swept.rows, verdict)));
+    let is_search = verdicts.iter().any(|(_, n)| *n > 0);
+    let outcomes = Outcome::ALL.map(|outcome| (outcome.name(), count(&swept.rows, outcome)));
+    let outcomes = outcomes.into_iter().filter(|(name, _)| !is_search || *name == Outcome::Failed.name());
+    for (name, n) in verdicts.into_iter().chain(outcomes).filter(|(_, n)| *n > 0) {
+        text += &format!(" · {n} {name}");
     }
     text = wrapped(&text, width().into(), "", "  ");
     // Of very many rows there is no CSV, unless it is asked for.
@@ -123,7 +140,8 @@ fn summary(swept: &Swept) -> String {
         let files = Target::ALL.map(|target| target.path(&swept.dir, telling));
         if let Some(file) = files.iter().find(|file| file.is_file()) {
             let said = format!("  recordings: {recordings}; the most telling:");
-            text += &format!("\n{}", beside(&said, &format!("gotai view {}", file.display()), "  "));
+            text +=
+                &format!("\n{}", beside(&said, &format!("gotai view {}", quoted(&file.display().to_string())), "  "));
         }
     }
     text

@@ -1,6 +1,6 @@
 //! Sweeps of files and folders, for `sweep` and `check`: their cases, and running what is missing.
 
-use super::args::{ExperimentArgs, OutputArgs, RunArgs, below_configs};
+use super::args::{ExperimentArgs, OutputArgs, RunArgs, below_configs, kept_in};
 use super::error::CliError;
 use super::output::say;
 use super::progress::Bar;
@@ -8,6 +8,7 @@ use super::remarks::{Remarks, Seen, table_of};
 use crate::check::{self, Failing, Judged, Magnitudes, Schema, broken, cells_of, in_turn, judge, refuse_unknown};
 use crate::experiment::ExperimentFile;
 use crate::experiment::types::{RecordCases, RecordTo};
+use crate::files::quoted;
 use crate::measure::more;
 use crate::outcome::Outcome;
 use crate::record::writer::Target;
@@ -21,8 +22,9 @@ use crate::sweep::store::Store;
 use clap::Args;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
+use std::collections::HashMap;
 use std::io::IsTerminal;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant, SystemTime};
 
@@ -53,6 +55,8 @@ pub struct Config {
     pub path: PathBuf,
     /// Place of the file in its folder, below `--out`; nothing for a file on its own.
     below: PathBuf,
+    /// Place of its results below `--out` or recordings/, where another file would have the same folder.
+    apart: Option<PathBuf>,
     pub is_of_folder: bool,
 }
 
@@ -103,6 +107,14 @@ impl Swept {
 }
 
 impl SweepArgs {
+    /// Gives every file a folder of results of its own.
+    ///
+    /// # Errors
+    /// Two files cannot be told apart by their paths.
+    pub(super) fn tell_apart(&self, configs: &mut [&mut Config]) -> Result<(), CliError> {
+        tell_apart(configs, self.run.out.as_deref(), &self.experiment)
+    }
+
     /// Of a command that runs its few cases as a sweep does.
     pub(super) fn for_run(experiment: ExperimentArgs, run: RunArgs, output: OutputArgs) -> Self {
         SweepArgs { keep: false, retry_failed: false, csv: false, fail_fast: false, experiment, run, output }
@@ -118,8 +130,9 @@ impl SweepArgs {
         file: ExperimentFile,
         to: RecordTo,
     ) -> Result<PlannedSweep, CliError> {
-        let config = Config { path, below: PathBuf::new(), is_of_folder: false };
+        let config = Config { path, below: PathBuf::new(), apart: None, is_of_folder: false };
         let plan = SweepPlan::new(&file)?;
+        refuse_unknown_names(&config.path, &file, &plan, &self.experiment)?;
         Ok(PlannedSweep { config, file, plan, targets: targets(Some(to)), judged_by: None })
     }
 
@@ -143,6 +156,7 @@ impl SweepArgs {
         instead: Option<RecordTo>,
     ) -> Result<PlannedSweep, CliError> {
         let plan = SweepPlan::new(&file)?;
+        refuse_unknown_names(&config.path, &file, &plan, &self.experiment)?;
         let record = plan.cases.first().map(|first| &first.case.experiment.record);
         let said = record.and_then(|record| record.to);
         let fails_alone = record.is_some_and(|record| record.cases == RecordCases::Failing);
@@ -200,15 +214,8 @@ impl PlannedSweep {
     /// # Errors
     /// An expectation names what no row has.
     pub fn judging(self) -> Result<Self, CliError> {
-        let mut names: Vec<String> = Vec::new();
-        for name in self.plan.cases.iter().flat_map(|planned| more::names(&planned.case.experiment)) {
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
+        let mut schema = schema(&self.file, &self.plan);
         let search = self.file.search();
-        names.extend(search.iter().flat_map(|_| columns::names(&SEARCH)));
-        let mut schema = Schema::new(self.file.axes(), search.and_then(|search| search.over), &names);
         if let Ok(first) = self.file.case(&vec![0; self.file.axes().axes.len()]) {
             schema.magnitudes = Magnitudes::of(&first);
         }
@@ -231,9 +238,56 @@ impl PlannedSweep {
     }
 }
 
+/// Columns that the rows of a file's cases will have.
+fn schema(file: &ExperimentFile, plan: &SweepPlan) -> Schema {
+    let mut names: Vec<String> = Vec::new();
+    for name in plan.cases.iter().flat_map(|planned| more::names(&planned.case.experiment)) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let search = file.search();
+    names.extend(search.iter().flat_map(|_| columns::names(&SEARCH)));
+    Schema::new(file.axes(), search.and_then(|search| search.over), &names)
+}
+
+/// Refuses what a file expects of columns or values that no row has, judged or not. What flags leave of the axes is no
+/// slip of the file: its names may be those of the file as it is written too. What a folder of results keeps has had
+/// its flags, and is taken as it is.
+///
+/// # Errors
+/// An expectation names what no row has.
+pub(super) fn refuse_unknown_names(
+    config: &Path,
+    file: &ExperimentFile,
+    plan: &SweepPlan,
+    given: &ExperimentArgs,
+) -> Result<(), CliError> {
+    let is_recording = config.extension().is_some_and(|ending| ending == Target::Mcap.extension());
+    if (file.expect().is_empty() && file.search().is_none()) || kept_in(config).is_some() || is_recording {
+        return Ok(());
+    }
+    let own = schema(file, plan);
+    let Err(error) = refuse_unknown(&own, file.expect(), file.search()) else { return Ok(()) };
+    if !given.is_empty() {
+        // A file that is nothing without its flags says nothing against a name.
+        let Ok(written) = ExperimentArgs::load_as_written(config) else { return Ok(()) };
+        let Ok(plan) = SweepPlan::unbuilt(&written, "") else { return Ok(()) };
+        if refuse_unknown(&own.or(schema(&written, &plan)), file.expect(), file.search()).is_ok() {
+            return Ok(());
+        }
+    }
+    Err(file.placed(error).into())
+}
+
 impl Config {
     /// Folder of a file's results; of several files every one has a folder of its own, also below `--out`.
     pub fn out(&self, given: Option<&Path>, experiment: &ExperimentArgs) -> PathBuf {
+        match (given, &self.apart) {
+            (Some(out), Some(place)) => return out.join(place),
+            (None, Some(place)) => return experiment.default_below(place),
+            (_, None) => {}
+        }
         match given {
             Some(out) if self.below.as_os_str().is_empty() => out.to_path_buf(),
             Some(out) => out.join(&self.below),
@@ -262,22 +316,73 @@ pub(super) fn configs_of_each(given: &[PathBuf]) -> Vec<Result<Config, (PathBuf,
     all
 }
 
+/// Gives files whose results would go into one folder folders of their own: the second would write over the first.
+///
+/// # Errors
+/// Two files cannot be told apart by their paths.
+pub(super) fn tell_apart(
+    configs: &mut [&mut Config],
+    out: Option<&Path>,
+    experiment: &ExperimentArgs,
+) -> Result<(), CliError> {
+    let whole = |config: &&mut Config| std::fs::canonicalize(&config.path).unwrap_or_else(|_| config.path.clone());
+    let paths: Vec<PathBuf> = configs.iter().map(whole).collect();
+    let most = paths.iter().map(|path| path.components().count()).max().unwrap_or(0);
+    // By ever more of the folders that they are in; at last by the endings of their names.
+    for parts in 2..=most + 1 {
+        let clashing = clashing(configs, &paths, out, experiment);
+        if clashing.is_empty() {
+            return Ok(());
+        }
+        for at in clashing {
+            configs[at].apart = Some(last_of(&paths[at], parts, parts <= most));
+        }
+    }
+    match clashing(configs, &paths, out, experiment)[..] {
+        [first, .., last] => {
+            let [first, last] = [first, last].map(|at| configs[at].path.display());
+            Err(CliError::Input(format!("{first}, {last}: expected files whose results have folders of their own")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Files of which another one, at another path, has the same folder of results.
+fn clashing(configs: &[&mut Config], paths: &[PathBuf], out: Option<&Path>, experiment: &ExperimentArgs) -> Vec<usize> {
+    let mut of: HashMap<PathBuf, Vec<usize>> = HashMap::new();
+    for (at, config) in configs.iter().enumerate() {
+        of.entry(config.out(out, experiment)).or_default().push(at);
+    }
+    let clash = |all: &Vec<usize>| all.iter().any(|at| paths[*at] != paths[all[0]]);
+    let mut clashing: Vec<usize> = of.into_values().filter(clash).flatten().collect();
+    clashing.sort_unstable();
+    clashing
+}
+
+/// The last parts of a path, without the ending of its name if one can do without it.
+fn last_of(path: &Path, parts: usize, is_bare: bool) -> PathBuf {
+    let named: Vec<_> = path.components().filter(|part| matches!(part, Component::Normal(_))).collect();
+    let place: PathBuf = named[named.len().saturating_sub(parts)..].iter().collect();
+    if is_bare { place.with_extension("") } else { place }
+}
+
 fn configs_of(path: &Path, is_one_of_several: bool) -> Result<Vec<Config>, CliError> {
     // A folder of its own only where there is another to tell it from.
     let base = if is_one_of_several { below_configs(path) } else { PathBuf::new() };
     if Folder::is_one(path) {
-        let path = path.display();
+        let path = path.display().to_string();
+        let [file, dir] = [format!("{path}/experiment.yaml"), path.clone()].map(|word| quoted(&word));
         return Err(CliError::Input(format!(
-            "{path}: expected experiment files, found a folder of results; go on in it with `gotai sweep \
-             {path}/experiment.yaml --out {path}`"
+            "{path}: expected experiment files, found a folder of results; go on in it with `gotai sweep {file} --out \
+             {dir}`"
         )));
     }
     if !path.is_dir() {
-        return Ok(vec![Config { path: path.to_path_buf(), below: base, is_of_folder: false }]);
+        return Ok(vec![Config { path: path.to_path_buf(), below: base, apart: None, is_of_folder: false }]);
     }
     let below = |file: &Path| base.join(file.strip_prefix(path).unwrap_or(file).with_extension(""));
     let files = files_of(path)?.into_iter();
-    Ok(files.map(|file| Config { below: below(&file), path: file, is_of_folder: true }).collect())
+    Ok(files.map(|file| Config { below: below(&file), apart: None, path: file, is_of_folder: true }).collect())
 }
 
 fn files_of(given: &Path) -> Result<Vec<PathBuf>, CliError> {

@@ -1,6 +1,6 @@
 //! `gotai view`: opens recordings in the Rerun Viewer; several cases as ghosts, on one timeline.
 
-use super::cut::{no_recording, warn_of_end};
+use super::cut::{half_written, no_recording, warn_of_end};
 use super::error::CliError;
 use super::frames::FilmArgs;
 use super::ghosts::{self, Ghosts};
@@ -89,6 +89,12 @@ impl Command {
         let chosen: Vec<&Row> =
             rows.iter().zip(table.rows()).filter(|(_, cells)| takes(&filter, cells)).map(|(row, _)| row).collect();
         match chosen.as_slice() {
+            [] if filter.0.is_empty() => Err(CliError::Input(format!(
+                "{}: expected a row to show, found none of {} planned{}",
+                dir.display(),
+                folder.plan.rows,
+                half_written(dir)
+            ))),
             [] => Err(CliError::Input(format!(
                 "{}: expected a row to show, found none of {} that --where takes",
                 dir.display(),

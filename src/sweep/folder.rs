@@ -7,7 +7,7 @@ use super::planned::Planned;
 use super::store::{order, rows, write_tables};
 use crate::build_info::BUILD;
 use crate::experiment::{ExperimentError, ExperimentFile};
-use crate::files::FileError;
+use crate::files::{FileError, quoted};
 use crate::rows::Row;
 use crate::rows::plan_file::PlanFile;
 use std::path::{Path, PathBuf};
@@ -62,7 +62,8 @@ impl Folder {
                 false => format!(" (it was planned by the build {}, this is {BUILD})", plan.build),
             };
             let dir = dir.display().to_string();
-            let mend = format!("gotai sweep {dir}/{EXPERIMENT} --out {dir}");
+            let file = quoted(&format!("{dir}/{EXPERIMENT}"));
+            let mend = format!("gotai sweep {file} --out {}", quoted(&dir));
             return Err(FolderError::OtherPlan { dir, why, mend });
         }
         Ok(Folder { dir: dir.to_path_buf(), plan, file, cases, journal: Journal::read(dir)? })

@@ -68,7 +68,13 @@ impl SweepPlan {
     /// # Errors
     /// Axes are left, or the experiment is wrong.
     pub fn single(file: &ExperimentFile) -> Result<Self, ExperimentError> {
-        file.refuse_any_axis()?;
+        if let Err(left) = file.refuse_any_axis() {
+            // What is wrong in any case is said first: no axis that is fixed would mend it.
+            if file.search().is_none() {
+                file.case(&file.axes().point(0))?;
+            }
+            return Err(left);
+        }
         Self::new(file)
     }
 }

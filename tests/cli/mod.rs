@@ -1,8 +1,10 @@
 //! The program as a user meets it: output, files, exit codes.
 
 mod helpers;
+mod left;
 mod remarks;
 mod results;
+mod slips;
 
 use crate::scratch;
 use serde_json::Value;

@@ -45,7 +45,8 @@ impl Footed {
 }
 
 /// Leaves, of what touches, no contact at a border over which another body's face goes on, and of points that are one
-/// the first; a cap that lies flat, wholly on faces that go on, stands on four points of its rim.
+/// the first, but all those of a rim that rolls; a cap that lies flat, wholly on faces that go on, stands on four
+/// points of its rim.
 pub fn merge(model: &Model, state: &State, found: &mut Vec<Contact>) {
     let footed: Vec<Option<Footed>> = found.iter().map(|contact| Footed::of(model, contact)).collect();
     let several = |of: &Footed| footed.iter().flatten().any(|other| other.top == of.top && other.base != of.base);
@@ -61,7 +62,7 @@ pub fn merge(model: &Model, state: &State, found: &mut Vec<Contact>) {
         }
         let is_one = |j: &usize| (found[*j].p_WC - found[i].p_WC).norm() <= AT * size_m(model, of);
         let is_inside = |j: &usize| footed[*j].as_ref().is_some_and(|of| of.feature == FACE);
-        left_out[i] = if is_of_flat_cap(model, state, of) {
+        left_out[i] = if is_of_flat_cap(model, state, of) || is_of_rim(model, state, of) {
             false
         } else if of.feature == FACE {
             with.iter().any(|j| *j < i && is_inside(j) && is_one(j))
@@ -185,6 +186,14 @@ const FLAT_CAP: f64 = 1e-6;
 fn is_of_flat_cap(model: &Model, state: &State, of: &Footed) -> bool {
     let is_cylinder = matches!(model.bodies[of.top].solid(), Some((Solid::Cylinder { .. }, _)));
     is_cylinder && (state.bodies[of.top].q_WB * Vector3::y()).cross(&of.normal).norm() <= FLAT_CAP
+}
+
+/// Of a cylinder that neither lies nor stands flat: it has one point alone, and where that is on the seam, no other one
+/// is inside of a face in its stead.
+fn is_of_rim(model: &Model, state: &State, of: &Footed) -> bool {
+    let is_cylinder = matches!(model.bodies[of.top].solid(), Some((Solid::Cylinder { .. }, _)));
+    let axis = state.bodies[of.top].q_WB * Vector3::y();
+    is_cylinder && axis.cross(&of.normal).norm() > FLAT_CAP && axis.dot(&of.normal).abs() > FLAT_CAP
 }
 
 /// Contacts of one body with two others, whose surfaces are alike, that do not move against each other, along one

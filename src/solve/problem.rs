@@ -98,8 +98,8 @@ impl ContactProblem {
         self.couple();
     }
 
-    /// Asks for gaps to what nothing moves to close by the mean velocities of the step: `turning` is what every body's mean angular velocity
-    /// has beyond that after the impulses (`Body::turns_on`).
+    /// Asks for gaps to what nothing moves to close by the mean velocities of the step: `turning` is what every body's
+    /// mean angular velocity has beyond that after the impulses (`Body::turns_on`).
     pub fn turn(&mut self, contacts: &[Contact], model: &Model, turning: &[Vector3<f64>], through: (Approach, f64)) {
         let contacts = self.blocks.iter_mut().zip(contacts).filter(|(_, contact)| contact.is_fixed(model));
         for (block, contact) in contacts {

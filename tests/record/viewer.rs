@@ -310,7 +310,8 @@ fn a_viewer_shows_a_run_while_it_goes_on_and_the_run_goes_on_without_it() {
     let known = shown["known"].as_str().unwrap();
     assert!(known.contains("gotai demo") && known.contains("1000000000"), "all of it: {known}");
     // A run of some seconds, whose viewer is closed before.
-    let longer = ["run", "configs/lecture/demo.yaml", "--set", "time.end_s=30", "--set", "time.step_s=1e-4"];
+    let long = ["--set", "time.end_s=100", "--set", "time.step_s=1e-4", "--set", "plan={skip: []}"];
+    let longer = [&["run", "configs/lecture/demo.yaml"], &long[..]].concat();
     let shown = shown_live(&rerun, "0.5", &longer);
     assert_eq!(shown["code"], 0, "{shown}");
     assert!(shown["said"].as_str().unwrap().contains("the run went on without it"), "{shown}");

@@ -6,8 +6,8 @@
 //! of the last step first, and again when those of the step are known, until it asks for nothing else.
 //!
 //! It is left out where it does not matter or cannot be had: bodies that in the last step fewer than three contacts
-//! pressed, or another body that moves, or that a pin holds; contacts that would give energy for it, as they may have to
-//! open at first; and what is then not solved. There gaps close by the velocities after the impulses, as if nothing
+//! pressed, or another body that moves, or that a pin holds; contacts that would give energy for it, as they may have
+//! to open at first; and what is then not solved. There gaps close by the velocities after the impulses, as if nothing
 //! turned on.
 
 use super::scratch::Scratch;

@@ -5,17 +5,20 @@
 //! are E + Gᵀ D G, whose blocks on the diagonal hold what their body's contacts add. Own code, as libraries for it
 //! choose their vector instructions, and with them their rounding, by the machine.
 
+use super::few::{BlockVector, OneOrTwo};
+use super::lu6::Lu6;
 use crate::deadline::Deadline;
-use nalgebra::{DVector, LU, Matrix6, U6, Vector6};
+use nalgebra::{Matrix6, Vector6};
+use smallvec::smallvec;
 
 /// Places of the blocks that the factors have.
 #[derive(Clone, Debug, Default)]
 pub struct Pattern {
     /// Place of every body in the order of elimination.
-    place: Vec<usize>,
+    place: OneOrTwo<usize>,
     /// Later places that every place is coupled with, ascending, and where its blocks begin among all.
-    later: Vec<Vec<usize>>,
-    first: Vec<usize>,
+    later: OneOrTwo<Vec<usize>>,
+    first: OneOrTwo<usize>,
     /// Number of blocks above the diagonal.
     blocks: usize,
 }
@@ -28,13 +31,16 @@ impl Pattern {
 
     /// The same; None where factors take more products of blocks.
     pub fn within(bodies: usize, pairs: impl Iterator<Item = (usize, usize)>, most_products: usize) -> Option<Self> {
+        if bodies == 1 {
+            return Some(Pattern { place: smallvec![0], later: smallvec![Vec::new()], first: smallvec![0], blocks: 0 });
+        }
         let mut products = 0;
         let mut near = vec![std::collections::BTreeSet::new(); bodies];
         for (a, b) in pairs.filter(|(a, b)| a != b) {
             near[a].insert(b);
             near[b].insert(a);
         }
-        let (mut place, mut fronts) = (vec![usize::MAX; bodies], Vec::with_capacity(bodies));
+        let (mut place, mut fronts) = (OneOrTwo::from_elem(usize::MAX, bodies), Vec::with_capacity(bodies));
         for now in 0..bodies {
             let left = (0..bodies).filter(|body| place[*body] == usize::MAX);
             let Some(body) = left.min_by_key(|body| near[*body].len()) else { break };
@@ -55,12 +61,12 @@ impl Pattern {
             later.sort_unstable();
             later
         };
-        let later: Vec<Vec<usize>> = fronts.iter().map(ascending).collect();
+        let later: OneOrTwo<Vec<usize>> = fronts.iter().map(ascending).collect();
         let before = |blocks: &mut usize, later: &Vec<usize>| {
             *blocks += later.len();
             Some(*blocks - later.len())
         };
-        let first: Vec<usize> = later.iter().scan(0, before).collect();
+        let first: OneOrTwo<usize> = later.iter().scan(0, before).collect();
         let blocks = later.iter().map(Vec::len).sum();
         Some(Pattern { place, later, first, blocks })
     }
@@ -74,7 +80,7 @@ impl Pattern {
 /// A matrix of a pattern.
 pub struct BlockMatrix<'a> {
     pattern: &'a Pattern,
-    diagonal: Vec<Matrix6<f64>>,
+    diagonal: OneOrTwo<Matrix6<f64>>,
     upper: Vec<Matrix6<f64>>,
     lower: Vec<Matrix6<f64>>,
 }
@@ -83,7 +89,7 @@ impl<'a> BlockMatrix<'a> {
     /// Identity times `on_diagonal`.
     pub fn diagonal(pattern: &'a Pattern, on_diagonal: f64) -> Self {
         let zeros = vec![Matrix6::zeros(); pattern.blocks];
-        let diagonal = vec![Matrix6::identity() * on_diagonal; pattern.place.len()];
+        let diagonal = OneOrTwo::from_elem(Matrix6::identity() * on_diagonal, pattern.place.len());
         BlockMatrix { pattern, diagonal, upper: zeros.clone(), lower: zeros }
     }
 
@@ -109,14 +115,14 @@ impl<'a> BlockMatrix<'a> {
     /// Factors of the matrix; None where it is singular, or time is up.
     pub fn factors(mut self, deadline: Deadline) -> Option<Factors<'a>> {
         let pattern = self.pattern;
-        let mut pivots = Vec::with_capacity(self.diagonal.len());
+        let mut pivots = OneOrTwo::with_capacity(self.diagonal.len());
         for (k, later) in pattern.later.iter().enumerate() {
             if deadline.is_over() {
                 return None;
             }
-            let pivot = self.diagonal[k].lu();
+            let pivot = Lu6::new(&self.diagonal[k])?;
             for own in pattern.first[k]..pattern.first[k] + later.len() {
-                pivot.solve_mut(&mut self.upper[own]).then_some(())?;
+                pivot.solve_all(&mut self.upper[own]);
             }
             for (a, i) in later.iter().enumerate() {
                 let (left, above) = (self.lower[pattern.first[k] + a], self.upper[pattern.first[k] + a]);
@@ -132,30 +138,28 @@ impl<'a> BlockMatrix<'a> {
             }
             pivots.push(pivot);
         }
-        let regular = pivots.iter().all(LU::is_invertible);
-        regular.then_some(Factors { pattern, pivots, upper: self.upper, lower: self.lower })
+        Some(Factors { pattern, pivots, upper: self.upper, lower: self.lower })
     }
 }
 
 /// Factors L and U, U's diagonal being 1.
 pub struct Factors<'a> {
     pattern: &'a Pattern,
-    pivots: Vec<LU<f64, U6, U6>>,
+    pivots: OneOrTwo<Lu6>,
     upper: Vec<Matrix6<f64>>,
     lower: Vec<Matrix6<f64>>,
 }
 
 impl Factors<'_> {
     /// Solution for a right-hand side; None where it is not finite.
-    pub fn solve(&self, right: &DVector<f64>) -> Option<DVector<f64>> {
+    pub fn solve(&self, right: &BlockVector) -> Option<BlockVector> {
         let pattern = self.pattern;
-        let mut x = vec![Vector6::zeros(); pattern.place.len()];
+        let mut x: OneOrTwo<Vector6<f64>> = OneOrTwo::from_elem(Vector6::zeros(), pattern.place.len());
         for (body, place) in pattern.place.iter().enumerate() {
-            x[*place].copy_from(&right.fixed_rows::<6>(6 * body));
+            x[*place] = right[body];
         }
         for (k, later) in pattern.later.iter().enumerate() {
-            let mut own = x[k];
-            self.pivots[k].solve_mut(&mut own).then_some(())?;
+            let own = self.pivots[k].solve(&x[k]);
             x[k] = own;
             later.iter().zip(&self.lower[pattern.first[k]..]).for_each(|(i, L)| x[*i] -= L * own);
         }
@@ -164,10 +168,10 @@ impl Factors<'_> {
             let above: Vector6<f64> = above.sum();
             x[k] -= above;
         }
-        let mut solution = DVector::zeros(right.len());
+        let mut solution = BlockVector::zeros(right.bodies());
         for (body, place) in pattern.place.iter().enumerate() {
-            solution.fixed_rows_mut::<6>(6 * body).copy_from(&x[*place]);
+            solution[body] = x[*place];
         }
-        solution.iter().all(|x| x.is_finite()).then_some(solution)
+        solution.is_finite().then_some(solution)
     }
 }

@@ -7,8 +7,9 @@
 //! rounding leaves shrinks from step to step.
 
 use super::Impulse;
-use super::island::{Island, Share};
+use super::island::{Island, Point, Share};
 use super::law::{self, Law, Place};
+use crate::math::few::Few;
 use nalgebra::{Matrix3, RowVector3, Vector3};
 
 const ETA: f64 = 1e-8;
@@ -26,37 +27,37 @@ const MOST: usize = 15;
 const ROUNDING: f64 = 1e-14;
 
 /// Improves `p`, or leaves it. Its residual.
-pub fn improve(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
+pub fn improve(island: &Island, p: &mut Few<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
     improve_with(|_| ETA, island, p, tolerance, steps)
 }
 
 /// The same from impulses that are near already. What rounds a velocity is felt as 1/η of it in impulses that redundant
 /// contacts share, and pushes those at the side of their cone out of it: η is so large that this is less than what is
 /// to be mended.
-pub fn improve_near(island: &Island, p: &mut Vec<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
+pub fn improve_near(island: &Island, p: &mut Few<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
     improve_with(|residual| (NOISE / residual).clamp(ETA, LARGEST_ETA), island, p, tolerance, steps)
 }
 
 fn improve_with(
     eta: impl Fn(f64) -> f64,
     island: &Island,
-    p: &mut Vec<Impulse>,
+    p: &mut Few<Impulse>,
     tolerance: f64,
     steps: &mut u64,
 ) -> f64 {
-    let mut best = island.residual(p);
-    let (mut now, mut worse) = (p.clone(), 0);
+    let mut now = island.at(p.clone());
+    let (mut best, mut worse) = (island.residual_at(&now), 0);
     for _ in 0..MOST {
         if best <= ROUNDING || worse > PATIENCE || (worse > SOLVED_PATIENCE && best <= tolerance) {
             break;
         }
         *steps += 1;
         let Some(next) = step(island, &now, Some(eta(best))) else { break };
-        now = next;
-        let residual = island.residual(&now);
+        now = island.at(next);
+        let residual = island.residual_at(&now);
         if residual < best {
             (best, worse) = (residual, 0);
-            p.clone_from(&now);
+            p.clone_from(&now.p);
         } else {
             worse += 1;
         }
@@ -73,11 +74,11 @@ const SAME: f64 = 1e-10;
 /// Redundant contacts that slip different ways leave a continuum of solutions, each with velocities of its own. Goes,
 /// within it, to the one with the least Σ|p|² (p with units), that of contacts that give a little, all alike. What
 /// pulls there is left out. The residual.
-pub fn even(island: &Island, p: &mut Vec<Impulse>, rounds: usize, tolerance: f64, steps: &mut u64) -> f64 {
+pub fn even(island: &Island, p: &mut Few<Impulse>, rounds: usize, tolerance: f64, steps: &mut u64) -> f64 {
     let mut residual = island.residual(p);
     for _ in 0..rounds {
         *steps += 1;
-        let Some(mut next) = step(island, p, None) else { break };
+        let Some(mut next) = step(island, &island.at(p.clone()), None) else { break };
         let reached = improve(island, &mut next, tolerance, steps);
         if reached > residual.max(tolerance).max(island.rounding(&next)) {
             break;
@@ -152,14 +153,12 @@ fn turning(p: &Impulse, u: &Vector3<f64>, t: &Vector3<f64>, friction: f64, eta: 
 }
 
 /// `eta`: none, to even shares.
-fn step(island: &Island, p: &[Impulse], eta: Option<f64>) -> Option<Vec<Impulse>> {
-    let y = island.pushed(p);
-    let u = island.velocities(&y);
-    let touches = || island.touches.iter().zip(p).zip(&u);
-    let linear: Vec<Linear> = if let Some(eta) = eta {
+fn step(island: &Island, at: &Point, eta: Option<f64>) -> Option<Few<Impulse>> {
+    let touches = || island.touches.iter().zip(&at.p).zip(&at.u);
+    let linear: Few<Linear> = if let Some(eta) = eta {
         touches().map(|((touch, p), u)| Linear::new(touch, p, u, eta)).collect()
     } else {
-        let small = island.scales(p, &y).into_iter().map(|scale| ROUNDING.sqrt() * scale);
+        let small = island.scales(at).into_iter().map(|scale| ROUNDING.sqrt() * scale);
         let largest = island.touches.iter().map(|touch| touch.scale).fold(0.0, f64::max);
         let eta = |touch: &Share| {
             let part = touch.scale / largest;
@@ -168,14 +167,14 @@ fn step(island: &Island, p: &[Impulse], eta: Option<f64>) -> Option<Vec<Impulse>
         let even = |(((touch, p), u), small)| Linear::even(touch, p, u, eta(touch), small);
         touches().zip(small).map(even).collect()
     };
-    let K: Vec<Matrix3<f64>> = linear.iter().map(|linear| linear.K).collect();
-    let at_rest: Vec<Impulse> = linear.iter().zip(&u).map(|(linear, u)| linear.jump - linear.K * u).collect();
+    let K: Few<Matrix3<f64>> = linear.iter().map(|linear| linear.K).collect();
+    let at_rest: Few<Impulse> = linear.iter().zip(&at.u).map(|(linear, u)| linear.jump - linear.K * u).collect();
     let change = island.system(&K)?.solve(&island.pushed(&at_rest))?;
-    let moved = |(((touch, linear), p), u): (((&Share, &Linear), &Impulse), &Vector3<f64>)| {
+    let moved = |(((touch, p), u), linear): (((&Share, &Impulse), &Vector3<f64>), &Linear)| {
         let new = p + linear.jump - linear.K * (u + touch.motion(&change));
         if linear.slips { onto_cone(&new, touch.law.friction()) } else { new }
     };
-    Some(island.touches.iter().zip(&linear).zip(p).zip(&u).map(moved).collect())
+    Some(touches().zip(&linear).map(moved).collect())
 }
 
 /// Along the tangent the cone is left to second order.

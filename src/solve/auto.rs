@@ -9,13 +9,15 @@
 //! solver is given up at, are left to conjugate gradients, whose starts survive from step to step; where they miss the
 //! tolerance they say so.
 
+use super::block::Block;
 use super::gauss_seidel::{self, Sweeps};
 use super::island::{Island, islands_without_pattern};
 use super::missed::{shares_matter, strict_residual};
 use super::problem::ContactProblem;
 use super::twist::Twist;
-use super::{Impulse, active_set, newton, nncg};
+use super::{Impulse, active_set, exact_contact, newton, nncg};
 use crate::experiment::types::{AFFORDABLE_BODIES, AFFORDABLE_PROBLEMS, AFFORDABLE_PRODUCTS, FEWEST_PROBLEMS};
+use crate::math::few::Few;
 use crate::work::Work;
 
 /// Sweeps before a look whether impulses are near enough for Newton's method: of few contacts, and of many.
@@ -50,8 +52,12 @@ pub fn solve(
         return true;
     }
     if problem.is_dense() {
-        let sweeps = Sweeps { most: FIRST_SWEEPS, tolerance: LASTING, ..*goal };
-        gauss_seidel::iterate(problem, &sweeps, p, &mut scratch.nncg.sweeps, work);
+        if let Some(alone) = alone(problem) {
+            p[0] = exact_contact::solve(&alone.A, &alone.b, &Impulse::zeros(), alone.friction);
+        } else {
+            let sweeps = Sweeps { most: FIRST_SWEEPS, tolerance: LASTING, ..*goal };
+            gauss_seidel::iterate(problem, &sweeps, p, &mut scratch.nncg.sweeps, work);
+        }
         if lasts(p, &mut scratch.u) {
             work.exact_solves += 1;
             return true;
@@ -79,6 +85,14 @@ pub fn solve(
     solved
 }
 
+/// The only contact, which has a closed solution.
+fn alone(problem: &ContactProblem) -> Option<&Block> {
+    match &problem.blocks[..] {
+        [block] if block.pin.is_none() => Some(block),
+        _ => None,
+    }
+}
+
 /// The solver's memory between steps.
 #[derive(Clone, Debug)]
 pub struct Scratch {
@@ -104,7 +118,7 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
-    fn solve(&mut self, island: &mut Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
+    fn solve(&mut self, island: &mut Island, own: &mut Few<Impulse>, work: &mut Work) -> bool {
         let is_affordable = island.is_affordable(AFFORDABLE_BODIES, AFFORDABLE_PRODUCTS);
         *(if is_affordable { &mut work.exact_solves } else { &mut work.iterated_solves }) += 1;
         if !is_affordable {
@@ -125,7 +139,7 @@ impl Part<'_> {
         let goal = self.goal;
         let within = if self.is_shared { goal.tolerance } else { LASTING };
         let sweeps = newton::more_sweeps(&goal);
-        let more = |own: &mut Vec<Impulse>, work: &mut Work| {
+        let more = |own: &mut Few<Impulse>, work: &mut Work| {
             let mut p = island.with_units(own);
             gauss_seidel::iterate(self.problem, &sweeps, &mut p, &mut self.scratch.sweeps, work);
             *own = island.without_units(&p);
@@ -135,7 +149,7 @@ impl Part<'_> {
     }
 
     /// By conjugate gradients, from what the exact solver was given up at. Whether they got there.
-    fn sweep_on(&mut self, island: &Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
+    fn sweep_on(&mut self, island: &Island, own: &mut Few<Impulse>, work: &mut Work) -> bool {
         let mut swept = own.clone();
         let solved = self.sweep_until_solved(island, &mut swept, work);
         if solved || island.residual(&swept) < island.residual(own) {
@@ -145,13 +159,13 @@ impl Part<'_> {
     }
 
     /// By Newton's method, from impulses that are near. Whether that was enough.
-    fn goes_on(&self, island: &Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
+    fn goes_on(&self, island: &Island, own: &mut Few<Impulse>, work: &mut Work) -> bool {
         active_set::improve_near(island, own, self.goal.tolerance, &mut work.newton_steps);
         island.is_strictly_met(KEPT * self.goal.tolerance, own)
     }
 
     /// By conjugate gradients.
-    fn sweep(&mut self, island: &Island, own: &mut Vec<Impulse>, most: u32, work: &mut Work) {
+    fn sweep(&mut self, island: &Island, own: &mut Few<Impulse>, most: u32, work: &mut Work) {
         let mut p = island.with_units(own);
         let sweeps = Sweeps { most, tolerance: 0.0, ..self.goal };
         nncg::iterate(self.problem, &sweeps, &mut p, self.scratch, work);
@@ -159,7 +173,7 @@ impl Part<'_> {
     }
 
     /// Looks after every batch of sweeps.
-    fn sweep_until_solved(&mut self, island: &Island, own: &mut Vec<Impulse>, work: &mut Work) -> bool {
+    fn sweep_until_solved(&mut self, island: &Island, own: &mut Few<Impulse>, work: &mut Work) -> bool {
         MANY_SWEEPS.iter().any(|most| {
             self.sweep(island, own, *most, work);
             island.is_strictly_met(self.goal.tolerance, own)

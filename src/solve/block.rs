@@ -77,8 +77,13 @@ impl Block {
 
     /// The 3×3 block of A between two contacts.
     pub(super) fn coupling(&self, with: &Block) -> Matrix3<f64> {
-        let pairs = self.ends().flat_map(|a| with.ends().map(move |b| (a, b)));
-        pairs.filter_map(|(a, b)| a.coupling(b)).reduce(|a, b| a + b).unwrap_or_else(Matrix3::zeros)
+        let mut A = Matrix3::zeros();
+        for a in self.ends() {
+            for b in with.ends().filter(|b| b.body == a.body) {
+                A += a.coupling(b);
+            }
+        }
+        A
     }
 
     pub(super) fn new(
@@ -110,7 +115,7 @@ impl Block {
         if sent_back > 0.0 {
             b += Vector3::new(0.0, before.y, before.z) * sent_back;
         }
-        let A = ends().filter_map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
+        let A = ends().map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
         Some(Block {
             end: own,
             other,

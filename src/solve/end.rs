@@ -72,10 +72,9 @@ impl End {
         self.rows.iter().zip(p.iter()).for_each(|(row, p)| velocities.add_scaled(&row.response, -p));
     }
 
-    /// J M⁻¹ Jᵀ of two contacts, if it is the same body's.
-    pub(super) fn coupling(&self, other: &End) -> Option<Matrix3<f64>> {
-        let (rows, others) = (&self.rows, &other.rows);
-        (self.body == other.body).then(|| Matrix3::from_fn(|i, j| rows[i].along(&others[j].response)))
+    /// J M⁻¹ Jᵀ of two contacts of the same body.
+    pub(super) fn coupling(&self, other: &End) -> Matrix3<f64> {
+        Matrix3::from_fn(|i, j| self.rows[i].along(&other.rows[j].response))
     }
 }
 

@@ -13,7 +13,8 @@ use super::Impulse;
 use super::island::{Island, Share};
 use super::law::{self, Law};
 use crate::math::block_lu::Factors;
-use nalgebra::{DVector, Matrix3, Vector3};
+use crate::math::few::{BlockVector, Few};
+use nalgebra::{Matrix3, Vector3};
 
 const MOST: usize = 60;
 
@@ -113,8 +114,8 @@ struct Pair {
 
 struct Method<'a> {
     island: &'a Island,
-    y: DVector<f64>,
-    pairs: Vec<Pair>,
+    y: BlockVector,
+    pairs: Few<Pair>,
 }
 
 /// diag(1/μ, 1, 1): p of x, and z of ũ.
@@ -128,11 +129,11 @@ fn scale(law: Law) -> Matrix3<f64> {
 }
 
 /// Impulses near the solution, wherever the island was. None: it came to nothing.
-pub fn solve(island: &Island, steps: &mut u64) -> Option<Vec<Impulse>> {
+pub fn solve(island: &Island, steps: &mut u64) -> Option<Few<Impulse>> {
     let mut method = Method::new(island);
     let first = method.gap();
     let mut gaps = Vec::with_capacity(MOST);
-    let mut best: Option<(f64, Vec<Impulse>)> = None;
+    let mut best: Option<(f64, Few<Impulse>)> = None;
     for round in 0..MOST {
         let gap = method.gap();
         gaps.push(gap);
@@ -160,12 +161,12 @@ impl<'a> Method<'a> {
             Law::Contact { .. } => Pair { x: Vector3::x() * fastest, z: Vector3::x() * fastest },
         };
         let pairs = island.touches.iter().map(begin).collect();
-        let mut method = Method { island, y: DVector::zeros(island.unknowns()), pairs };
+        let mut method = Method { island, y: BlockVector::zeros(island.bodies()), pairs };
         method.y = island.pushed(&method.impulses());
         method
     }
 
-    fn impulses(&self) -> Vec<Impulse> {
+    fn impulses(&self) -> Few<Impulse> {
         self.island.touches.iter().zip(&self.pairs).map(|(touch, pair)| scale(touch.law) * pair.x).collect()
     }
 
@@ -203,7 +204,7 @@ impl<'a> Method<'a> {
             aim - product(lambda, lambda) - second
         })?;
         let part = WITHIN * self.longest(&changes);
-        self.y += y * part;
+        self.y.add_scaled(&y, part);
         for (pair, change) in self.pairs.iter_mut().zip(&changes) {
             pair.x += change.x * part;
             pair.z += change.z * part;
@@ -214,14 +215,14 @@ impl<'a> Method<'a> {
 
 /// The equations about the present point.
 struct Linear {
-    scalings: Vec<Scaling>,
+    scalings: Few<Scaling>,
     /// What z changes with u.
-    slopes: Vec<Matrix3<f64>>,
+    slopes: Few<Matrix3<f64>>,
     /// What p changes with −u.
-    D: Vec<Matrix3<f64>>,
+    D: Few<Matrix3<f64>>,
     /// Gᵀ p − y and ũ − z.
-    r_y: DVector<f64>,
-    r_z: Vec<Vector3<f64>>,
+    r_y: BlockVector,
+    r_z: Few<Vector3<f64>>,
 }
 
 impl Linear {
@@ -231,9 +232,9 @@ impl Linear {
             Law::Pin => Some(Scaling::of_pin()),
             Law::Contact { .. } => Scaling::new(&pair.x, &pair.z),
         };
-        let scalings: Vec<Scaling> = touches().zip(&at.pairs).map(scaling).collect::<Option<_>>()?;
+        let scalings: Few<Scaling> = touches().zip(&at.pairs).map(scaling).collect::<Option<_>>()?;
         let u = at.island.velocities(&at.y);
-        let slopes: Vec<_> =
+        let slopes: Few<_> =
             touches().zip(&u).map(|(touch, u)| scale(touch.law) * law::dual_slope(u, touch.law)).collect();
         let push =
             |((touch, s), slope): ((&Share, &Scaling), &Matrix3<f64>)| scale(touch.law) * s.inverse * s.inverse * slope;
@@ -244,7 +245,7 @@ impl Linear {
             scale(touch.law) * law::dual(u, touch.law) - along
         };
         let r_z = touches().zip(&u).zip(&at.pairs).map(missing).collect();
-        Some(Linear { scalings, slopes, D, r_y: at.island.pushed(&at.impulses()) - &at.y, r_z })
+        Some(Linear { scalings, slopes, D, r_y: at.island.pushed(&at.impulses()).minus(&at.y), r_z })
     }
 
     /// The changes of y, x and z with λ ∘ (W Δx + W⁻¹ Δz) = wanted.
@@ -253,20 +254,20 @@ impl Linear {
         at: &Method,
         factors: &Factors,
         wanted: impl Fn(usize, &Vector3<f64>) -> Vector3<f64>,
-    ) -> Option<(DVector<f64>, Vec<Pair>)> {
+    ) -> Option<(BlockVector, Few<Pair>)> {
         let touches = &at.island.touches;
         let d = |(i, s): (usize, &Scaling)| match touches[i].law {
             Law::Pin => Vector3::zeros(),
             Law::Contact { .. } => quotient(&s.lambda, &wanted(i, &s.lambda)),
         };
-        let d: Vec<Vector3<f64>> = self.scalings.iter().enumerate().map(d).collect();
+        let d: Few<Vector3<f64>> = self.scalings.iter().enumerate().map(d).collect();
         let x_of = |i: usize, z: &Vector3<f64>| {
             let inverse = &self.scalings[i].inverse;
             inverse * (d[i] - inverse * z)
         };
-        let pushes: Vec<Impulse> =
+        let pushes: Few<Impulse> =
             touches.iter().enumerate().map(|(i, touch)| scale(touch.law) * x_of(i, &self.r_z[i])).collect();
-        let y = factors.solve(&(&self.r_y + at.island.pushed(&pushes)))?;
+        let y = factors.solve(&self.r_y.plus(&at.island.pushed(&pushes)))?;
         let change = |(i, touch): (usize, &Share)| {
             let z = self.slopes[i] * touch.motion(&y) + self.r_z[i];
             Pair { x: x_of(i, &z), z: if touch.law == Law::Pin { Vector3::zeros() } else { z } }

@@ -13,13 +13,14 @@ use super::problem::ContactProblem;
 use super::speeds::{Acted, Speeds, relative};
 use crate::deadline::Deadline;
 use crate::math::block_lu::{BlockMatrix, Factors, Pattern};
-use nalgebra::{DVector, Matrix3, Matrix3x6, Vector3};
+use crate::math::few::{BlockVector, Few, OneOrTwo};
+use nalgebra::{Matrix3, Matrix3x6, Vector3};
 
 /// The rows of G of one of a contact's bodies.
 #[derive(Clone, Copy, Debug)]
 struct Side {
-    /// Where the body's six numbers begin in y.
-    at: usize,
+    /// The body's place in the island.
+    body: usize,
     rows: Matrix3x6<f64>,
     /// From the centre of mass to the contact.
     arm_m: f64,
@@ -44,7 +45,7 @@ pub struct Share {
 #[derive(Clone, Debug)]
 pub struct Island {
     pub touches: Vec<Share>,
-    bodies: Vec<Mover>,
+    bodies: OneOrTwo<Mover>,
     /// The power of two that is next below its first body's mass.
     unit_kg: f64,
     /// As `ContactProblem` has it.
@@ -52,6 +53,16 @@ pub struct Island {
     pattern: Pattern,
     /// Nothing goes on later.
     pub deadline: Deadline,
+}
+
+/// Impulses of an island's contacts, without units, and the velocities that they make.
+#[derive(Clone, Debug)]
+pub struct Point {
+    pub p: Few<Impulse>,
+    /// Gᵀ p.
+    pub y: BlockVector,
+    /// Of every contact.
+    pub u: Few<Vector3<f64>>,
 }
 
 /// All islands that something can move, in the order of their first bodies; until when they may be worked on.
@@ -63,55 +74,66 @@ pub fn islands(problem: &ContactProblem, deadline: Deadline) -> Vec<Island> {
     islands
 }
 
+/// A body of the problem on the way to its island.
+#[derive(Clone, Debug)]
+struct Found {
+    /// One before it in the same island, or itself.
+    root: usize,
+    is_touched: bool,
+    /// Its place in the island.
+    at: usize,
+    island: usize,
+    /// None: nothing moves it.
+    whitened: Option<Whitened>,
+}
+
 /// The same, none of which can make a linear system yet.
 pub fn islands_without_pattern(problem: &ContactProblem, deadline: Deadline) -> Vec<Island> {
-    let moves: Vec<bool> = problem.inertias.iter().map(|inertia| inertia.mass_kg.is_finite()).collect();
-    let moving = |end: &&End| moves[end.body];
-    let mut root_of: Vec<usize> = (0..moves.len()).collect();
+    let moves = |body: usize| problem.inertias[body].mass_kg.is_finite();
+    let begin = |root| Found { root, is_touched: false, at: 0, island: usize::MAX, whitened: None };
+    let mut found: OneOrTwo<Found> = (0..problem.inertias.len()).map(begin).collect();
     for block in &problem.blocks {
-        let mut first = block.ends().filter(moving).map(|end| root(&root_of, end.body));
-        if let (Some(a), Some(b)) = (first.next(), first.next()) {
-            root_of[a.max(b)] = a.min(b);
+        block.ends().for_each(|end| found[end.body].is_touched = true);
+        if let Some(other) = block.other.as_ref().filter(|other| moves(other.body) && moves(block.end.body)) {
+            let (a, b) = (root(&found, block.end.body), root(&found, other.body));
+            found[a.max(b)].root = a.min(b);
         }
     }
-    // Of every body where its numbers begin, and of every first body its island.
-    let (mut at, mut island_of) = (vec![0; moves.len()], vec![usize::MAX; moves.len()]);
-    let mut whitened = vec![None; moves.len()];
     let mut islands: Vec<Island> = Vec::new();
-    let mut touched = vec![false; moves.len()];
-    problem.blocks.iter().flat_map(Block::ends).for_each(|end| touched[end.body] = true);
-    for body in (0..moves.len()).filter(|body| moves[*body] && touched[*body]) {
-        let first = root(&root_of, body);
+    for body in 0..found.len() {
+        if !found[body].is_touched || !moves(body) {
+            continue;
+        }
+        let first = root(&found, body);
         if first == body {
-            island_of[body] = islands.len();
+            found[body].island = islands.len();
             islands.push(Island {
-                touches: Vec::new(),
-                bodies: Vec::new(),
+                touches: Vec::with_capacity(if islands.is_empty() { problem.blocks.len() } else { 0 }),
+                bodies: OneOrTwo::new(),
                 unit_kg: unit_kg(problem.inertias[body].mass_kg),
                 cancelling: problem.cancelling,
                 pattern: Pattern::default(),
                 deadline,
             });
         }
-        let island = &mut islands[island_of[first]];
-        at[body] = island.unknowns();
-        let own = Whitened::new(&problem.inertias[body], island.unit_kg);
-        whitened[body] = Some(own);
-        island.bodies.push(Mover { whitened: own, speeds: problem.speeds[body] });
+        let island = &mut islands[found[first].island];
+        let whitened = Whitened::new(&problem.inertias[body], island.unit_kg);
+        (found[body].at, found[body].whitened) = (island.bodies(), Some(whitened));
+        island.bodies.push(Mover { whitened, speeds: problem.speeds[body] });
     }
     for (index, block) in problem.blocks.iter().enumerate() {
-        if let Some(end) = block.ends().find(moving) {
-            let island = &mut islands[island_of[root(&root_of, end.body)]];
-            island.touches.push(Share::new(index, block, &whitened, &at, island.unit_kg));
+        if let Some(end) = block.ends().find(|end| moves(end.body)) {
+            let island = &mut islands[found[root(&found, end.body)].island];
+            island.touches.push(Share::new(index, block, &found, island.unit_kg));
         }
     }
     islands
 }
 
 /// The first body of an island: every other one points to one before it.
-fn root(root_of: &[usize], mut body: usize) -> usize {
-    while root_of[body] != body {
-        body = root_of[body];
+fn root(found: &[Found], mut body: usize) -> usize {
+    while found[body].root != body {
+        body = found[body].root;
     }
     body
 }
@@ -146,18 +168,17 @@ impl Whitened {
 }
 
 impl Share {
-    /// `whitened`: of the bodies that something can move.
-    fn new(index: usize, block: &Block, whitened: &[Option<Whitened>], at: &[usize], unit_kg: f64) -> Self {
+    fn new(index: usize, block: &Block, found: &[Found], unit_kg: f64) -> Self {
         let scale = 1.0 / (block.A.trace() * unit_kg).sqrt();
         let side = |end: &End| {
-            let Whitened { linear, angular } = whitened[end.body].as_ref()?;
+            let Whitened { linear, angular } = found[end.body].whitened.as_ref()?;
             let mut rows = Matrix3x6::zeros();
             for (i, row) in end.rows.iter().enumerate() {
                 rows.fixed_view_mut::<1, 3>(i, 0).copy_from(&(row.j.v.transpose() * (*linear * scale)));
                 rows.fixed_view_mut::<1, 3>(i, 3).copy_from(&(angular.tr_mul(&row.j.w).transpose() * scale));
             }
             let part = rows.norm_squared();
-            Some(Side { at: at[end.body], rows, arm_m: end.arm_m(), part })
+            Some(Side { body: found[end.body].at, rows, arm_m: end.arm_m(), part })
         };
         let sides = [side(&block.end), block.other.as_ref().and_then(side)];
         Share { index, law: block.law(), scale, b: block.b * scale, sides }
@@ -165,21 +186,18 @@ impl Share {
 
     /// The two bodies that it couples.
     fn pair(&self) -> Option<(usize, usize)> {
-        let [a, b] = self.sides.each_ref().map(|side| side.as_ref().map(|side| side.at / 6));
+        let [a, b] = self.sides.each_ref().map(|side| side.as_ref().map(|side| side.body));
         a.zip(b)
     }
 
     /// G y.
-    pub fn motion(&self, y: &DVector<f64>) -> Vector3<f64> {
-        self.sides.iter().flatten().map(|side| side.rows * y.fixed_rows::<6>(side.at)).sum()
+    pub fn motion(&self, y: &BlockVector) -> Vector3<f64> {
+        self.sides.iter().flatten().map(|side| side.rows * y[side.body]).sum()
     }
 
     /// y += Gᵀ p.
-    fn push(&self, p: &Impulse, y: &mut DVector<f64>) {
-        for side in self.sides.iter().flatten() {
-            let mut own = y.fixed_rows_mut::<6>(side.at);
-            own += side.rows.tr_mul(p);
-        }
+    fn push(&self, p: &Impulse, y: &mut BlockVector) {
+        self.sides.iter().flatten().for_each(|side| y[side.body] += side.rows.tr_mul(p));
     }
 }
 
@@ -199,19 +217,14 @@ impl Island {
         self.bodies.len()
     }
 
-    /// Of y: six a body.
-    pub fn unknowns(&self) -> usize {
-        6 * self.bodies()
-    }
-
     /// Whether a residual is the tolerance, or rounding; a tolerance of 0 asks for more than there is.
     pub fn is_enough(&self, residual: f64, tolerance: f64, p: &[Impulse]) -> bool {
         residual <= tolerance || (tolerance > 0.0 && residual <= self.rounding(p))
     }
 
     /// Gᵀ p.
-    pub fn pushed(&self, p: &[Impulse]) -> DVector<f64> {
-        let mut y = DVector::zeros(self.unknowns());
+    pub fn pushed(&self, p: &[Impulse]) -> BlockVector {
+        let mut y = BlockVector::zeros(self.bodies());
         self.touches.iter().zip(p).for_each(|(touch, p)| touch.push(p, &mut y));
         y
     }
@@ -228,7 +241,7 @@ impl Island {
             for a in touch.sides.iter().flatten() {
                 let left = a.rows.tr_mul(D);
                 for b in touch.sides.iter().flatten() {
-                    H.add(a.at / 6, b.at / 6, &(left * b.rows));
+                    H.add(a.body, b.body, &(left * b.rows));
                 }
             }
         }
@@ -236,12 +249,12 @@ impl Island {
     }
 
     /// Of every contact, at the bodies' y.
-    pub fn velocities(&self, y: &DVector<f64>) -> Vec<Vector3<f64>> {
+    pub fn velocities(&self, y: &BlockVector) -> Few<Vector3<f64>> {
         self.touches.iter().map(|touch| touch.b + touch.motion(y)).collect()
     }
 
     /// Its contacts' impulses without units, of those of all.
-    pub fn impulses(&self, all: &[Impulse]) -> Vec<Impulse> {
+    pub fn impulses(&self, all: &[Impulse]) -> Few<Impulse> {
         self.touches.iter().map(|touch| all[touch.index] / self.unit_n_s(touch)).collect()
     }
 
@@ -251,12 +264,12 @@ impl Island {
     }
 
     /// Its own impulses with units.
-    pub fn with_units(&self, p: &[Impulse]) -> Vec<Impulse> {
+    pub fn with_units(&self, p: &[Impulse]) -> Few<Impulse> {
         self.touches.iter().zip(p).map(|(touch, p)| p * self.unit_n_s(touch)).collect()
     }
 
     /// Its own impulses without units.
-    pub fn without_units(&self, p: &[Impulse]) -> Vec<Impulse> {
+    pub fn without_units(&self, p: &[Impulse]) -> Few<Impulse> {
         self.touches.iter().zip(p).map(|(touch, p)| p / self.unit_n_s(touch)).collect()
     }
 
@@ -265,28 +278,38 @@ impl Island {
         touch.scale * self.unit_kg
     }
 
+    /// Impulses and the velocities that they make.
+    pub fn at(&self, p: Few<Impulse>) -> Point {
+        let y = self.pushed(&p);
+        Point { u: self.velocities(&y), p, y }
+    }
+
     /// What the impulse of every contact (without units) is compared with, as the judge has it: the least, over the
     /// bodies that it can move, of what would do to the body there what the step does (`Acted`). So a light body under
     /// a heavy one counts.
-    pub fn scales(&self, p: &[Impulse], y: &DVector<f64>) -> Vec<f64> {
-        self.scales_with(self.cancelling, p, y)
+    pub fn scales(&self, at: &Point) -> Few<f64> {
+        self.scales_with(self.cancelling, &at.p, &at.y)
     }
 
     /// `cancelling`: part of Σ|p|/m that counts beside what all impulses together change.
-    fn scales_with(&self, cancelling: f64, p: &[Impulse], y: &DVector<f64>) -> Vec<f64> {
-        let mut pressed = vec![0.0; self.bodies.len()];
-        for (touch, p) in self.touches.iter().zip(p) {
-            touch.sides.iter().flatten().for_each(|side| pressed[side.at / 6] += touch.scale * p.norm());
-        }
+    fn scales_with(&self, cancelling: f64, p: &[Impulse], y: &BlockVector) -> Few<f64> {
         let acted = |(i, Mover { whitened, speeds }): (usize, &Mover)| {
-            let [v, w] = [y.fixed_rows::<3>(6 * i), y.fixed_rows::<3>(6 * i + 3)];
+            let [v, w] = [y[i].fixed_rows::<3>(0), y[i].fixed_rows::<3>(3)];
             let changed = [whitened.linear * v.norm(), (whitened.angular * w).norm()];
-            Acted { speeds: *speeds, changed, pressed: cancelling * pressed[i] * whitened.linear * whitened.linear }
+            Acted { speeds: *speeds, changed, pressed: 0.0 }
         };
-        let acted: Vec<Acted> = self.bodies.iter().enumerate().map(acted).collect();
+        let mut acted: OneOrTwo<Acted> = self.bodies.iter().enumerate().map(acted).collect();
+        if cancelling > 0.0 {
+            for (touch, p) in self.touches.iter().zip(p) {
+                touch.sides.iter().flatten().for_each(|side| acted[side.body].pressed += touch.scale * p.norm());
+            }
+            for (acted, Mover { whitened, .. }) in acted.iter_mut().zip(&self.bodies) {
+                acted.pressed = cancelling * acted.pressed * whitened.linear * whitened.linear;
+            }
+        }
         let least = |touch: &Share| {
             let sides = touch.sides.iter().flatten().filter(|side| side.part > 0.0);
-            let of = |side: &Side| touch.scale * acted[side.at / 6].at(side.arm_m) / side.part;
+            let of = |side: &Side| touch.scale * acted[side.body].at(side.arm_m) / side.part;
             sides.map(of).fold(f64::INFINITY, f64::min)
         };
         self.touches.iter().map(least).collect()
@@ -295,10 +318,10 @@ impl Island {
     /// A residual that rounding of the velocities leaves: impulses may be next to nothing beside the speed of a body,
     /// which slips past or rolls.
     pub fn rounding(&self, p: &[Impulse]) -> f64 {
-        let scales = self.scales(p, &self.pushed(p));
+        let scales = self.scales_with(self.cancelling, p, &self.pushed(p));
         let of = |(touch, scale): (&Share, &f64)| {
             let sides = touch.sides.iter().flatten();
-            let speeds = sides.map(|side| touch.scale * self.bodies[side.at / 6].speeds.at(side.arm_m));
+            let speeds = sides.map(|side| touch.scale * self.bodies[side.body].speeds.at(side.arm_m));
             relative(4.0 * f64::EPSILON * speeds.fold(touch.b.norm(), f64::max), *scale)
         };
         self.touches.iter().zip(&scales).map(of).fold(0.0, f64::max)
@@ -306,22 +329,26 @@ impl Island {
 
     /// How far the worst contact is from the law: the judge's residual.
     pub fn residual(&self, p: &[Impulse]) -> f64 {
-        self.residual_with(self.cancelling, p)
+        self.residual_at(&self.at(p.into()))
+    }
+
+    /// The same of impulses whose velocities are known.
+    pub fn residual_at(&self, at: &Point) -> f64 {
+        self.residual_with(self.cancelling, at)
     }
 
     /// Whether the residual by what every body gets alone, however much presses it, is the tolerance, or rounding: what
     /// bodies that rest may be left with for ever.
     pub fn is_strictly_met(&self, tolerance: f64, p: &[Impulse]) -> bool {
-        self.is_enough(self.residual_with(0.0, p), tolerance, p)
+        self.is_enough(self.residual_with(0.0, &self.at(p.into())), tolerance, p)
     }
 
-    fn residual_with(&self, cancelling: f64, p: &[Impulse]) -> f64 {
-        let y = self.pushed(p);
-        let (u, scales) = (self.velocities(&y), self.scales_with(cancelling, p, &y));
+    fn residual_with(&self, cancelling: f64, at: &Point) -> f64 {
+        let scales = self.scales_with(cancelling, &at.p, &at.y);
         let missed = |(((touch, p), u), scale): (((&Share, &Impulse), &Vector3<f64>), &f64)| {
             let missed = relative(law::missed(p, u, touch.law), *scale);
             if missed.is_nan() { f64::INFINITY } else { missed }
         };
-        self.touches.iter().zip(p).zip(&u).zip(&scales).map(missed).fold(0.0, f64::max)
+        self.touches.iter().zip(&at.p).zip(&at.u).zip(&scales).map(missed).fold(0.0, f64::max)
     }
 }

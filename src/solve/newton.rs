@@ -16,6 +16,7 @@ use super::problem::ContactProblem;
 use super::{Impulse, active_set, interior, proximal, smallest};
 use crate::deadline::Deadline;
 use crate::experiment::types::{Cone, Correction, Iteration, Local, Order};
+use crate::math::few::Few;
 use crate::work::Work;
 
 /// Sweeps to begin with: few contacts are mostly settled by them. And sweeps between two tries where nothing else
@@ -84,7 +85,7 @@ fn improve(
     let mut solved = true;
     for island in islands {
         let mut own = island.impulses(p);
-        let more = |own: &mut Vec<Impulse>, work: &mut Work| {
+        let more = |own: &mut Few<Impulse>, work: &mut Work| {
             let mut others = p.to_vec();
             island.put(own, &mut others);
             gauss_seidel::iterate(problem, &more_sweeps(sweeps), &mut others, scratch, work);
@@ -128,8 +129,8 @@ pub fn solve_evenly(problem: &ContactProblem, goal: &Sweeps, p: &mut [Impulse], 
     improve(problem, &islands, goal, p, shares, &mut scratch, work)
 }
 
-fn evenly(island: &Island, work: &mut Work) -> Vec<Impulse> {
-    let nothing = vec![Impulse::zeros(); island.touches.len()];
+fn evenly(island: &Island, work: &mut Work) -> Few<Impulse> {
+    let nothing = Few::from_elem(Impulse::zeros(), island.touches.len());
     let (mut p, mut eta) = (nothing.clone(), FIRST_ETA);
     while eta >= EVEN_ETA && !island.deadline.is_over() {
         let Some(next) = proximal::solve(island, &nothing, &p, eta, &mut work.newton_steps) else { break };
@@ -143,14 +144,14 @@ fn evenly(island: &Island, work: &mut Work) -> Vec<Impulse> {
 pub(super) fn solve_island(
     island: &Island,
     goal: &Sweeps,
-    p: &mut Vec<Impulse>,
+    p: &mut Few<Impulse>,
     shares: Shares,
-    mut sweep: impl FnMut(&mut Vec<Impulse>, &mut Work),
+    mut sweep: impl FnMut(&mut Few<Impulse>, &mut Work),
     work: &mut Work,
 ) -> bool {
     let mut best = island.residual(p);
     let is_enough = |residual: f64, p: &[Impulse]| island.is_enough(residual, goal.tolerance, p);
-    let keep = |best: &mut f64, p: &mut Vec<Impulse>, mut tried: Vec<Impulse>, work: &mut Work| {
+    let keep = |best: &mut f64, p: &mut Few<Impulse>, mut tried: Few<Impulse>, work: &mut Work| {
         let mut residual = active_set::improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
         if residual <= NEARLY && !is_enough(residual, &tried) {
             residual = active_set::improve_near(island, &mut tried, goal.tolerance, &mut work.newton_steps);

@@ -56,7 +56,7 @@ impl Block {
         let end = |end: &PinEnd| End::new(end.body, end.sign, &end.r_W, &frame, &inertias[end.body]);
         let (end, other) = (end(&pin.end), pin.other.as_ref().map(end));
         let ends = || std::iter::once(&end).chain(&other);
-        let A = ends().filter_map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
+        let A = ends().map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
         Block {
             end,
             other,

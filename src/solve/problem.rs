@@ -122,8 +122,15 @@ impl ContactProblem {
     fn couple(&mut self) {
         self.A_blocks.clear();
         if self.blocks.len() <= DENSE {
-            let blocks = &self.blocks;
-            self.A_blocks.extend(blocks.iter().flat_map(|row| blocks.iter().map(|column| row.coupling(column))));
+            let n = self.blocks.len();
+            self.A_blocks.resize(n * n, Matrix3::zeros());
+            for (i, row) in self.blocks.iter().enumerate() {
+                self.A_blocks[i * n + i] = row.A;
+                for (j, column) in self.blocks.iter().enumerate().skip(i + 1) {
+                    let A = row.coupling(column);
+                    (self.A_blocks[i * n + j], self.A_blocks[j * n + i]) = (A, A.transpose());
+                }
+            }
         }
     }
 

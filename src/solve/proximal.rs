@@ -9,7 +9,8 @@
 
 use super::island::{Island, Share};
 use super::{Impulse, law};
-use nalgebra::{DVector, Matrix3, Vector3};
+use crate::math::few::{BlockVector, Few};
+use nalgebra::{Matrix3, Vector3};
 
 /// Newton steps after which the problem is given up: with a larger η it is easier.
 const MOST: usize = 15;
@@ -22,23 +23,23 @@ const HALVINGS: usize = 30;
 
 /// p(y) and what it follows from.
 struct At {
-    y: DVector<f64>,
-    u: Vec<Vector3<f64>>,
+    y: BlockVector,
+    u: Few<Vector3<f64>>,
     /// p_centre − ũ/η.
-    z: Vec<Vector3<f64>>,
-    p: Vec<Impulse>,
+    z: Few<Vector3<f64>>,
+    p: Few<Impulse>,
     /// y − Gᵀ p(y).
-    missing: DVector<f64>,
+    missing: BlockVector,
 }
 
 impl At {
-    fn new(island: &Island, centre: &[Impulse], eta: f64, y: DVector<f64>) -> Self {
+    fn new(island: &Island, centre: &[Impulse], eta: f64, y: BlockVector) -> Self {
         let u = island.velocities(&y);
         let touches = || island.touches.iter();
         let point = |((touch, p), u): ((&Share, &Impulse), &Vector3<f64>)| p - law::dual(u, touch.law) / eta;
-        let z: Vec<_> = touches().zip(centre).zip(&u).map(point).collect();
-        let p: Vec<_> = touches().zip(&z).map(|(touch, z)| law::in_cone(z, touch.law)).collect();
-        let missing = &y - island.pushed(&p);
+        let z: Few<_> = touches().zip(centre).zip(&u).map(point).collect();
+        let p: Few<_> = touches().zip(&z).map(|(touch, z)| law::in_cone(z, touch.law)).collect();
+        let missing = y.minus(&island.pushed(&p));
         At { y, u, z, p, missing }
     }
 
@@ -47,7 +48,7 @@ impl At {
     }
 
     /// What p(y) changes with −u.
-    fn slopes(&self, island: &Island, eta: f64) -> Vec<Matrix3<f64>> {
+    fn slopes(&self, island: &Island, eta: f64) -> Few<Matrix3<f64>> {
         let slope = |((touch, z), u): ((&Share, &Vector3<f64>), &Vector3<f64>)| {
             law::in_cone_slope(z, touch.law) / eta * law::dual_slope(u, touch.law)
         };
@@ -56,26 +57,26 @@ impl At {
 }
 
 /// The impulses of the proximal problem about `centre`, from the velocities that those of `from` make. None: not found.
-pub fn solve(island: &Island, centre: &[Impulse], from: &[Impulse], eta: f64, steps: &mut u64) -> Option<Vec<Impulse>> {
+pub fn solve(island: &Island, centre: &[Impulse], from: &[Impulse], eta: f64, steps: &mut u64) -> Option<Few<Impulse>> {
     let mut at = At::new(island, centre, eta, island.pushed(from));
     for _ in 0..MOST {
         if at.is_found() {
             return Some(at.p);
         }
         *steps += 1;
-        let change = island.system(&at.slopes(island, eta))?.solve(&-&at.missing)?;
+        let change = island.system(&at.slopes(island, eta))?.solve(&at.missing.negative())?;
         at = descend(island, centre, eta, &at, &change)?;
     }
     at.is_found().then_some(at.p)
 }
 
 /// The longest of the halved steps after which less is missing.
-fn descend(island: &Island, centre: &[Impulse], eta: f64, at: &At, change: &DVector<f64>) -> Option<At> {
+fn descend(island: &Island, centre: &[Impulse], eta: f64, at: &At, change: &BlockVector) -> Option<At> {
     /// Of the decrease that the slope promises.
     const PART: f64 = 1e-4;
     let mut part = 1.0;
     for _ in 0..HALVINGS {
-        let next = At::new(island, centre, eta, &at.y + change * part);
+        let next = At::new(island, centre, eta, at.y.plus_scaled(change, part));
         if next.missing.norm() <= (1.0 - PART * part) * at.missing.norm() {
             return Some(next);
         }

@@ -8,7 +8,8 @@
 use super::Impulse;
 use super::island::{Island, Share};
 use super::law::{self, Law};
-use nalgebra::{DVector, Matrix3, Vector3};
+use crate::math::few::{BlockVector, Few};
+use nalgebra::{Matrix3, Vector3};
 
 const MOST: usize = 60;
 const HALVINGS: usize = 12;
@@ -74,23 +75,23 @@ impl Face {
 /// The contacts' faces, and 1/σ² of their impulses without units relative to the largest: what is least has units.
 struct Faces<'a> {
     island: &'a Island,
-    faces: Vec<Face>,
-    weights: Vec<f64>,
-    wanted: DVector<f64>,
+    faces: Few<Face>,
+    weights: Few<f64>,
+    wanted: BlockVector,
 }
 
 /// z = G w, kept up to date instead of w: near the root its changes are small, and so is their rounding.
 struct At {
-    z: Vec<Vector3<f64>>,
-    p: Vec<Impulse>,
-    missing: DVector<f64>,
+    z: Few<Vector3<f64>>,
+    p: Few<Impulse>,
+    missing: BlockVector,
 }
 
 /// The smallest impulses that make the velocities of `p`, the best by the residual that was met, and that. Velocities
 /// are told from 0 when a residual of `small` is.
-pub fn impulses(island: &Island, p: &[Impulse], small: f64, steps: &mut u64) -> (Vec<Impulse>, f64) {
+pub fn impulses(island: &Island, p: &[Impulse], small: f64, steps: &mut u64) -> (Few<Impulse>, f64) {
     let faces = Faces::new(island, p, small);
-    let mut at = faces.at(vec![Vector3::zeros(); p.len()]);
+    let mut at = faces.at(Few::from_elem(Vector3::zeros(), p.len()));
     let (mut best, mut least, mut worse) = (at.p.clone(), f64::INFINITY, 0);
     for round in 0..MOST {
         *steps += 1;
@@ -111,20 +112,19 @@ pub fn impulses(island: &Island, p: &[Impulse], small: f64, steps: &mut u64) -> 
 
 impl<'a> Faces<'a> {
     fn new(island: &'a Island, p: &[Impulse], small: f64) -> Self {
-        let wanted = island.pushed(p);
-        let u = island.velocities(&wanted);
-        let scales = island.scales(p, &wanted);
+        let at = island.at(p.into());
+        let scales = island.scales(&at);
         let face = |((touch, u), scale): ((&Share, &Vector3<f64>), &f64)| Face::new(touch, u, small * scale);
-        let faces = island.touches.iter().zip(&u).zip(&scales).map(face).collect();
+        let faces = island.touches.iter().zip(&at.u).zip(&scales).map(face).collect();
         let smallest = island.touches.iter().map(|touch| touch.scale).fold(f64::INFINITY, f64::min);
         let weights = island.touches.iter().map(|touch| (smallest / touch.scale) * (smallest / touch.scale)).collect();
-        Faces { island, faces, weights, wanted }
+        Faces { island, faces, weights, wanted: at.y }
     }
 
-    fn at(&self, z: Vec<Vector3<f64>>) -> At {
+    fn at(&self, z: Few<Vector3<f64>>) -> At {
         let nearest = |((face, touch), z): ((&Face, &Share), &Vector3<f64>)| face.nearest(z, touch.law);
-        let p: Vec<Impulse> = self.faces.iter().zip(&self.island.touches).zip(&z).map(nearest).collect();
-        let missing = &self.wanted - self.island.pushed(&p);
+        let p: Few<Impulse> = self.faces.iter().zip(&self.island.touches).zip(&z).map(nearest).collect();
+        let missing = self.wanted.minus(&self.island.pushed(&p));
         At { z, p, missing }
     }
 
@@ -135,7 +135,7 @@ impl<'a> Faces<'a> {
             let slope = if first { face.span() } else { face.slope(z, touch.law) };
             slope * *weight
         };
-        let slopes: Vec<Matrix3<f64>> = touches().zip(&at.z).map(slope).collect();
+        let slopes: Few<Matrix3<f64>> = touches().zip(&at.z).map(slope).collect();
         let mut H = self.island.coupled(&slopes, 0.0);
         H.add_on_diagonal(REGULAR * H.largest());
         let change = H.factors(self.island.deadline)?.solve(&at.missing)?;

@@ -9,7 +9,7 @@ use super::few::{BlockVector, OneOrTwo};
 use super::lu6::Lu6;
 use crate::deadline::Deadline;
 use nalgebra::{Matrix6, Vector6};
-use smallvec::smallvec;
+use smallvec::{SmallVec, smallvec};
 
 /// Places of the blocks that the factors have.
 #[derive(Clone, Debug, Default)]
@@ -80,7 +80,7 @@ impl Pattern {
 /// A matrix of a pattern.
 pub struct BlockMatrix<'a> {
     pattern: &'a Pattern,
-    diagonal: OneOrTwo<Matrix6<f64>>,
+    diagonal: SmallVec<[Matrix6<f64>; 1]>,
     upper: Vec<Matrix6<f64>>,
     lower: Vec<Matrix6<f64>>,
 }
@@ -89,7 +89,7 @@ impl<'a> BlockMatrix<'a> {
     /// Identity times `on_diagonal`.
     pub fn diagonal(pattern: &'a Pattern, on_diagonal: f64) -> Self {
         let zeros = vec![Matrix6::zeros(); pattern.blocks];
-        let diagonal = OneOrTwo::from_elem(Matrix6::identity() * on_diagonal, pattern.place.len());
+        let diagonal = SmallVec::from_elem(Matrix6::identity() * on_diagonal, pattern.place.len());
         BlockMatrix { pattern, diagonal, upper: zeros.clone(), lower: zeros }
     }
 
@@ -112,10 +112,20 @@ impl<'a> BlockMatrix<'a> {
         self.diagonal.iter_mut().for_each(|block| *block += Matrix6::identity() * value);
     }
 
+    /// Solution for a right-hand side; None where the matrix is singular, or time is up.
+    pub fn solve(self, right: &BlockVector, deadline: Deadline) -> Option<BlockVector> {
+        if let [alone] = &self.diagonal[..] {
+            let mut x = BlockVector::zeros(1);
+            x[0] = Lu6::new(alone)?.solve(&right[0]);
+            return x.is_finite().then_some(x);
+        }
+        self.factors(deadline)?.solve(right)
+    }
+
     /// Factors of the matrix; None where it is singular, or time is up.
     pub fn factors(mut self, deadline: Deadline) -> Option<Factors<'a>> {
         let pattern = self.pattern;
-        let mut pivots = OneOrTwo::with_capacity(self.diagonal.len());
+        let mut pivots = SmallVec::with_capacity(self.diagonal.len());
         for (k, later) in pattern.later.iter().enumerate() {
             if deadline.is_over() {
                 return None;
@@ -145,7 +155,7 @@ impl<'a> BlockMatrix<'a> {
 /// Factors L and U, U's diagonal being 1.
 pub struct Factors<'a> {
     pattern: &'a Pattern,
-    pivots: OneOrTwo<Lu6>,
+    pivots: SmallVec<[Lu6; 1]>,
     upper: Vec<Matrix6<f64>>,
     lower: Vec<Matrix6<f64>>,
 }

@@ -17,35 +17,46 @@ pub struct Lu6 {
 impl Lu6 {
     /// Factors of a matrix; None where it is singular.
     pub fn new(matrix: &Matrix6<f64>) -> Option<Self> {
-        let mut columns: [[f64; 6]; 6] = (*matrix).into();
-        let (mut inverse, mut exchanged) = ([0.0; 6], [0; 6]);
-        for k in 0..6 {
-            let mut pivot = k;
-            for i in k + 1..6 {
-                if columns[k][i].abs() > columns[k][pivot].abs() {
-                    pivot = i;
-                }
-            }
-            exchanged[k] = pivot;
-            if pivot != k {
-                columns.iter_mut().for_each(|column| column.swap(k, pivot));
-            }
-            inverse[k] = 1.0 / columns[k][k];
-            if columns[k][k] == 0.0 {
-                return None;
-            }
-            for i in k + 1..6 {
-                columns[k][i] *= inverse[k];
-            }
-            let left = columns[k];
-            for column in &mut columns[k + 1..] {
-                let above = column[k];
-                for i in k + 1..6 {
-                    column[i] -= left[i] * above;
-                }
+        let mut lu = Lu6 { columns: (*matrix).into(), inverse: [0.0; 6], exchanged: [0; 6] };
+        let is_regular = lu.eliminate::<0>()
+            && lu.eliminate::<1>()
+            && lu.eliminate::<2>()
+            && lu.eliminate::<3>()
+            && lu.eliminate::<4>()
+            && lu.eliminate::<5>();
+        is_regular.then_some(lu)
+    }
+
+    /// Column K's turn. Whether it has a pivot.
+    #[inline(always)]
+    fn eliminate<const K: usize>(&mut self) -> bool {
+        let mut pivot = K;
+        for i in K + 1..6 {
+            if self.columns[K][i].abs() > self.columns[K][pivot].abs() {
+                pivot = i;
             }
         }
-        Some(Lu6 { columns, inverse, exchanged })
+        self.exchanged[K] = pivot;
+        if pivot != K {
+            self.columns.iter_mut().for_each(|column| column.swap(K, pivot));
+        }
+        if self.columns[K][K] == 0.0 {
+            return false;
+        }
+        let inverse = 1.0 / self.columns[K][K];
+        self.inverse[K] = inverse;
+        for i in K + 1..6 {
+            self.columns[K][i] *= inverse;
+        }
+        let left = self.columns[K];
+        for j in K + 1..6 {
+            let column = &mut self.columns[j];
+            let above = column[K];
+            for i in K + 1..6 {
+                column[i] -= left[i] * above;
+            }
+        }
+        true
     }
 
     /// Solution of A x = `x`.

@@ -52,8 +52,16 @@ pub struct Judge {
     again: Option<Again>,
     /// What contacts took in the last step.
     taken: Taken,
+    repeated: Repeated,
     /// Between two steps.
     middle: State,
+}
+
+/// Steps that are the last one over again, and not yet in the sums.
+#[derive(Clone, Copy, Debug, Default)]
+struct Repeated {
+    times: f64,
+    span_s: f64,
 }
 
 /// Impacts at one instant, which the law of contact judges as one.
@@ -105,6 +113,7 @@ impl Judge {
             again: (!model.has_loads() && model.pins.is_empty() && plan.stiffness_n_m.is_none())
                 .then(|| Again::with_capacity(bodies, plan.contacts)),
             taken: Taken::default(),
+            repeated: Repeated::default(),
             middle: start.clone(),
         }
     }
@@ -119,9 +128,10 @@ impl Judge {
             self.end_instant(model, before);
         }
         if self.again.as_ref().is_some_and(|again| again.is(shown, self.geometry.period())) {
-            self.observe_again(model, shown);
+            self.observe_again(shown);
             return None;
         }
+        self.add_repeated(model, before);
         let done = match shown.acted {
             Acted::Kick { kicked, contacts, step_s, approach } => {
                 self.observe_kick(model, [before, kicked, after], contacts, (approach, step_s))
@@ -143,13 +153,22 @@ impl Judge {
     }
 
     /// A step that is the one before over again: sums grow by what it added, nothing else is new.
-    fn observe_again(&mut self, model: &Model, shown: &Shown) {
+    fn observe_again(&mut self, shown: &Shown) {
         let Acted::Kick { kicked, contacts, step_s, .. } = shown.acted else { return };
-        self.energy.add_taken(&self.taken, 1.0);
-        self.momentum.observe_pushes(model, kicked, &self.exchange.pushes, 1.0);
+        self.repeated.times += 1.0;
+        self.repeated.span_s += shown.after.time_s - shown.before.time_s;
         self.watched.observe(kicked, contacts);
         self.watched.observe_step(shown.before, shown.after, step_s);
-        self.momentum.observe(model, shown.after, &Done::NOTHING, shown.after.time_s - shown.before.time_s);
+    }
+
+    /// What the steps that were one over and over again added to the sums, all at once: they ended at this state.
+    fn add_repeated(&mut self, model: &Model, state: &State) {
+        let Repeated { times, span_s } = std::mem::take(&mut self.repeated);
+        if times > 0.0 {
+            self.energy.add_taken(&self.taken, times);
+            self.momentum.observe_pushes(model, state, &self.exchange.pushes, times);
+            self.momentum.observe(model, state, &Done::NOTHING, span_s);
+        }
     }
 
     /// Impulses at the state `kicked`; what loads and driven bodies did.
@@ -261,6 +280,7 @@ impl Judge {
 
     /// Judges what is left to judge when the run has come to its end: impacts at its last instant.
     pub fn end(&mut self, model: &Model, end: &State) {
+        self.add_repeated(model, end);
         self.end_instant(model, end);
     }
 

@@ -108,6 +108,9 @@ impl<'a> Seen<'a> {
             true => seen.missed_by_impact(impulse_W),
             false => seen.missed_by_mean(impulse_W),
         };
+        if self.motion.turning == 0.0 {
+            return missed(self);
+        }
         let motion = NormalMotion { turning: 0.0, ..self.motion };
         missed(self).min(missed(&Seen { motion, ..*self }))
     }
@@ -205,8 +208,9 @@ impl ResidualLedger {
         for (SolvedContact { contact, impulse_W }, met) in contacts.iter().zip(&exchange.met) {
             let (seen, is_struck) = (seen(contact, met), struck[met.island]);
             *max = Some(max.unwrap_or(0.0).max(relative(seen.missed(impulse_W, is_struck), seen.scale)));
-            let lasts = seen.holds_on(impulse_W).filter(|_| !is_struck);
-            last_on.extend(lasts.map(|hold| (contact.key(), hold)));
+            if lasting.is_some() && !is_struck {
+                last_on.extend(seen.holds_on(impulse_W).map(|hold| (contact.key(), hold)));
+            }
         }
         if let Some(lasting) = lasting {
             lasting.renew(last_on.drain(..));

@@ -26,40 +26,42 @@ const MOST: usize = 15;
 /// A residual that no step improves.
 const ROUNDING: f64 = 1e-14;
 
-/// Improves `p`, or leaves it. Its residual.
-pub fn improve(island: &Island, p: &mut Few<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
-    improve_with(|_| ETA, island, p, tolerance, steps)
+/// Improves impulses whose residual is known, or leaves them. Their residual.
+pub fn improve(island: &Island, at: &mut Point, residual: f64, tolerance: f64, steps: &mut u64) -> f64 {
+    improve_with(|_| ETA, island, at, residual, tolerance, steps)
 }
 
 /// The same from impulses that are near already. What rounds a velocity is felt as 1/η of it in impulses that redundant
 /// contacts share, and pushes those at the side of their cone out of it: η is so large that this is less than what is
 /// to be mended.
-pub fn improve_near(island: &Island, p: &mut Few<Impulse>, tolerance: f64, steps: &mut u64) -> f64 {
-    improve_with(|residual| (NOISE / residual).clamp(ETA, LARGEST_ETA), island, p, tolerance, steps)
+pub fn improve_near(island: &Island, at: &mut Point, residual: f64, tolerance: f64, steps: &mut u64) -> f64 {
+    improve_with(|best| (NOISE / best).clamp(ETA, LARGEST_ETA), island, at, residual, tolerance, steps)
 }
 
 fn improve_with(
     eta: impl Fn(f64) -> f64,
     island: &Island,
-    p: &mut Few<Impulse>,
+    at: &mut Point,
+    residual: f64,
     tolerance: f64,
     steps: &mut u64,
 ) -> f64 {
-    let mut now = island.at(p.clone());
-    let (mut best, mut worse) = (island.residual_at(&now), 0);
+    let (mut best, mut worse) = (residual, 0);
+    let mut tried: Option<Point> = None;
     for _ in 0..MOST {
         if best <= ROUNDING || worse > PATIENCE || (worse > SOLVED_PATIENCE && best <= tolerance) {
             break;
         }
         *steps += 1;
-        let Some(next) = step(island, &now, Some(eta(best))) else { break };
-        now = island.at(next);
-        let residual = island.residual_at(&now);
+        let Some(next) = step(island, tried.as_ref().unwrap_or(at), Some(eta(best))) else { break };
+        let residual = island.residual_at(&next);
         if residual < best {
             (best, worse) = (residual, 0);
-            p.clone_from(&now.p);
+            *at = next;
+            tried = None;
         } else {
             worse += 1;
+            tried = Some(next);
         }
     }
     best
@@ -73,19 +75,19 @@ const SAME: f64 = 1e-10;
 
 /// Redundant contacts that slip different ways leave a continuum of solutions, each with velocities of its own. Goes,
 /// within it, to the one with the least Σ|p|² (p with units), that of contacts that give a little, all alike. What
-/// pulls there is left out. The residual.
-pub fn even(island: &Island, p: &mut Few<Impulse>, rounds: usize, tolerance: f64, steps: &mut u64) -> f64 {
-    let mut residual = island.residual(p);
+/// pulls there is left out. The residual, which was `residual`.
+pub fn even(island: &Island, at: &mut Point, mut residual: f64, rounds: usize, tolerance: f64, steps: &mut u64) -> f64 {
     for _ in 0..rounds {
         *steps += 1;
-        let Some(mut next) = step(island, &island.at(p.clone()), None) else { break };
-        let reached = improve(island, &mut next, tolerance, steps);
+        let Some(mut next) = step(island, at, None) else { break };
+        let first = island.residual_at(&next);
+        let reached = improve(island, &mut next, first, tolerance, steps);
         if reached > residual.max(tolerance).max(island.rounding(&next)) {
             break;
         }
-        let largest = next.iter().map(|p| p.norm()).fold(0.0, f64::max);
-        let change = next.iter().zip(&*p).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-        (residual, *p) = (reached, next);
+        let largest = next.p.iter().map(|p| p.norm()).fold(0.0, f64::max);
+        let change = next.p.iter().zip(&at.p).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        (residual, *at) = (reached, next);
         if change <= SAME * largest {
             break;
         }
@@ -153,10 +155,11 @@ fn turning(p: &Impulse, u: &Vector3<f64>, t: &Vector3<f64>, friction: f64, eta: 
 }
 
 /// `eta`: none, to even shares.
-fn step(island: &Island, at: &Point, eta: Option<f64>) -> Option<Few<Impulse>> {
+fn step(island: &Island, at: &Point, eta: Option<f64>) -> Option<Point> {
     let touches = || island.touches.iter().zip(&at.p).zip(&at.u);
-    let linear: Few<Linear> = if let Some(eta) = eta {
-        touches().map(|((touch, p), u)| Linear::new(touch, p, u, eta)).collect()
+    let mut linear: Few<Linear> = Few::new();
+    if let Some(eta) = eta {
+        linear.extend(touches().map(|((touch, p), u)| Linear::new(touch, p, u, eta)));
     } else {
         let small = island.scales(at).into_iter().map(|scale| ROUNDING.sqrt() * scale);
         let largest = island.touches.iter().map(|touch| touch.scale).fold(0.0, f64::max);
@@ -165,16 +168,16 @@ fn step(island: &Island, at: &Point, eta: Option<f64>) -> Option<Few<Impulse>> {
             EVEN_ETA * part * part
         };
         let even = |(((touch, p), u), small)| Linear::even(touch, p, u, eta(touch), small);
-        touches().zip(small).map(even).collect()
-    };
-    let K: Few<Matrix3<f64>> = linear.iter().map(|linear| linear.K).collect();
-    let at_rest: Few<Impulse> = linear.iter().zip(&at.u).map(|(linear, u)| linear.jump - linear.K * u).collect();
-    let change = island.system(&K)?.solve(&island.pushed(&at_rest))?;
-    let moved = |(((touch, p), u), linear): (((&Share, &Impulse), &Vector3<f64>), &Linear)| {
+        linear.extend(touches().zip(small).map(even));
+    }
+    let at_rest = island.pushed(linear.iter().zip(&at.u).map(|(linear, u)| linear.jump - linear.K * u));
+    let change = island.coupled(linear.iter().map(|linear| &linear.K), 1.0).solve(&at_rest, island.deadline)?;
+    let mut next = Few::new();
+    next.extend(touches().zip(&linear).map(|(((touch, p), u), linear)| {
         let new = p + linear.jump - linear.K * (u + touch.motion(&change));
         if linear.slips { onto_cone(&new, touch.law.friction()) } else { new }
-    };
-    Some(touches().zip(&linear).map(moved).collect())
+    }));
+    Some(island.at(next))
 }
 
 /// Along the tangent the cone is left to second order.

@@ -11,7 +11,7 @@
 
 use super::block::Block;
 use super::gauss_seidel::{self, Sweeps};
-use super::island::{Island, islands_without_pattern};
+use super::island::{Island, Point, islands_without_pattern};
 use super::missed::{shares_matter, strict_residual};
 use super::problem::ContactProblem;
 use super::twist::Twist;
@@ -43,22 +43,26 @@ pub fn solve(
     scratch: &mut Scratch,
     work: &mut Work,
 ) -> bool {
-    let lasts = |p: &[Impulse], u: &mut Vec<Twist>| {
+    let missed = |p: &[Impulse], u: &mut Vec<Twist>| {
         problem.response(p, u);
-        strict_residual(problem, p, u) <= KEPT * goal.tolerance && !shares_matter(problem, 0..p.len(), p, u)
+        strict_residual(problem, p, u)
     };
-    if scratch.keeps && lasts(p, &mut scratch.u) {
+    let lasts = |residual: f64, p: &[Impulse], u: &[Twist]| {
+        residual <= KEPT * goal.tolerance && !shares_matter(problem, 0..p.len(), p, u)
+    };
+    let residual = missed(p, &mut scratch.u);
+    if scratch.keeps && lasts(residual, p, &scratch.u) {
         work.kept_solves += 1;
         return true;
     }
-    if problem.is_dense() {
+    if problem.is_dense() && residual > newton::NEAR || alone(problem).is_some() {
         if let Some(alone) = alone(problem) {
             p[0] = exact_contact::solve(&alone.A, &alone.b, &Impulse::zeros(), alone.friction);
         } else {
             let sweeps = Sweeps { most: FIRST_SWEEPS, tolerance: LASTING, ..*goal };
             gauss_seidel::iterate(problem, &sweeps, p, &mut scratch.nncg.sweeps, work);
         }
-        if lasts(p, &mut scratch.u) {
+        if lasts(missed(p, &mut scratch.u), p, &scratch.u) {
             work.exact_solves += 1;
             return true;
         }
@@ -67,8 +71,8 @@ pub fn solve(
     let alone = islands.len() == 1 && islands[0].touches.len() == problem.blocks.len();
     let mut solved = true;
     for island in &mut islands {
-        let mut own = island.impulses(p);
-        let is_new = own.iter().all(|p| *p == Impulse::zeros());
+        let mut own = island.at(island.impulses(p));
+        let is_new = own.p.iter().all(|p| *p == Impulse::zeros());
         let contacts = island.touches.iter().map(|touch| touch.index);
         let is_shared = is_new || shares_matter(problem, contacts, p, &scratch.u);
         if scratch.keeps && !is_shared && island.is_strictly_met(KEPT * goal.tolerance, &own) {
@@ -80,7 +84,7 @@ pub fn solve(
         let most = (AFFORDABLE_PROBLEMS / island.bodies() as u32).max(FEWEST_PROBLEMS);
         let goal = Sweeps { most, ..*goal };
         solved &= Part { problem, goal, is_shared, scratch: &mut scratch.nncg }.solve(island, &mut own, work);
-        island.put(&own, p);
+        island.put(&own.p, p);
     }
     solved
 }
@@ -118,7 +122,7 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
-    fn solve(&mut self, island: &mut Island, own: &mut Few<Impulse>, work: &mut Work) -> bool {
+    fn solve(&mut self, island: &mut Island, own: &mut Point, work: &mut Work) -> bool {
         let is_affordable = island.is_affordable(AFFORDABLE_BODIES, AFFORDABLE_PRODUCTS);
         *(if is_affordable { &mut work.exact_solves } else { &mut work.iterated_solves }) += 1;
         if !is_affordable {
@@ -129,7 +133,8 @@ impl Part<'_> {
             if *most > 0 {
                 self.sweep(island, own, *most, work);
             }
-            if island.residual(own) <= newton::NEAR && (self.is_shared || self.goes_on(island, own, work)) {
+            let residual = island.residual_at(own);
+            if residual <= newton::NEAR && (self.is_shared || self.goes_on(island, own, residual, work)) {
                 break;
             }
         }
@@ -149,31 +154,31 @@ impl Part<'_> {
     }
 
     /// By conjugate gradients, from what the exact solver was given up at. Whether they got there.
-    fn sweep_on(&mut self, island: &Island, own: &mut Few<Impulse>, work: &mut Work) -> bool {
+    fn sweep_on(&mut self, island: &Island, own: &mut Point, work: &mut Work) -> bool {
         let mut swept = own.clone();
         let solved = self.sweep_until_solved(island, &mut swept, work);
-        if solved || island.residual(&swept) < island.residual(own) {
+        if solved || island.residual_at(&swept) < island.residual_at(own) {
             *own = swept;
         }
         solved
     }
 
     /// By Newton's method, from impulses that are near. Whether that was enough.
-    fn goes_on(&self, island: &Island, own: &mut Few<Impulse>, work: &mut Work) -> bool {
-        active_set::improve_near(island, own, self.goal.tolerance, &mut work.newton_steps);
+    fn goes_on(&self, island: &Island, own: &mut Point, residual: f64, work: &mut Work) -> bool {
+        active_set::improve_near(island, own, residual, self.goal.tolerance, &mut work.newton_steps);
         island.is_strictly_met(KEPT * self.goal.tolerance, own)
     }
 
     /// By conjugate gradients.
-    fn sweep(&mut self, island: &Island, own: &mut Few<Impulse>, most: u32, work: &mut Work) {
-        let mut p = island.with_units(own);
+    fn sweep(&mut self, island: &Island, own: &mut Point, most: u32, work: &mut Work) {
+        let mut p = island.with_units(&own.p);
         let sweeps = Sweeps { most, tolerance: 0.0, ..self.goal };
         nncg::iterate(self.problem, &sweeps, &mut p, self.scratch, work);
-        *own = island.without_units(&p);
+        *own = island.at(island.without_units(&p));
     }
 
     /// Looks after every batch of sweeps.
-    fn sweep_until_solved(&mut self, island: &Island, own: &mut Few<Impulse>, work: &mut Work) -> bool {
+    fn sweep_until_solved(&mut self, island: &Island, own: &mut Point, work: &mut Work) -> bool {
         MANY_SWEEPS.iter().any(|most| {
             self.sweep(island, own, *most, work);
             island.is_strictly_met(self.goal.tolerance, own)

@@ -10,7 +10,7 @@
 //! others.
 
 use super::Impulse;
-use super::island::{Island, Share};
+use super::island::{Island, Point, Share};
 use super::law::{self, Law};
 use crate::math::block_lu::Factors;
 use crate::math::few::{BlockVector, Few};
@@ -128,19 +128,19 @@ fn scale(law: Law) -> Matrix3<f64> {
     Matrix3::from_diagonal(&diagonal)
 }
 
-/// Impulses near the solution, wherever the island was. None: it came to nothing.
-pub fn solve(island: &Island, steps: &mut u64) -> Option<Few<Impulse>> {
+/// Impulses near the solution, wherever the island was, and their residual. None: it came to nothing.
+pub fn solve(island: &Island, steps: &mut u64) -> Option<(Point, f64)> {
     let mut method = Method::new(island);
     let first = method.gap();
-    let mut gaps = Vec::with_capacity(MOST);
-    let mut best: Option<(f64, Few<Impulse>)> = None;
+    let mut gaps: Vec<f64> = Vec::with_capacity(MOST);
+    let mut best: Option<(Point, f64)> = None;
     for round in 0..MOST {
         let gap = method.gap();
         gaps.push(gap);
-        let p = method.impulses();
-        let residual = island.residual(&p);
-        if best.as_ref().is_none_or(|(least, _)| residual < *least) {
-            best = Some((residual, p));
+        let at = island.at(method.impulses());
+        let residual = island.residual_at(&at);
+        if best.as_ref().is_none_or(|(_, least)| residual < *least) {
+            best = Some((at, residual));
         }
         if gap <= TOLERANCE * first || round >= STALLED && gap > gaps[round - STALLED] / 2.0 {
             break;
@@ -150,7 +150,7 @@ pub fn solve(island: &Island, steps: &mut u64) -> Option<Few<Impulse>> {
             break;
         }
     }
-    best.map(|(_, p)| p)
+    best
 }
 
 impl<'a> Method<'a> {
@@ -162,7 +162,7 @@ impl<'a> Method<'a> {
         };
         let pairs = island.touches.iter().map(begin).collect();
         let mut method = Method { island, y: BlockVector::zeros(island.bodies()), pairs };
-        method.y = island.pushed(&method.impulses());
+        method.y = island.pushed(method.impulses().into_iter());
         method
     }
 
@@ -245,7 +245,7 @@ impl Linear {
             scale(touch.law) * law::dual(u, touch.law) - along
         };
         let r_z = touches().zip(&u).zip(&at.pairs).map(missing).collect();
-        Some(Linear { scalings, slopes, D, r_y: at.island.pushed(&at.impulses()).minus(&at.y), r_z })
+        Some(Linear { scalings, slopes, D, r_y: at.island.pushed(at.impulses().into_iter()).minus(&at.y), r_z })
     }
 
     /// The changes of y, x and z with λ ∘ (W Δx + W⁻¹ Δz) = wanted.
@@ -265,9 +265,8 @@ impl Linear {
             let inverse = &self.scalings[i].inverse;
             inverse * (d[i] - inverse * z)
         };
-        let pushes: Few<Impulse> =
-            touches.iter().enumerate().map(|(i, touch)| scale(touch.law) * x_of(i, &self.r_z[i])).collect();
-        let y = factors.solve(&self.r_y.plus(&at.island.pushed(&pushes)))?;
+        let pushes = touches.iter().enumerate().map(|(i, touch)| scale(touch.law) * x_of(i, &self.r_z[i]));
+        let y = factors.solve(&self.r_y.plus(&at.island.pushed(pushes)))?;
         let change = |(i, touch): (usize, &Share)| {
             let z = self.slopes[i] * touch.motion(&y) + self.r_z[i];
             Pair { x: x_of(i, &z), z: if touch.law == Law::Pin { Vector3::zeros() } else { z } }

@@ -195,6 +195,13 @@ impl Share {
         self.sides.iter().flatten().map(|side| side.rows * y[side.body]).sum()
     }
 
+    /// The least, over the bodies that it can move, of what would do to the body there what is done to it.
+    fn least(&self, acted: &[Acted]) -> f64 {
+        let sides = self.sides.iter().flatten().filter(|side| side.part > 0.0);
+        let of = |side: &Side| self.scale * acted[side.body].at(side.arm_m) / side.part;
+        sides.map(of).fold(f64::INFINITY, f64::min)
+    }
+
     /// y += Gᵀ p.
     fn push(&self, p: &Impulse, y: &mut BlockVector) {
         self.sides.iter().flatten().for_each(|side| y[side.body] += side.rows.tr_mul(p));
@@ -218,24 +225,24 @@ impl Island {
     }
 
     /// Whether a residual is the tolerance, or rounding; a tolerance of 0 asks for more than there is.
-    pub fn is_enough(&self, residual: f64, tolerance: f64, p: &[Impulse]) -> bool {
-        residual <= tolerance || (tolerance > 0.0 && residual <= self.rounding(p))
+    pub fn is_enough(&self, residual: f64, tolerance: f64, at: &Point) -> bool {
+        residual <= tolerance || (tolerance > 0.0 && residual <= self.rounding(at))
     }
 
     /// Gᵀ p.
-    pub fn pushed(&self, p: &[Impulse]) -> BlockVector {
+    pub fn pushed(&self, p: impl Iterator<Item = Impulse>) -> BlockVector {
         let mut y = BlockVector::zeros(self.bodies());
-        self.touches.iter().zip(p).for_each(|(touch, p)| touch.push(p, &mut y));
+        self.touches.iter().zip(p).for_each(|(touch, p)| touch.push(&p, &mut y));
         y
     }
 
     /// E + Gᵀ D G in factors, with the 3×3 blocks of D. None: it is singular, or out of time.
     pub fn system(&self, D: &[Matrix3<f64>]) -> Option<Factors<'_>> {
-        self.coupled(D, 1.0).factors(self.deadline)
+        self.coupled(D.iter(), 1.0).factors(self.deadline)
     }
 
     /// Gᵀ D G with so much more on the diagonal.
-    pub fn coupled(&self, D: &[Matrix3<f64>], on_diagonal: f64) -> BlockMatrix<'_> {
+    pub fn coupled<'a>(&self, D: impl Iterator<Item = &'a Matrix3<f64>>, on_diagonal: f64) -> BlockMatrix<'_> {
         let mut H = BlockMatrix::diagonal(&self.pattern, on_diagonal);
         for (touch, D) in self.touches.iter().zip(D).filter(|(_, D)| **D != Matrix3::zeros()) {
             for a in touch.sides.iter().flatten() {
@@ -280,7 +287,7 @@ impl Island {
 
     /// Impulses and the velocities that they make.
     pub fn at(&self, p: Few<Impulse>) -> Point {
-        let y = self.pushed(&p);
+        let y = self.pushed(p.iter().copied());
         Point { u: self.velocities(&y), p, y }
     }
 
@@ -288,37 +295,33 @@ impl Island {
     /// bodies that it can move, of what would do to the body there what the step does (`Acted`). So a light body under
     /// a heavy one counts.
     pub fn scales(&self, at: &Point) -> Few<f64> {
-        self.scales_with(self.cancelling, &at.p, &at.y)
+        let acted = self.acted_with(self.cancelling, at);
+        self.touches.iter().map(|touch| touch.least(&acted)).collect()
     }
 
-    /// `cancelling`: part of Σ|p|/m that counts beside what all impulses together change.
-    fn scales_with(&self, cancelling: f64, p: &[Impulse], y: &BlockVector) -> Few<f64> {
-        let acted = |(i, Mover { whitened, speeds }): (usize, &Mover)| {
-            let [v, w] = [y[i].fixed_rows::<3>(0), y[i].fixed_rows::<3>(3)];
+    /// What is done to every body. `cancelling`: part of Σ|p|/m that counts beside what all impulses together change.
+    fn acted_with(&self, cancelling: f64, at: &Point) -> OneOrTwo<Acted> {
+        let mut all = OneOrTwo::new();
+        all.extend(self.bodies.iter().enumerate().map(|(i, Mover { whitened, speeds })| {
+            let [v, w] = [at.y[i].fixed_rows::<3>(0), at.y[i].fixed_rows::<3>(3)];
             let changed = [whitened.linear * v.norm(), (whitened.angular * w).norm()];
             Acted { speeds: *speeds, changed, pressed: 0.0 }
-        };
-        let mut acted: OneOrTwo<Acted> = self.bodies.iter().enumerate().map(acted).collect();
+        }));
         if cancelling > 0.0 {
-            for (touch, p) in self.touches.iter().zip(p) {
-                touch.sides.iter().flatten().for_each(|side| acted[side.body].pressed += touch.scale * p.norm());
+            for (touch, p) in self.touches.iter().zip(&at.p) {
+                touch.sides.iter().flatten().for_each(|side| all[side.body].pressed += touch.scale * p.norm());
             }
-            for (acted, Mover { whitened, .. }) in acted.iter_mut().zip(&self.bodies) {
+            for (acted, Mover { whitened, .. }) in all.iter_mut().zip(&self.bodies) {
                 acted.pressed = cancelling * acted.pressed * whitened.linear * whitened.linear;
             }
         }
-        let least = |touch: &Share| {
-            let sides = touch.sides.iter().flatten().filter(|side| side.part > 0.0);
-            let of = |side: &Side| touch.scale * acted[side.body].at(side.arm_m) / side.part;
-            sides.map(of).fold(f64::INFINITY, f64::min)
-        };
-        self.touches.iter().map(least).collect()
+        all
     }
 
     /// A residual that rounding of the velocities leaves: impulses may be next to nothing beside the speed of a body,
     /// which slips past or rolls.
-    pub fn rounding(&self, p: &[Impulse]) -> f64 {
-        let scales = self.scales_with(self.cancelling, p, &self.pushed(p));
+    pub fn rounding(&self, at: &Point) -> f64 {
+        let scales = self.scales(at);
         let of = |(touch, scale): (&Share, &f64)| {
             let sides = touch.sides.iter().flatten();
             let speeds = sides.map(|side| touch.scale * self.bodies[side.body].speeds.at(side.arm_m));
@@ -339,16 +342,16 @@ impl Island {
 
     /// Whether the residual by what every body gets alone, however much presses it, is the tolerance, or rounding: what
     /// bodies that rest may be left with for ever.
-    pub fn is_strictly_met(&self, tolerance: f64, p: &[Impulse]) -> bool {
-        self.is_enough(self.residual_with(0.0, &self.at(p.into())), tolerance, p)
+    pub fn is_strictly_met(&self, tolerance: f64, at: &Point) -> bool {
+        self.is_enough(self.residual_with(0.0, at), tolerance, at)
     }
 
     fn residual_with(&self, cancelling: f64, at: &Point) -> f64 {
-        let scales = self.scales_with(cancelling, &at.p, &at.y);
-        let missed = |(((touch, p), u), scale): (((&Share, &Impulse), &Vector3<f64>), &f64)| {
-            let missed = relative(law::missed(p, u, touch.law), *scale);
+        let acted = self.acted_with(cancelling, at);
+        let missed = |((touch, p), u): ((&Share, &Impulse), &Vector3<f64>)| {
+            let missed = relative(law::missed(p, u, touch.law), touch.least(&acted));
             if missed.is_nan() { f64::INFINITY } else { missed }
         };
-        self.touches.iter().zip(&at.p).zip(&at.u).zip(&scales).map(missed).fold(0.0, f64::max)
+        self.touches.iter().zip(&at.p).zip(&at.u).map(missed).fold(0.0, f64::max)
     }
 }

@@ -11,7 +11,7 @@
 //! Allocates. Residuals are the judge's (`measure::residual`), worked out from J and M⁻¹ as the solver has them.
 
 use super::gauss_seidel::{self, Sweeps, Variant};
-use super::island::{Island, islands};
+use super::island::{Island, Point, islands};
 use super::problem::ContactProblem;
 use super::{Impulse, active_set, interior, proximal, smallest};
 use crate::deadline::Deadline;
@@ -84,7 +84,7 @@ fn improve(
     }
     let mut solved = true;
     for island in islands {
-        let mut own = island.impulses(p);
+        let mut own = island.at(island.impulses(p));
         let more = |own: &mut Few<Impulse>, work: &mut Work| {
             let mut others = p.to_vec();
             island.put(own, &mut others);
@@ -92,7 +92,7 @@ fn improve(
             *own = island.impulses(&others);
         };
         solved &= solve_island(island, sweeps, &mut own, shares, more, work);
-        island.put(&own, p);
+        island.put(&own.p, p);
     }
     solved
 }
@@ -144,37 +144,39 @@ fn evenly(island: &Island, work: &mut Work) -> Few<Impulse> {
 pub(super) fn solve_island(
     island: &Island,
     goal: &Sweeps,
-    p: &mut Few<Impulse>,
+    at: &mut Point,
     shares: Shares,
     mut sweep: impl FnMut(&mut Few<Impulse>, &mut Work),
     work: &mut Work,
 ) -> bool {
-    let mut best = island.residual(p);
-    let is_enough = |residual: f64, p: &[Impulse]| island.is_enough(residual, goal.tolerance, p);
-    let keep = |best: &mut f64, p: &mut Few<Impulse>, mut tried: Few<Impulse>, work: &mut Work| {
-        let mut residual = active_set::improve(island, &mut tried, goal.tolerance, &mut work.newton_steps);
+    let mut best = island.residual_at(at);
+    let is_enough = |residual: f64, at: &Point| island.is_enough(residual, goal.tolerance, at);
+    let keep = |best: &mut f64, at: &mut Point, mut tried: Point, residual: f64, work: &mut Work| {
+        let mut residual = active_set::improve(island, &mut tried, residual, goal.tolerance, &mut work.newton_steps);
         if residual <= NEARLY && !is_enough(residual, &tried) {
-            residual = active_set::improve_near(island, &mut tried, goal.tolerance, &mut work.newton_steps);
+            let steps = &mut work.newton_steps;
+            residual = active_set::improve_near(island, &mut tried, residual, goal.tolerance, steps);
         }
         if residual < *best {
-            (*best, *p) = (residual, tried);
+            (*best, *at) = (residual, tried);
         }
     };
     if best <= NEAR {
-        keep(&mut best, p, p.clone(), work);
+        let (tried, residual) = (at.clone(), best);
+        keep(&mut best, at, tried, residual, work);
     }
-    if !is_enough(best, p)
-        && let Some(found) = interior::solve(island, &mut work.newton_steps)
+    if !is_enough(best, at)
+        && let Some((found, residual)) = interior::solve(island, &mut work.newton_steps)
     {
-        keep(&mut best, p, found, work);
+        keep(&mut best, at, found, residual, work);
     }
-    let (mut centre, mut eta) = (p.clone(), FIRST_ETA);
+    let (mut centre, mut eta) = (at.p.clone(), FIRST_ETA);
     let (mut last, mut in_vain) = (best, 0);
     for _ in 0..goal.most {
         in_vain = if best < last { 0 } else { in_vain + 1 };
         last = best;
         let is_rounding = best <= NEARLY && in_vain > PATIENCE;
-        if is_enough(best, p) || is_rounding || island.deadline.is_over() {
+        if is_enough(best, at) || is_rounding || island.deadline.is_over() {
             break;
         }
         if let Some(next) = proximal::solve(island, &centre, &centre, eta, &mut work.newton_steps) {
@@ -184,17 +186,19 @@ pub(super) fn solve_island(
             eta *= BACK;
             sweep(&mut centre, work);
         }
-        keep(&mut best, p, centre.clone(), work);
+        let tried = island.at(centre.clone());
+        let residual = island.residual_at(&tried);
+        keep(&mut best, at, tried, residual, work);
     }
-    if is_enough(best, p) && active_set::may_be_shared(island, p) {
-        best = active_set::even(island, p, shares.rounds, goal.tolerance, &mut work.newton_steps);
+    if is_enough(best, at) && active_set::may_be_shared(island, &at.p) {
+        best = active_set::even(island, at, best, shares.rounds, goal.tolerance, &mut work.newton_steps);
     }
     // A velocity that so exact impulses leave is rounding.
     let small = (100.0 * best).clamp(1e-13, 1e-10);
-    let (least, residual) = smallest::impulses(island, p, small, &mut work.newton_steps);
+    let (least, residual) = smallest::impulses(island, at, small, &mut work.newton_steps);
     let within = if goal.tolerance > 0.0 { shares.within.max(island.rounding(&least)) } else { 0.0 };
     if residual <= best.max(within) {
-        (best, *p) = (residual, least);
+        (best, *at) = (residual, least);
     }
-    is_enough(best, p)
+    is_enough(best, at)
 }

@@ -39,7 +39,7 @@ impl At {
         let point = |((touch, p), u): ((&Share, &Impulse), &Vector3<f64>)| p - law::dual(u, touch.law) / eta;
         let z: Few<_> = touches().zip(centre).zip(&u).map(point).collect();
         let p: Few<_> = touches().zip(&z).map(|(touch, z)| law::in_cone(z, touch.law)).collect();
-        let missing = y.minus(&island.pushed(&p));
+        let missing = y.minus(&island.pushed(p.iter().copied()));
         At { y, u, z, p, missing }
     }
 
@@ -58,13 +58,14 @@ impl At {
 
 /// The impulses of the proximal problem about `centre`, from the velocities that those of `from` make. None: not found.
 pub fn solve(island: &Island, centre: &[Impulse], from: &[Impulse], eta: f64, steps: &mut u64) -> Option<Few<Impulse>> {
-    let mut at = At::new(island, centre, eta, island.pushed(from));
+    let mut at = At::new(island, centre, eta, island.pushed(from.iter().copied()));
     for _ in 0..MOST {
         if at.is_found() {
             return Some(at.p);
         }
         *steps += 1;
-        let change = island.system(&at.slopes(island, eta))?.solve(&at.missing.negative())?;
+        let slopes = at.slopes(island, eta);
+        let change = island.coupled(slopes.iter(), 1.0).solve(&at.missing.negative(), island.deadline)?;
         at = descend(island, centre, eta, &at, &change)?;
     }
     at.is_found().then_some(at.p)

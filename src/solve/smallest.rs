@@ -6,7 +6,7 @@
 //! and w is the root of the slope of a convex function, Gᵀ P_F(G w) = y: Newton's method in six numbers a body.
 
 use super::Impulse;
-use super::island::{Island, Share};
+use super::island::{Island, Point, Share};
 use super::law::{self, Law};
 use crate::math::few::{BlockVector, Few};
 use nalgebra::{Matrix3, Vector3};
@@ -77,29 +77,29 @@ struct Faces<'a> {
     island: &'a Island,
     faces: Few<Face>,
     weights: Few<f64>,
-    wanted: BlockVector,
+    wanted: &'a BlockVector,
 }
 
 /// z = G w, kept up to date instead of w: near the root its changes are small, and so is their rounding.
 struct At {
     z: Few<Vector3<f64>>,
-    p: Few<Impulse>,
+    point: Point,
     missing: BlockVector,
 }
 
-/// The smallest impulses that make the velocities of `p`, the best by the residual that was met, and that. Velocities
-/// are told from 0 when a residual of `small` is.
-pub fn impulses(island: &Island, p: &[Impulse], small: f64, steps: &mut u64) -> (Few<Impulse>, f64) {
-    let faces = Faces::new(island, p, small);
-    let mut at = faces.at(Few::from_elem(Vector3::zeros(), p.len()));
-    let (mut best, mut least, mut worse) = (at.p.clone(), f64::INFINITY, 0);
+/// The smallest impulses that make the velocities of a point, the best by the residual that was met, and that.
+/// Velocities are told from 0 when a residual of `small` is.
+pub fn impulses(island: &Island, of: &Point, small: f64, steps: &mut u64) -> (Point, f64) {
+    let faces = Faces::new(island, of, small);
+    let mut at = faces.at(Few::from_elem(Vector3::zeros(), of.p.len()));
+    let (mut best, mut least, mut worse) = (at.point.clone(), f64::INFINITY, 0);
     for round in 0..MOST {
         *steps += 1;
         let Some(next) = faces.step(&at, round == 0) else { break };
         at = next;
-        let residual = island.residual(&at.p);
+        let residual = island.residual_at(&at.point);
         if residual < least {
-            (best, least, worse) = (at.p.clone(), residual, 0);
+            (best, least, worse) = (at.point.clone(), residual, 0);
         } else {
             worse += 1;
         }
@@ -111,21 +111,19 @@ pub fn impulses(island: &Island, p: &[Impulse], small: f64, steps: &mut u64) -> 
 }
 
 impl<'a> Faces<'a> {
-    fn new(island: &'a Island, p: &[Impulse], small: f64) -> Self {
-        let at = island.at(p.into());
-        let scales = island.scales(&at);
+    fn new(island: &'a Island, of: &'a Point, small: f64) -> Self {
+        let scales = island.scales(of);
         let face = |((touch, u), scale): ((&Share, &Vector3<f64>), &f64)| Face::new(touch, u, small * scale);
-        let faces = island.touches.iter().zip(&at.u).zip(&scales).map(face).collect();
+        let faces = island.touches.iter().zip(&of.u).zip(&scales).map(face).collect();
         let smallest = island.touches.iter().map(|touch| touch.scale).fold(f64::INFINITY, f64::min);
         let weights = island.touches.iter().map(|touch| (smallest / touch.scale) * (smallest / touch.scale)).collect();
-        Faces { island, faces, weights, wanted: at.y }
+        Faces { island, faces, weights, wanted: &of.y }
     }
 
     fn at(&self, z: Few<Vector3<f64>>) -> At {
         let nearest = |((face, touch), z): ((&Face, &Share), &Vector3<f64>)| face.nearest(z, touch.law);
-        let p: Few<Impulse> = self.faces.iter().zip(&self.island.touches).zip(&z).map(nearest).collect();
-        let missing = self.wanted.minus(&self.island.pushed(&p));
-        At { z, p, missing }
+        let point = self.island.at(self.faces.iter().zip(&self.island.touches).zip(&z).map(nearest).collect());
+        At { z, missing: self.wanted.minus(&point.y), point }
     }
 
     /// `first`: from nothing, where no cone has a slope.
@@ -136,9 +134,9 @@ impl<'a> Faces<'a> {
             slope * *weight
         };
         let slopes: Few<Matrix3<f64>> = touches().zip(&at.z).map(slope).collect();
-        let mut H = self.island.coupled(&slopes, 0.0);
+        let mut H = self.island.coupled(slopes.iter(), 0.0);
         H.add_on_diagonal(REGULAR * H.largest());
-        let change = H.factors(self.island.deadline)?.solve(&at.missing)?;
+        let change = H.solve(&at.missing, self.island.deadline)?;
         let mut part = 1.0;
         for _ in 0..HALVINGS {
             let moved = |(((touch, _), weight), z): (((&Share, &Face), &f64), &Vector3<f64>)| {

@@ -93,13 +93,13 @@ impl<'a> BlockMatrix<'a> {
         BlockMatrix { pattern, diagonal, upper: zeros.clone(), lower: zeros }
     }
 
-    /// Adds to the block of two bodies that are coupled.
-    pub fn add(&mut self, row: usize, column: usize, block: &Matrix6<f64>) {
+    /// The block of two bodies that are coupled.
+    pub fn block(&mut self, row: usize, column: usize) -> &mut Matrix6<f64> {
         let (i, j) = (self.pattern.place[row], self.pattern.place[column]);
         match i.cmp(&j) {
-            std::cmp::Ordering::Equal => self.diagonal[i] += block,
-            std::cmp::Ordering::Less => self.upper[self.pattern.slot(i, j)] += block,
-            std::cmp::Ordering::Greater => self.lower[self.pattern.slot(j, i)] += block,
+            std::cmp::Ordering::Equal => &mut self.diagonal[i],
+            std::cmp::Ordering::Less => &mut self.upper[self.pattern.slot(i, j)],
+            std::cmp::Ordering::Greater => &mut self.lower[self.pattern.slot(j, i)],
         }
     }
 

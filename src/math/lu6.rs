@@ -65,18 +65,37 @@ impl Lu6 {
         for (k, other) in self.exchanged.iter().enumerate() {
             x.swap(k, *other);
         }
-        for k in 0..6 {
-            for i in k + 1..6 {
-                x[i] -= self.columns[k][i] * x[k];
-            }
-        }
-        for k in (0..6).rev() {
-            x[k] *= self.inverse[k];
-            for i in 0..k {
-                x[i] -= self.columns[k][i] * x[k];
-            }
-        }
+        self.forward::<0>(&mut x);
+        self.forward::<1>(&mut x);
+        self.forward::<2>(&mut x);
+        self.forward::<3>(&mut x);
+        self.forward::<4>(&mut x);
+        self.back::<5>(&mut x);
+        self.back::<4>(&mut x);
+        self.back::<3>(&mut x);
+        self.back::<2>(&mut x);
+        self.back::<1>(&mut x);
+        self.back::<0>(&mut x);
         x.into()
+    }
+
+    /// L's column K.
+    #[inline(always)]
+    fn forward<const K: usize>(&self, x: &mut [f64; 6]) {
+        let own = x[K];
+        for i in K + 1..6 {
+            x[i] -= self.columns[K][i] * own;
+        }
+    }
+
+    /// U's column K.
+    #[inline(always)]
+    fn back<const K: usize>(&self, x: &mut [f64; 6]) {
+        x[K] *= self.inverse[K];
+        let own = x[K];
+        for i in 0..K {
+            x[i] -= self.columns[K][i] * own;
+        }
     }
 
     /// The same for every column of a matrix.

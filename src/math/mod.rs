@@ -12,4 +12,5 @@ pub mod lu6;
 pub mod newton;
 pub mod order;
 pub mod quadrature;
+pub mod six;
 pub mod trend;

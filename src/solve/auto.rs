@@ -55,7 +55,8 @@ pub fn solve(
         work.kept_solves += 1;
         return true;
     }
-    if problem.is_dense() && residual > newton::NEAR || alone(problem).is_some() {
+    let goes_on = residual <= newton::NEAR && shares_matter(problem, 0..p.len(), p, &scratch.u);
+    if problem.is_dense() && !goes_on {
         if let Some(alone) = alone(problem) {
             p[0] = exact_contact::solve(&alone.A, &alone.b, &Impulse::zeros(), alone.friction);
         } else {

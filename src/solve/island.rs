@@ -14,14 +14,15 @@ use super::speeds::{Acted, Speeds, relative};
 use crate::deadline::Deadline;
 use crate::math::block_lu::{BlockMatrix, Factors, Pattern};
 use crate::math::few::{BlockVector, Few, OneOrTwo};
-use nalgebra::{Matrix3, Matrix3x6, Vector3};
+use crate::math::six::{self, Six};
+use nalgebra::{Matrix3, Vector3};
 
 /// The rows of G of one of a contact's bodies.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     /// The body's place in the island.
     body: usize,
-    rows: Matrix3x6<f64>,
+    rows: [Six; 3],
     /// From the centre of mass to the contact.
     arm_m: f64,
     /// The body's part of the trace of the contact's block.
@@ -172,12 +173,11 @@ impl Share {
         let scale = 1.0 / (block.A.trace() * unit_kg).sqrt();
         let side = |end: &End| {
             let Whitened { linear, angular } = found[end.body].whitened.as_ref()?;
-            let mut rows = Matrix3x6::zeros();
-            for (i, row) in end.rows.iter().enumerate() {
-                rows.fixed_view_mut::<1, 3>(i, 0).copy_from(&(row.j.v.transpose() * (*linear * scale)));
-                rows.fixed_view_mut::<1, 3>(i, 3).copy_from(&(angular.tr_mul(&row.j.w).transpose() * scale));
-            }
-            let part = rows.norm_squared();
+            let rows = end.rows.map(|row| {
+                let (v, w) = (row.j.v * (*linear * scale), angular.tr_mul(&row.j.w) * scale);
+                [v.x, v.y, v.z, w.x, w.y, w.z]
+            });
+            let part = rows.iter().flatten().map(|x| x * x).sum();
             Some(Side { body: found[end.body].at, rows, arm_m: end.arm_m(), part })
         };
         let sides = [side(&block.end), block.other.as_ref().and_then(side)];
@@ -192,7 +192,12 @@ impl Share {
 
     /// G y.
     pub fn motion(&self, y: &BlockVector) -> Vector3<f64> {
-        self.sides.iter().flatten().map(|side| side.rows * y[side.body]).sum()
+        let mut u = Vector3::zeros();
+        for side in self.sides.iter().flatten() {
+            let (own, y) = (&side.rows, &y[side.body]);
+            u += Vector3::new(six::dot(&own[0], y), six::dot(&own[1], y), six::dot(&own[2], y));
+        }
+        u
     }
 
     /// The least, over the bodies that it can move, of what would do to the body there what is done to it.
@@ -204,7 +209,12 @@ impl Share {
 
     /// y += Gᵀ p.
     fn push(&self, p: &Impulse, y: &mut BlockVector) {
-        self.sides.iter().flatten().for_each(|side| y[side.body] += side.rows.tr_mul(p));
+        for side in self.sides.iter().flatten() {
+            let own: &mut Six = y[side.body].as_mut();
+            for (row, p) in side.rows.iter().zip(p.iter()) {
+                six::add_scaled(own, row, *p);
+            }
+        }
     }
 }
 
@@ -245,10 +255,14 @@ impl Island {
     pub fn coupled<'a>(&self, D: impl Iterator<Item = &'a Matrix3<f64>>, on_diagonal: f64) -> BlockMatrix<'_> {
         let mut H = BlockMatrix::diagonal(&self.pattern, on_diagonal);
         for (touch, D) in self.touches.iter().zip(D).filter(|(_, D)| **D != Matrix3::zeros()) {
-            for a in touch.sides.iter().flatten() {
-                let left = a.rows.tr_mul(D);
-                for b in touch.sides.iter().flatten() {
-                    H.add(a.body, b.body, &(left * b.rows));
+            for b in touch.sides.iter().flatten() {
+                let right = std::array::from_fn(|k| {
+                    let mut row = [0.0; 6];
+                    (0..3).for_each(|l| six::add_scaled(&mut row, &b.rows[l], D[(k, l)]));
+                    row
+                });
+                for a in touch.sides.iter().flatten() {
+                    six::add_products(H.block(a.body, b.body), &a.rows, &right);
                 }
             }
         }

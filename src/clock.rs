@@ -19,7 +19,12 @@ impl Clock {
 
     /// Moves a state to the next step. Its time follows from the count of steps, so that no rounding adds up.
     pub fn advance(&self, state: &mut State) {
-        state.step += 1;
+        self.advance_by(state, 1);
+    }
+
+    /// The same by several steps at once.
+    pub fn advance_by(&self, state: &mut State, steps: u64) {
+        state.step += steps;
         let passed_s = self.end_s * state.step as f64 / self.steps as f64;
         state.time_s = if state.step == self.steps { self.end_s } else { passed_s };
     }

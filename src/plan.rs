@@ -92,7 +92,7 @@ impl Plan {
             pins(model),
         ]);
         stages.extend(facts.solver.map(|solver| contact_solver(solver, has_contact)));
-        stages.extend((facts.solver == Some(Solver::Auto) && has_contact).then(|| kept_impulses(skips)));
+        stages.extend((facts.solver.is_some() && has_contact).then(|| kept_impulses(skips)));
         let steps_alike = has_contact && facts.solver.is_some() && facts.approach == Approach::Start;
         stages.extend(steps_alike.then(|| [flight(skips), rest(skips)]).into_iter().flatten());
         stages.extend(facts.follows_events.then(|| events(model, skips)));

@@ -45,11 +45,12 @@ impl Contact {
     /// Velocity of the body's point against the other's, in m/s, world axes, from the bodies' velocities and angular
     /// velocities by their index.
     pub fn velocity(&self, of: impl Fn(usize) -> [Vector3<f64>; 2]) -> Vector3<f64> {
-        let of_point = |(i, r_W, sign): (usize, Vector3<f64>, f64)| {
+        let of_point = |i: usize, r_W: &Vector3<f64>| {
             let [v, w] = of(i);
-            (v + w.cross(&r_W)) * sign
+            v + w.cross(r_W)
         };
-        self.ends().map(of_point).sum()
+        let own = of_point(self.body, &self.r_BC_W);
+        self.other.map_or(own, |other| own - of_point(other, &self.r_OC_W))
     }
 
     /// Axes of the contact: e₁ = n and two tangents; for the faces of a box the tangents are the other coordinate axes.

@@ -35,7 +35,12 @@ impl Again {
 
     /// Whether this step has been judged so many times in all that its judges need not look.
     pub fn is(&self, shown: &Shown, enough: u64) -> bool {
-        self.times >= enough && rests(shown).is_some_and(|(contacts, step_s)| self.is_known(shown, contacts, step_s))
+        self.is_enough(enough) && rests(shown).is_some_and(|(contacts, step_s)| self.is_known(shown, contacts, step_s))
+    }
+
+    /// Whether the last step is one that its judges need not look at, should it come again.
+    pub fn is_enough(&self, enough: u64) -> bool {
+        self.times >= enough
     }
 
     fn is_known(&self, shown: &Shown, contacts: &[SolvedContact], step_s: f64) -> bool {

@@ -60,8 +60,8 @@ pub struct Judge {
 /// Steps that are the last one over again, and not yet in the sums.
 #[derive(Clone, Copy, Debug, Default)]
 struct Repeated {
-    times: f64,
-    span_s: f64,
+    times: u64,
+    since_s: f64,
 }
 
 /// Impacts at one instant, which the law of contact judges as one.
@@ -152,22 +152,29 @@ impl Judge {
         diverged
     }
 
-    /// A step that is the one before over again: sums grow by what it added, nothing else is new.
+    /// Whether steps that repeat the last one may be shown as one that is longer.
+    pub fn knows_rest(&self) -> bool {
+        self.again.as_ref().is_some_and(|again| again.is_enough(self.geometry.period()))
+    }
+
+    /// A step that is the one before over again, or several of them: sums grow by what it added, nothing else is new.
     fn observe_again(&mut self, shown: &Shown) {
         let Acted::Kick { kicked, contacts, step_s, .. } = shown.acted else { return };
-        self.repeated.times += 1.0;
-        self.repeated.span_s += shown.after.time_s - shown.before.time_s;
+        if self.repeated.times == 0 {
+            self.repeated.since_s = shown.before.time_s;
+        }
+        self.repeated.times += shown.after.step.saturating_sub(shown.before.step).max(1);
         self.watched.observe(kicked, contacts);
         self.watched.observe_step(shown.before, shown.after, step_s);
     }
 
     /// What the steps that were one over and over again added to the sums, all at once: they ended at this state.
     fn add_repeated(&mut self, model: &Model, state: &State) {
-        let Repeated { times, span_s } = std::mem::take(&mut self.repeated);
-        if times > 0.0 {
-            self.energy.add_taken(&self.taken, times);
-            self.momentum.observe_pushes(model, state, &self.exchange.pushes, times);
-            self.momentum.observe(model, state, &Done::NOTHING, span_s);
+        let Repeated { times, since_s } = std::mem::take(&mut self.repeated);
+        if times > 0 {
+            self.energy.add_taken(&self.taken, times as f64);
+            self.momentum.observe_pushes(model, state, &self.exchange.pushes, times as f64);
+            self.momentum.observe(model, state, &Done::NOTHING, state.time_s - since_s);
         }
     }
 

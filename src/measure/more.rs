@@ -29,6 +29,11 @@ impl Watched {
         }
     }
 
+    /// Nothing is asked for.
+    pub fn is_empty(&self) -> bool {
+        self.differences.is_none() && self.contact_matrix.is_none() && self.critical_step.is_none()
+    }
+
     /// Of every step.
     pub fn observe_step(&mut self, before: &State, after: &State, step_s: f64) {
         if let Some(watch) = &mut self.differences {

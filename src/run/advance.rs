@@ -23,6 +23,8 @@ pub struct Advance<'a> {
     before: State,
     state: State,
     is_timed: bool,
+    /// Nobody looks at steps of rest one by one.
+    pub(super) passes_rest: bool,
     stepping: Duration,
     stopped: Option<Criterion>,
 }
@@ -40,6 +42,7 @@ impl<'a> Advance<'a> {
             before: start.clone(),
             state: start,
             is_timed: limits.wall_s.is_some(),
+            passes_rest: false,
             stepping: Duration::ZERO,
             stopped: None,
         }
@@ -56,6 +59,8 @@ impl<'a> Advance<'a> {
             return None;
         }
         self.before.copy_from(&self.state);
+        let most = self.limits.steps.unwrap_or(u64::MAX).min(self.clock.steps);
+        self.stepper.rest_to(if self.passes_rest { most } else { 0 });
         let started = self.is_timed.then(Instant::now);
         if let Some(most_s) = self.limits.wall_s {
             self.stepper.hurry(Deadline::after_s(most_s - self.stepping.as_secs_f64()));
@@ -147,6 +152,7 @@ pub struct Stepped {
 /// Only steps: no judge, no recorder.
 pub fn only_step(method: &SteppingMethod, model: &Model, start: State, clock: &Clock, limits: &Limits) -> Stepped {
     let mut advance = Advance::new(method, model, start, *clock, limits);
+    advance.passes_rest = true;
     advance.run_out(model);
     Stepped { work: *advance.work(), stopped: advance.stopped, state: advance.state }
 }

@@ -40,6 +40,7 @@ pub fn run(
     let mut advance = Advance::new(method, model, start, clock, &experiment.limits).timed();
     let mut judge = Judge::new(model, advance.state(), &experiment.diverge, advance.plan());
     judge.watched = Watched::new(&experiment.measure);
+    let is_looked_at = samples.is_some() || against.is_some() || !judge.watched.is_empty();
     let mut diverged = None;
     while diverged.is_none()
         && let Some(shown) = advance.next(model)
@@ -52,6 +53,7 @@ pub fn run(
             samples.show(model, &shown, &judge, diverged.is_some() || shown.is_last);
             samples.count(advance.work(), advance.state());
         }
+        advance.passes_rest = !is_looked_at && judge.knows_rest();
     }
     let mut measured = summarize(model, &advance, &mut judge, diverged);
     let state = advance.state();

@@ -26,16 +26,28 @@ const MOST: usize = 15;
 /// A residual that no step improves.
 const ROUNDING: f64 = 1e-14;
 
+/// When Newton's method has done enough: below the one residual no step more, below the other few.
+struct Until {
+    enough: f64,
+    tolerance: f64,
+}
+
 /// Improves impulses whose residual is known, or leaves them. Their residual.
 pub fn improve(island: &Island, at: &mut Point, residual: f64, tolerance: f64, steps: &mut u64) -> f64 {
-    improve_with(|_| ETA, island, at, residual, tolerance, steps)
+    improve_with(|_| ETA, island, at, residual, Until { enough: ROUNDING, tolerance }, steps)
+}
+
+/// The same up to a residual and no further.
+pub fn approach(island: &Island, at: &mut Point, residual: f64, enough: f64, steps: &mut u64) -> f64 {
+    improve_with(|_| ETA, island, at, residual, Until { enough, tolerance: enough }, steps)
 }
 
 /// The same from impulses that are near already. What rounds a velocity is felt as 1/η of it in impulses that redundant
 /// contacts share, and pushes those at the side of their cone out of it: η is so large that this is less than what is
 /// to be mended.
 pub fn improve_near(island: &Island, at: &mut Point, residual: f64, tolerance: f64, steps: &mut u64) -> f64 {
-    improve_with(|best| (NOISE / best).clamp(ETA, LARGEST_ETA), island, at, residual, tolerance, steps)
+    let eta = |best: f64| (NOISE / best).clamp(ETA, LARGEST_ETA);
+    improve_with(eta, island, at, residual, Until { enough: ROUNDING, tolerance }, steps)
 }
 
 fn improve_with(
@@ -43,13 +55,14 @@ fn improve_with(
     island: &Island,
     at: &mut Point,
     residual: f64,
-    tolerance: f64,
+    until: Until,
     steps: &mut u64,
 ) -> f64 {
     let (mut best, mut worse) = (residual, 0);
     let mut tried: Option<Point> = None;
     for _ in 0..MOST {
-        if best <= ROUNDING || worse > PATIENCE || (worse > SOLVED_PATIENCE && best <= tolerance) {
+        let is_solved = best <= until.tolerance;
+        if best <= until.enough || worse > PATIENCE || (worse > SOLVED_PATIENCE && is_solved) {
             break;
         }
         *steps += 1;
@@ -97,11 +110,19 @@ pub fn even(island: &Island, at: &mut Point, mut residual: f64, rounds: usize, t
 
 /// Whether there may be such a continuum: four normals have three directions to press a body.
 pub fn may_be_shared(island: &Island, p: &[Impulse]) -> bool {
-    let slips = |(touch, p): (&Share, &Impulse)| {
-        let friction = touch.law.friction();
-        friction > 0.0 && p.x > 0.0 && p.yz().norm() >= friction * p.x * (1.0 - 1e-9)
-    };
-    p.len() > 3 && island.touches.iter().zip(p).any(slips)
+    p.len() > 3 && island.touches.iter().zip(p).any(|(touch, p)| slips(touch, p))
+}
+
+/// Whether every contact that presses slips.
+pub fn all_slip(island: &Island, p: &[Impulse]) -> bool {
+    let is_open = |touch: &Share, p: &Impulse| touch.law != Law::Pin && *p == Impulse::zeros();
+    island.touches.iter().zip(p).all(|(touch, p)| slips(touch, p) || is_open(touch, p))
+}
+
+/// At the side of the cone.
+fn slips(touch: &Share, p: &Impulse) -> bool {
+    let friction = touch.law.friction();
+    friction > 0.0 && p.x > 0.0 && p.yz().norm() >= friction * p.x * (1.0 - 1e-9)
 }
 
 /// What a contact's impulse does when velocities change: Δp = `jump` − K (u + Δu).

@@ -2,17 +2,18 @@
 //! iteration. Counts decide, never a clock: the products of blocks that the factors of its linear system take
 //! (`AFFORDABLE_PRODUCTS`; `rule_of_auto` says it to people).
 //!
-//! Impulses of the last step that meet the tolerance, and more, are taken as they are: bodies at rest cost a look. From
-//! where they are near, Newton's method goes on alone, and what redundant contacts share stays as it was. Few contacts
-//! are mostly near after some sweeps; only what is left then goes the whole way of the exact solver, and so does what
-//! slips different ways, as there even shares are a part of the answer. Islands that are too large, and what the exact
+//! One contact alone has a closed solution. From where impulses are near, Newton's method goes on alone, and what
+//! redundant contacts share stays as it was. Few contacts are mostly near after some sweeps; only what is left then goes
+//! the whole way of the exact solver, and so does what slips different ways, as there even shares are a part of the
+//! answer. Islands that are too large, and what the exact
 //! solver is given up at, are left to conjugate gradients, whose starts survive from step to step; where they miss the
 //! tolerance they say so.
 
 use super::block::Block;
 use super::gauss_seidel::{self, Sweeps};
 use super::island::{Island, Point, islands_without_pattern};
-use super::missed::{shares_matter, strict_residual};
+use super::kept::{KEPT, Start};
+use super::missed::shares_matter;
 use super::problem::ContactProblem;
 use super::twist::Twist;
 use super::{Impulse, active_set, exact_contact, newton, nncg};
@@ -28,45 +29,31 @@ const SWEEPS: [u32; 2] = [0, 20];
 /// The same of an island that is too large for anything else.
 const MANY_SWEEPS: [u32; 8] = [50; 8];
 
-/// Of the tolerance: impulses that are kept. Forces that stay the same hold no body for long (one that carries others
-/// tips with e^(t √(m g/I r))): what they leave must be nothing beside the gaps that are closed, 1e-12 of a body.
-pub(super) const KEPT: f64 = 1e-2;
-
 /// A residual of impulses that bodies at rest keep for thousands of steps.
 const LASTING: f64 = 1e-13;
 
 /// Improves `p` until the residual of every island is below the tolerance. Whether it is.
-pub fn solve(
+pub(super) fn solve(
     problem: &ContactProblem,
     goal: &Sweeps,
     p: &mut [Impulse],
+    start: Start,
     scratch: &mut Scratch,
     work: &mut Work,
 ) -> bool {
-    let missed = |p: &[Impulse], u: &mut Vec<Twist>| {
-        problem.response(p, u);
-        strict_residual(problem, p, u)
-    };
-    let lasts = |residual: f64, p: &[Impulse], u: &[Twist]| {
-        residual <= KEPT * goal.tolerance && !shares_matter(problem, 0..p.len(), p, u)
-    };
-    let residual = missed(p, &mut scratch.u);
-    if scratch.keeps && lasts(residual, p, &scratch.u) {
-        work.kept_solves += 1;
-        return true;
-    }
-    let goes_on = residual <= newton::NEAR && shares_matter(problem, 0..p.len(), p, &scratch.u);
-    if problem.is_dense() && !goes_on {
+    if problem.is_dense() && !(start.is_shared && start.residual <= newton::NEAR) {
         if let Some(alone) = alone(problem) {
             p[0] = exact_contact::solve(&alone.A, &alone.b, &Impulse::zeros(), alone.friction);
         } else {
             let sweeps = Sweeps { most: FIRST_SWEEPS, tolerance: LASTING, ..*goal };
             gauss_seidel::iterate(problem, &sweeps, p, &mut scratch.nncg.sweeps, work);
         }
-        if lasts(missed(p, &mut scratch.u), p, &scratch.u) {
+        if Start::new(problem, p, &mut scratch.u).lasts(goal.tolerance) {
             work.exact_solves += 1;
             return true;
         }
+    } else {
+        problem.response(p, &mut scratch.u);
     }
     let mut islands = islands_without_pattern(problem, goal.deadline);
     let alone = islands.len() == 1 && islands[0].touches.len() == problem.blocks.len();

@@ -57,7 +57,10 @@ impl Block {
 
     /// u += M⁻¹ Jᵀ Δp.
     pub(super) fn apply(&self, change: &Impulse, u: &mut [Twist]) {
-        self.ends().for_each(|end| end.apply(change, u));
+        self.end.apply(change, u);
+        if let Some(other) = &self.other {
+            other.apply(change, u);
+        }
     }
 
     /// The contact as its one or two bodies see it.

@@ -11,6 +11,7 @@ pub mod impact;
 mod impulse;
 mod interior;
 pub mod island;
+mod kept;
 pub mod law;
 pub mod missed;
 pub mod newton;

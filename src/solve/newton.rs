@@ -161,7 +161,20 @@ pub(super) fn solve_island(
             (*best, *at) = (residual, tried);
         }
     };
-    if best <= NEAR {
+    // What slips and is near goes to its even shares at once, and is solved there.
+    let mut is_even = false;
+    if best <= NEAR && active_set::may_be_shared(island, &at.p) {
+        let (mut tried, steps) = (at.clone(), &mut work.newton_steps);
+        let near = active_set::approach(island, &mut tried, best, NEARLY, steps);
+        if near <= NEARLY {
+            let residual = active_set::even(island, &mut tried, near, shares.rounds, goal.tolerance, steps);
+            is_even = is_enough(residual, &tried);
+            if is_even {
+                (best, *at) = (residual, tried);
+            }
+        }
+    }
+    if best <= NEAR && !is_even {
         let (tried, residual) = (at.clone(), best);
         keep(&mut best, at, tried, residual, work);
     }
@@ -190,8 +203,12 @@ pub(super) fn solve_island(
         let residual = island.residual_at(&tried);
         keep(&mut best, at, tried, residual, work);
     }
-    if is_enough(best, at) && active_set::may_be_shared(island, &at.p) {
+    if !is_even && is_enough(best, at) && active_set::may_be_shared(island, &at.p) {
         best = active_set::even(island, at, best, shares.rounds, goal.tolerance, &mut work.newton_steps);
+    }
+    // The shares of what slips are even already, if one round is all that is asked for.
+    if shares.rounds == ONCE && is_enough(best, at) && active_set::all_slip(island, &at.p) {
+        return true;
     }
     // A velocity that so exact impulses leave is rounding.
     let small = (100.0 * best).clamp(1e-13, 1e-10);

@@ -1,7 +1,12 @@
 //! The contact solvers that `time-stepping` picks from.
+//!
+//! Impulses of the last step that meet the tolerance, and more, are taken as they are, whichever it is: bodies at rest
+//! cost a look.
 
 use super::gauss_seidel::{self, Sweeps};
+use super::kept::{KEPT, Start};
 use super::problem::ContactProblem;
+use super::twist::Twist;
 use super::{Impulse, auto, newton, nncg};
 use crate::experiment::types::Solver;
 use crate::work::Work;
@@ -11,7 +16,16 @@ const ITERATED: f64 = 1e-6;
 
 /// A solver with its scratch.
 #[derive(Clone, Debug)]
-pub enum ContactSolver {
+pub struct ContactSolver {
+    by: By,
+    /// Whether impulses of the last step that still obey the law are taken as they are.
+    keeps: bool,
+    u: Vec<Twist>,
+}
+
+/// Which, and its memory between steps.
+#[derive(Clone, Debug)]
+enum By {
     Auto(auto::Scratch),
     Pgs(gauss_seidel::Scratch),
     Nncg(nncg::Scratch),
@@ -20,32 +34,38 @@ pub enum ContactSolver {
 }
 
 impl ContactSolver {
-    /// With room for so many contacts and bodies. `keeps`: whether `auto` takes impulses as they are that still obey
-    /// the law.
+    /// With room for so many contacts and bodies. `keeps`: whether impulses are taken as they are that still obey the
+    /// law.
     pub fn new(which: Solver, contacts: usize, bodies: usize, keeps: bool) -> Self {
-        match which {
-            Solver::Auto => ContactSolver::Auto(auto::Scratch::with_capacity(contacts, bodies, keeps)),
-            Solver::Pgs => ContactSolver::Pgs(gauss_seidel::Scratch::with_capacity(contacts, bodies)),
-            Solver::Nncg => ContactSolver::Nncg(nncg::Scratch::with_capacity(contacts, bodies)),
-            Solver::Newton => ContactSolver::Newton(gauss_seidel::Scratch::with_capacity(contacts, bodies)),
-        }
+        let by = match which {
+            Solver::Auto => By::Auto(auto::Scratch::with_capacity(contacts, bodies, keeps)),
+            Solver::Pgs => By::Pgs(gauss_seidel::Scratch::with_capacity(contacts, bodies)),
+            Solver::Nncg => By::Nncg(nncg::Scratch::with_capacity(contacts, bodies)),
+            Solver::Newton => By::Newton(gauss_seidel::Scratch::with_capacity(contacts, bodies)),
+        };
+        ContactSolver { by, keeps, u: Vec::with_capacity(bodies) }
     }
 
     /// Residual up to which impulses need not be improved where something next to nothing else is asked for.
     pub fn may_miss(&self, tolerance: f64) -> f64 {
-        match self {
-            ContactSolver::Auto(_) | ContactSolver::Newton(_) => auto::KEPT * tolerance,
-            ContactSolver::Pgs(_) | ContactSolver::Nncg(_) => tolerance.max(ITERATED),
+        match self.by {
+            By::Auto(_) | By::Newton(_) => KEPT * tolerance,
+            By::Pgs(_) | By::Nncg(_) => tolerance.max(ITERATED),
         }
     }
 
     /// Improves `p`. Whether it is solved, or has settled.
     pub fn solve(&mut self, problem: &ContactProblem, sweeps: &Sweeps, p: &mut [Impulse], work: &mut Work) -> bool {
-        match self {
-            ContactSolver::Auto(scratch) => auto::solve(problem, sweeps, p, scratch, work),
-            ContactSolver::Pgs(scratch) => gauss_seidel::iterate(problem, sweeps, p, scratch, work),
-            ContactSolver::Nncg(scratch) => nncg::iterate(problem, sweeps, p, scratch, work),
-            ContactSolver::Newton(scratch) => newton::solve(problem, sweeps, p, scratch, work),
+        let start = Start::new(problem, p, &mut self.u);
+        if self.keeps && start.lasts(sweeps.tolerance) {
+            work.kept_solves += 1;
+            return true;
+        }
+        match &mut self.by {
+            By::Auto(scratch) => auto::solve(problem, sweeps, p, start, scratch, work),
+            By::Pgs(scratch) => gauss_seidel::iterate(problem, sweeps, p, scratch, work),
+            By::Nncg(scratch) => nncg::iterate(problem, sweeps, p, scratch, work),
+            By::Newton(scratch) => newton::solve(problem, sweeps, p, scratch, work),
         }
     }
 }

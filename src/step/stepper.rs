@@ -74,6 +74,13 @@ impl Stepper {
         }
     }
 
+    /// Steps from now on that leave bodies at rest as they are may be made all at once, up to this one.
+    pub fn rest_to(&mut self, step: u64) {
+        if let Method::TimeStepping(method) = &mut self.method {
+            method.rests_to = step;
+        }
+    }
+
     pub fn step(&mut self, model: &Model, state: &mut State, clock: &Clock) {
         match &mut self.method {
             Method::Free(method) => method.step(model, state, clock),

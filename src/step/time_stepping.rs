@@ -89,6 +89,8 @@ pub struct TimeStepping {
     /// of the one before.
     began: Vec<BodyState>,
     is_at_rest: bool,
+    /// The step up to which rest may be passed at once; else step by step.
+    pub(super) rests_to: u64,
     /// Steps ahead in which nothing can be touched.
     flight: u64,
     turning: Turning,
@@ -141,6 +143,7 @@ impl TimeStepping {
             is_steady: false,
             began: Vec::with_capacity(scratch.free.capacity()),
             is_at_rest: false,
+            rests_to: 0,
             flight: 0,
             turning: Turning::with_capacity(scratch.free.capacity()),
             is_cut: false,
@@ -243,7 +246,9 @@ impl TimeStepping {
             return false;
         }
         if self.is_at_rest {
-            self.scratch.work.rest_steps += 1;
+            let steps = self.rests_to.saturating_sub(state.step).max(1);
+            self.scratch.work.rest_steps += steps;
+            clock.advance_by(state, steps);
         } else {
             self.flight -= 1;
             let s = &mut self.scratch;
@@ -254,8 +259,8 @@ impl TimeStepping {
             }
             drift(model, state, clock.step_s, &mut s.work);
             self.began.copy_from_slice(&state.bodies);
+            clock.advance(state);
         }
-        clock.advance(state);
         true
     }
 

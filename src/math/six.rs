@@ -20,6 +20,16 @@ pub fn add_scaled(to: &mut Six, a: &Six, factor: f64) {
     }
 }
 
+/// f₁ a₁ + f₂ a₂ + f₃ a₃.
+#[inline(always)]
+pub fn combined(a: &[Six; 3], factors: [f64; 3]) -> Six {
+    let mut sum = [0.0; 6];
+    for i in 0..6 {
+        sum[i] = a[0][i] * factors[0] + a[1][i] * factors[1] + a[2][i] * factors[2];
+    }
+    sum
+}
+
 /// `to += a₁ b₁ᵀ + a₂ b₂ᵀ + a₃ b₃ᵀ`.
 #[inline(always)]
 pub fn add_products(to: &mut Matrix6<f64>, a: &[Six; 3], b: &[Six; 3]) {

@@ -10,7 +10,7 @@ use super::Impulse;
 use super::island::{Island, Point, Share};
 use super::law::{self, Law, Place};
 use crate::math::few::Few;
-use nalgebra::{Matrix3, RowVector3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 const ETA: f64 = 1e-8;
 const LARGEST_ETA: f64 = 1e-2;
@@ -135,17 +135,15 @@ struct Linear {
 impl Linear {
     fn new(touch: &Share, p: &Impulse, u: &Vector3<f64>, eta: f64) -> Self {
         let friction = touch.law.friction();
-        let normal = RowVector3::new(1.0, 0.0, 0.0);
         let stay = |K| Linear { jump: Impulse::zeros(), K, slips: false };
         match law::place(&(p - law::dual(u, touch.law)), touch.law) {
             Place::Tip => Linear { jump: -p, K: Matrix3::zeros(), slips: false },
-            _ if touch.law == Law::Pin => stay(Matrix3::identity() / eta),
-            _ if friction == 0.0 => stay(normal.transpose() * normal / eta),
-            Place::Inside => stay(Matrix3::identity() / eta),
+            _ if touch.law == Law::Pin => stay(Matrix3::from_diagonal_element(1.0 / eta)),
+            _ if friction == 0.0 => stay(Matrix3::from_partial_diagonal(&[1.0 / eta])),
+            Place::Inside => stay(Matrix3::from_diagonal_element(1.0 / eta)),
             Place::Side { t, .. } => {
-                let edge = law::edge(&t, friction);
-                let K = edge * normal / eta + turning(p, u, &t, friction, eta);
-                Linear { jump: edge * p.x.max(0.0) - p, K, slips: true }
+                let K = along_edge(&t, friction, 1.0 / eta, turning(p, u, friction, eta));
+                Linear { jump: law::edge(&t, friction) * p.x.max(0.0) - p, K, slips: true }
             }
         }
     }
@@ -153,26 +151,31 @@ impl Linear {
     /// With impulses measured from zero. `small`: velocities that are rounding.
     fn even(touch: &Share, p: &Impulse, u: &Vector3<f64>, eta: f64, small: f64) -> Self {
         let friction = touch.law.friction();
-        let normal = RowVector3::new(1.0, 0.0, 0.0);
         let slip = (u.y * u.y + u.z * u.z).sqrt();
         let t = match law::place(&(p - law::dual(u, touch.law)), touch.law) {
             _ if touch.law == Law::Pin || friction == 0.0 => return Linear::new(touch, p, u, ETA),
             // It touches without a force: it may have one.
             Place::Tip if u.x > small || slip <= small => return Linear::new(touch, p, u, ETA),
             Place::Tip => Vector3::new(0.0, -u.y / slip, -u.z / slip),
-            Place::Inside => return Linear { jump: -p, K: Matrix3::identity() / eta, slips: false },
+            Place::Inside => return Linear { jump: -p, K: Matrix3::from_diagonal_element(1.0 / eta), slips: false },
             Place::Side { t, .. } => t,
         };
-        Linear { jump: -p, K: law::edge(&t, friction) * normal / eta + turning(p, u, &t, friction, ETA), slips: true }
+        Linear { jump: -p, K: along_edge(&t, friction, 1.0 / eta, turning(p, u, friction, ETA)), slips: true }
     }
 }
 
-/// Of what slips across: p turns with it.
-fn turning(p: &Impulse, u: &Vector3<f64>, t: &Vector3<f64>, friction: f64, eta: f64) -> Matrix3<f64> {
-    let across = law::across(t);
+/// How fast p turns with what slips across.
+fn turning(p: &Impulse, u: &Vector3<f64>, friction: f64, eta: f64) -> f64 {
     let slip = (u.y * u.y + u.z * u.z).sqrt();
     let E = if p.x > 0.0 { slip / (friction * p.x) } else { f64::INFINITY };
-    across * across.transpose() / (E + eta)
+    1.0 / (E + eta)
+}
+
+/// `normal` (n + μ t) nᵀ + `across` s sᵀ, s the other tangent.
+fn along_edge(t: &Vector3<f64>, friction: f64, normal: f64, across: f64) -> Matrix3<f64> {
+    let s = law::across(t);
+    let (y, z) = (across * s.y, across * s.z);
+    Matrix3::new(normal, 0.0, 0.0, friction * t.y * normal, y * s.y, y * s.z, friction * t.z * normal, z * s.y, z * s.z)
 }
 
 /// `eta`: none, to even shares.

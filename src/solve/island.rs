@@ -256,11 +256,7 @@ impl Island {
         let mut H = BlockMatrix::diagonal(&self.pattern, on_diagonal);
         for (touch, D) in self.touches.iter().zip(D).filter(|(_, D)| **D != Matrix3::zeros()) {
             for b in touch.sides.iter().flatten() {
-                let right = std::array::from_fn(|k| {
-                    let mut row = [0.0; 6];
-                    (0..3).for_each(|l| six::add_scaled(&mut row, &b.rows[l], D[(k, l)]));
-                    row
-                });
+                let right = [0, 1, 2].map(|k| six::combined(&b.rows, [D[(k, 0)], D[(k, 1)], D[(k, 2)]]));
                 for a in touch.sides.iter().flatten() {
                     six::add_products(H.block(a.body, b.body), &a.rows, &right);
                 }

@@ -6,6 +6,7 @@
 //!
 //! 3-D data is f32 in this format; the plotted numbers are f64.
 
+mod arrangement;
 mod camera;
 mod crowd;
 pub mod ghosts;

@@ -83,7 +83,7 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
     let ids: Vec<&str> = cases.iter().map(|case| case.header.case.as_str()).collect();
     let store = StoreId::recording(application.clone(), format!("{} {}", ids.join(" "), first.header.build));
     let mut stream = Statics::new(store.clone());
-    stream.begin()?;
+    stream.begin(&format!("{differing}: {}", labels.join(", ")))?;
     let room = drawn.iter().filter_map(Drawn::room).reduce(Room::with);
     let camera = room.and_then(|room| camera_on(&first.header, room)).map(|camera| Camera {
         // One of several bodies cannot be gone along with.
@@ -107,7 +107,6 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
         stretch_s: stretch_s(cases),
     };
 
-    stream.name(&format!("{differing}: {}", labels.join(", ")))?;
     stream.log("/", &ViewCoordinates::RIGHT_HAND_Y_UP())?;
     stream.log(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())?;
     let scale = scale(&first.header);

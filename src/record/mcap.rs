@@ -74,6 +74,11 @@ impl McapRecorder {
         })
     }
 
+    /// The file that it writes to.
+    pub(super) fn file(&self) -> AheadFile {
+        self.out.file.clone()
+    }
+
     /// Samples and events, each event after the sample of its step.
     fn batch(&mut self, batch: &Batch) -> McapResult<()> {
         let mut events = batch.events.iter().peekable();

@@ -37,9 +37,9 @@ use ::rerun::{Arrows3D, Color, InstancePoses3D, Points3D, Transform3D};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// Number of the batch that the layout of a run that goes on is written with: the first is one sample, the second the
-/// rest of a short run, which ends with a layout of its own. Until then it stands ahead.
-const LAID_OUT: usize = 3;
+/// Number of the batch that the layout of a run that goes on is written with: the first may be all of a short run, which
+/// ends with a layout of its own. Until then it stands ahead.
+const LAID_OUT: usize = 2;
 
 /// A recording as one .rrd file.
 pub struct RerunRecorder {
@@ -129,6 +129,14 @@ impl RerunRecorder {
             .and(laid_out)
             .and_then(|()| self.out.sink.finish())
             .map_err(|error| RecordError::caused(&self.path, error.as_ref()))
+    }
+
+    /// The file that it writes to; none where a viewer shows it.
+    pub(super) fn file(&self) -> Option<AheadFile> {
+        match &self.out.sink {
+            Sink::File(_, file) => Some(file.clone()),
+            Sink::Ahead(_) | Sink::Viewer(_) => None,
+        }
     }
 
     /// Number of entities of bodies, each of which has a head in every batch.

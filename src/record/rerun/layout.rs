@@ -126,12 +126,7 @@ fn plot_view(plot: Plot) -> Piece {
     view.into()
 }
 
-fn arranged(
-    scene: Piece,
-    energy: Option<Piece>,
-    contacts: Vec<Piece>,
-    [has_config, has_flight]: [bool; 2],
-) -> Several {
+fn arranged(scene: Piece, energy: Option<Piece>, contacts: Vec<Piece>, [has_config, has_flight]: [bool; 2]) -> Several {
     let mut notes: Vec<Piece> = vec![View::new(Shows::Log, "events", LOG).into()];
     if has_flight {
         notes.push(View::new(Shows::Document, "largest gain", FLIGHT).into());

@@ -23,13 +23,16 @@ mod statics;
 
 use self::crowd::{DrawnBodies, drawn_as};
 use self::live::Live;
-use self::names::{CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path};
+use self::names::{
+    CONTACT_COUNT, CONTACT_FORCE, CONTACTS, DECISIVE, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path,
+};
 use self::out::{Appended, Out, Sink, Times, times};
 use self::seen::{Seen, log_part};
 use super::ahead_file::AheadFile;
 use super::pictures::{Pictured, Pictures};
-use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, norm};
+use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, Severity, norm};
 use super::schema::{self, MOST_CONTACTS};
+use super::story::{Decisive, TurningPoint};
 use super::{RecordError, Recorder};
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
@@ -66,11 +69,16 @@ impl RerunRecorder {
     /// # Errors
     /// The file cannot be made or written.
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordError> {
-        Self::try_create(path, header).map_err(|error| RecordError::caused(path, error.as_ref()))
+        let file = AheadFile::create(path).map_err(|error| RecordError::caused(path, &error))?;
+        Self::in_file(file, path, header)
     }
 
-    fn try_create(path: &Path, header: &Header) -> Result<Self, Box<dyn Error>> {
-        let file = AheadFile::create(path)?;
+    /// The same in a file that is there.
+    pub(super) fn in_file(file: AheadFile, path: &Path, header: &Header) -> Result<Self, RecordError> {
+        Self::try_in_file(file, path, header).map_err(|error| RecordError::caused(path, error.as_ref()))
+    }
+
+    fn try_in_file(file: AheadFile, path: &Path, header: &Header) -> Result<Self, Box<dyn Error>> {
         let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file.clone())?;
         Self::begin(path, header, Sink::File(encoder, file))
     }
@@ -129,14 +137,6 @@ impl RerunRecorder {
             .and(laid_out)
             .and_then(|()| self.out.sink.finish())
             .map_err(|error| RecordError::caused(&self.path, error.as_ref()))
-    }
-
-    /// The file that it writes to; none where a viewer shows it.
-    pub(super) fn file(&self) -> Option<AheadFile> {
-        match &self.out.sink {
-            Sink::File(_, file) => Some(file.clone()),
-            Sink::Ahead(_) | Sink::Viewer(_) => None,
-        }
     }
 
     /// Number of entities of bodies, each of which has a head in every batch.
@@ -201,6 +201,8 @@ impl RerunRecorder {
         if self.header.streams.bodies {
             self.poses(&end)?;
         }
+        let decisive: Vec<Event> = ending.story.turns.iter().filter_map(decisive).collect();
+        self.out.events_at(DECISIVE.into(), &decisive)?;
         for message in head::ending(&self.header, ending, &self.seen)? {
             self.out.sink.append(&message)?;
         }
@@ -279,6 +281,13 @@ impl RerunRecorder {
         }
         Ok(())
     }
+}
+
+/// A decisive instant as the log has it; the end stands there already.
+fn decisive(turn: &TurningPoint) -> Option<Event> {
+    let TurningPoint { what, step, time_s, ref text } = *turn;
+    let text = format!("{}: {text}", what.name());
+    (what != Decisive::End).then_some(Event { step, time_s, severity: Severity::Info, text })
 }
 
 /// Contacts of a sample that are drawn, in their order.

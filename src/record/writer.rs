@@ -329,16 +329,20 @@ impl Target {
 /// a port of this machine shows the run too; if it does not, the run goes on without it.
 ///
 /// # Errors
-/// There is no thread. (That a file cannot be made, or a kind is not in this build, is said by `finish`.)
+/// A file cannot be made, a kind is not in this build, or there is no thread.
 pub fn open(targets: &[Target], dir: &Path, live: Option<u16>, header: &Header) -> Result<Writer, RecordError> {
     let header = Arc::new(header.clone());
     let sums = Sums::default();
     let mut sinks: Vec<Begin> = Vec::new();
     for &target in targets {
         let partial = dir.join(format!("{}{PARTIAL}{}", header.case, target.extension()));
+        if !Target::AVAILABLE.contains(&target) {
+            return Err(RecordError::new(&partial, "this build has no Rerun (cargo feature `rerun`)"));
+        }
+        let file = AheadFile::create(&partial).map_err(|error| RecordError::caused(&partial, &error))?;
         let (dir, header, sums) = (dir.to_path_buf(), Arc::clone(&header), Arc::clone(&sums));
         sinks.push(Box::new(move || {
-            let (recorder, file) = create(target, &partial, &header)?;
+            let recorder = begun(target, file.clone(), &partial, &header)?;
             Ok(Box::new(Renamed { recorder, file, sums, target, partial, dir, name: header.name.clone() }))
         }));
     }
@@ -359,21 +363,20 @@ fn in_viewer(_: u16, _: &Header) -> Option<Box<dyn Recorder>> {
     None
 }
 
-/// A recorder of a kind, and its file.
-fn create(target: Target, path: &Path, header: &Header) -> Result<(Box<dyn Recorder>, Option<AheadFile>), RecordError> {
+/// A recorder of a kind, whose head is in its file.
+fn begun(target: Target, file: AheadFile, path: &Path, header: &Header) -> Result<Box<dyn Recorder>, RecordError> {
     match target {
         Target::Mcap => {
-            let recorder = super::mcap::McapRecorder::create(path, header)?;
+            let recorder = super::mcap::McapRecorder::begin(file, path, header)?;
             lay_out(path)?;
-            let file = recorder.file();
-            Ok((Box::new(Limited::new(Box::new(recorder), header)), Some(file)))
+            Ok(Box::new(Limited::new(Box::new(recorder), header)))
         }
         #[cfg(feature = "rerun")]
         Target::Rerun => {
-            let recorder = super::rerun::RerunRecorder::create(path, header)?;
-            let (heads, file) = (recorder.heads(), recorder.file());
+            let recorder = super::rerun::RerunRecorder::in_file(file, path, header)?;
+            let heads = recorder.heads();
             let limited = Limited::new(Box::new(recorder), header);
-            Ok((Box::new(super::gather::Gatherer::new(Box::new(limited), heads)), file))
+            Ok(Box::new(super::gather::Gatherer::new(Box::new(limited), heads)))
         }
         #[cfg(not(feature = "rerun"))]
         Target::Rerun => Err(RecordError::new(path, "this build has no Rerun (cargo feature `rerun`)")),
@@ -396,7 +399,7 @@ fn lay_out(recording: &Path) -> Result<(), RecordError> {
 /// Gives a file its name when it is complete and the outcome is known.
 struct Renamed {
     recorder: Box<dyn Recorder>,
-    file: Option<AheadFile>,
+    file: AheadFile,
     sums: Sums,
     target: Target,
     partial: PathBuf,
@@ -426,9 +429,8 @@ impl Recorder for Renamed {
         recorder.finish(ending)?;
         let complete = target.path(&dir, &name.ended(ending.outcome));
         std::fs::rename(&partial, &complete).map_err(|error| RecordError::caused(&complete, &error))?;
-        if let Some((bytes, sha256)) = file.map(|file| file.sum()) {
-            sums.lock().unwrap_or_else(PoisonError::into_inner).push(FileSum { target, bytes, sha256 });
-        }
+        let (bytes, sha256) = file.sum();
+        sums.lock().unwrap_or_else(PoisonError::into_inner).push(FileSum { target, bytes, sha256 });
         Ok(())
     }
 }

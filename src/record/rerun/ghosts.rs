@@ -90,7 +90,7 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
         follows: false,
         ..camera
     });
-    let contacts = drawn.iter().map(|case| case.seen.contacts.most).fold(1.0, f64::max);
+    let contacts = layout::marked(drawn.iter().map(|case| case.seen.contacts.most).fold(1.0, f64::max));
     let opening = Opening {
         application,
         eye: layout::eye(&first.header, camera),

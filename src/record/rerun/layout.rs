@@ -226,10 +226,21 @@ fn contact_plots(header: &Header, known: Option<Known<'_>>) -> Vec<Plot> {
             // From nothing up; the friction that one wrong contact uses has no end.
             let most = |seen: Between| if path == FRICTION_USE { seen.most.min(2.0) } else { seen.most };
             // A little below nothing: the mark of zero is clear of the time below it.
-            let range = seen.map(|seen| [-BELOW, 1.08].map(|part| part * most(seen).max(floor)));
+            let range = seen.map(|seen| [-BELOW, 1.08].map(|part| part * marked(most(seen).max(floor))));
             Plot { name: name.to_string(), path, range, legend: None }
         })
         .collect()
+}
+
+/// The end of an axis from nothing to here, with a mark on it: a low plot has marks at powers of ten, and between them
+/// where there is room.
+pub fn marked(end: f64) -> f64 {
+    const ROOM: f64 = 4.5;
+    if !(end.is_finite() && end > 0.0) {
+        return end;
+    }
+    let power = libm::exp10(libm::floor(libm::log10(end)));
+    if end > ROOM * power { 10.0 * power } else { end }
 }
 
 /// A range of at least this height.

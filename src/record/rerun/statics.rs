@@ -36,11 +36,11 @@ impl Statics {
     /// What opens a recording: its store, when it was made, and a name that the viewer lists it by.
     pub fn begin(&mut self, name: &str) -> Appended {
         self.open();
-        let info = RecordingInfo::update_fields().with_start_time(Timestamp::now()).with_name(name);
-        self.log(EntityPath::properties(), &info)
+        self.log(EntityPath::properties(), &RecordingInfo::update_fields().with_start_time(Timestamp::now()))?;
+        self.name(name)
     }
 
-    /// Another name.
+    /// A name, in the place of the one before.
     pub fn name(&mut self, name: &str) -> Appended {
         self.log(EntityPath::properties(), &RecordingInfo::update_fields().with_name(name))
     }

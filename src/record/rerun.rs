@@ -40,8 +40,8 @@ use ::rerun::{Arrows3D, Color, InstancePoses3D, Points3D, Transform3D};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// Number of the batch that the layout of a run that goes on is written with: the first may be all of a short run, which
-/// ends with a layout of its own. Until then it stands ahead.
+/// Number of the batch that the layout of a run that goes on is written with: the first may be all of a short run,
+/// which ends with a layout of its own. Until then it stands ahead.
 const LAID_OUT: usize = 2;
 
 /// A recording as one .rrd file.

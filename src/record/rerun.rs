@@ -32,7 +32,7 @@ use super::ahead_file::AheadFile;
 use super::pictures::{Pictured, Pictures};
 use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, Severity, norm};
 use super::schema::{self, MOST_CONTACTS};
-use super::story::{Decisive, TurningPoint};
+use super::story::{Decisive, Story, TurningPoint};
 use super::{RecordError, Recorder};
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
@@ -201,7 +201,7 @@ impl RerunRecorder {
         if self.header.streams.bodies {
             self.poses(&end)?;
         }
-        let decisive: Vec<Event> = ending.story.turns.iter().filter_map(decisive).collect();
+        let decisive = decisive(&ending.story);
         self.out.events_at(DECISIVE.into(), &decisive)?;
         for message in head::ending(&self.header, ending, &self.seen)? {
             self.out.sink.append(&message)?;
@@ -283,11 +283,24 @@ impl RerunRecorder {
     }
 }
 
-/// A decisive instant as the log has it; the end stands there already.
-fn decisive(turn: &TurningPoint) -> Option<Event> {
-    let TurningPoint { what, step, time_s, ref text } = *turn;
-    let text = format!("{}: {text}", what.name());
-    (what != Decisive::End).then_some(Event { step, time_s, severity: Severity::Info, text })
+/// The decisive instants as the log has them. The end stands there already, and the first gain is said once.
+fn decisive(story: &Story) -> Vec<Event> {
+    let onset = story.turn(Decisive::Onset).map(|turn| turn.step);
+    let is_said = |turn: &&TurningPoint| match turn.what {
+        Decisive::End => false,
+        Decisive::FirstGain => Some(turn.step) != onset,
+        _ => true,
+    };
+    let event = |TurningPoint { what, step, time_s, text }: &TurningPoint| Event {
+        step: *step,
+        time_s: *time_s,
+        severity: match what {
+            Decisive::FirstContact | Decisive::MostContacts | Decisive::End => Severity::Info,
+            Decisive::FirstGain | Decisive::LargestGain | Decisive::Onset => Severity::Warning,
+        },
+        text: format!("{}: {text}", what.name()),
+    };
+    story.turns.iter().filter(is_said).map(event).collect()
 }
 
 /// Contacts of a sample that are drawn, in their order.

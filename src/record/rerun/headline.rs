@@ -61,7 +61,7 @@ fn title(ending: &Ending) -> String {
         (Outcome::Finished, _) => {
             let rise = ending.row.get("energy_rise_max_rel").and_then(Value::as_f64).filter(|rise| *rise > CREPT);
             let gains = match (ending.story.gains_count, rise) {
-                (0, Some(rise)) => format!("energy creeps up by {} S, no single step gains it", brief(rise)),
+                (0, Some(rise)) => format!("energy creeps up by {} S", brief(rise)),
                 (0, None) => "no step gains energy".to_string(),
                 (1, _) => "one step gains energy".to_string(),
                 (n, _) => format!("{n} steps gain energy"),

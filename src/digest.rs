@@ -9,24 +9,39 @@ pub fn sha256(content: impl AsRef<[u8]>, bytes: usize) -> String {
     hex(&Sha256::digest(content)[..bytes])
 }
 
+/// Length and digest of a content, part by part.
+#[derive(Clone, Default)]
+pub struct Sha256Sum {
+    hash: Sha256,
+    bytes: u64,
+}
+
+impl Sha256Sum {
+    pub fn add(&mut self, part: &[u8]) {
+        self.hash.update(part);
+        self.bytes += part.len() as u64;
+    }
+
+    /// Length and digest of all so far.
+    pub fn get(&self) -> (u64, String) {
+        (self.bytes, hex(&self.hash.clone().finalize()))
+    }
+}
+
 /// Length and digest of all that is left to read.
 ///
 /// # Errors
 /// The reader's.
-///
-/// # Errors
-/// The reader's.
 pub fn sha256_of(mut content: impl BufRead) -> io::Result<(u64, String)> {
-    let (mut hash, mut bytes) = (Sha256::new(), 0);
+    let mut sum = Sha256Sum::default();
     loop {
         let part = content.fill_buf()?;
         if part.is_empty() {
-            return Ok((bytes, hex(&hash.finalize())));
+            return Ok(sum.get());
         }
         let len = part.len();
-        hash.update(part);
+        sum.add(part);
         content.consume(len);
-        bytes += len as u64;
     }
 }
 

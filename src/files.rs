@@ -29,6 +29,14 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FileError> {
     std::fs::rename(&partial, path).map_err(|error| FileError::new(path, error))
 }
 
+/// The same, unless it is there already: to put a file in another one's place takes a file system longer.
+///
+/// # Errors
+/// The machine failed.
+pub fn write_if_new(path: &Path, content: &[u8]) -> Result<(), FileError> {
+    if std::fs::read(path).is_ok_and(|there| there == content) { Ok(()) } else { write_whole(path, content) }
+}
+
 /// Makes a folder if it is not there, and those above it.
 ///
 /// # Errors

@@ -159,6 +159,11 @@ impl EnergyLedger {
         self.end.kinetic_j
     }
 
+    /// Kinetic and potential energy of the last state.
+    pub fn parts_j(&self) -> [f64; 2] {
+        [self.end.kinetic_j, self.end.potential_j]
+    }
+
     /// Energy less the work of loads and of driven bodies.
     pub fn without_work_j(&self) -> f64 {
         self.end.total_j() - self.work_j

@@ -35,6 +35,8 @@ pub struct Judge {
     /// None: there is no pin.
     pub pin_gap_max_m: Option<f64>,
     pub watched: Watched,
+    /// Whether the last step was the one before over again.
+    pub repeats: bool,
     divergence: Divergence,
     /// Impacts obey Newton's law of restitution.
     newton: bool,
@@ -102,6 +104,7 @@ impl Judge {
             contacts_max: 0,
             pin_gap_max_m: model.pin_gap_m(&start.bodies),
             watched: Watched::default(),
+            repeats: false,
             divergence: Divergence::new(rules),
             newton: plan.newton,
             driven_pins: model.has_driven_pins(),
@@ -127,7 +130,8 @@ impl Judge {
         if !matches!(shown.acted, Acted::Blow { .. }) {
             self.end_instant(model, before);
         }
-        if self.again.as_ref().is_some_and(|again| again.is(shown, self.geometry.period())) {
+        self.repeats = self.again.as_ref().is_some_and(|again| again.is(shown, self.geometry.period()));
+        if self.repeats {
             self.observe_again(shown);
             return None;
         }

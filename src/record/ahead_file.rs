@@ -3,6 +3,7 @@
 //! What is due goes by the run alone, so that two runs make the same file; what goes ahead goes by the clock, so that a
 //! kill loses little. Of a file that is complete nothing is left of it.
 
+use crate::digest::Sha256Sum;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Result, Seek, SeekFrom, Write};
 use std::path::Path;
@@ -21,6 +22,8 @@ struct Parts {
     /// What is due and not written, and the encoder's place in it.
     due: Vec<u8>,
     at: usize,
+    /// Of what is due and written.
+    sum: Sha256Sum,
 }
 
 impl AheadFile {
@@ -29,7 +32,8 @@ impl AheadFile {
     /// # Errors
     /// The file cannot be made.
     pub fn create(path: &Path) -> Result<Self> {
-        let parts = Parts { file: File::create(path)?, whole: 0, end: 0, due: Vec::new(), at: 0 };
+        let file = File::create(path)?;
+        let parts = Parts { file, whole: 0, end: 0, due: Vec::new(), at: 0, sum: Sha256Sum::default() };
         Ok(AheadFile(Arc::new(Mutex::new(parts))))
     }
 
@@ -56,6 +60,11 @@ impl AheadFile {
         self.parts().whole
     }
 
+    /// Length and SHA-256 of what is due and written.
+    pub fn sum(&self) -> (u64, String) {
+        self.parts().sum.get()
+    }
+
     fn parts(&self) -> MutexGuard<'_, Parts> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -79,6 +88,7 @@ impl Parts {
             self.file.set_len(settled)?;
         }
         (self.whole, self.end) = (settled, settled);
+        self.sum.add(&due);
         self.due = due;
         self.due.clear();
         Ok(())

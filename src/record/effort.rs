@@ -16,21 +16,38 @@ const NEWTON_STEP: u64 = 5;
 /// Effort that is added up step by step.
 #[derive(Default)]
 pub struct Effort {
-    work: Work,
+    /// Counters that cost, after the last step.
+    before: [u64; 7],
     spent: u64,
 }
 
 impl Effort {
     /// Adds a step of so many bodies, by the counters of work after it; says whether it has become much.
     pub fn add(&mut self, work: &Work, bodies: usize) -> bool {
-        let since = |of: fn(&Work) -> u64| of(work).saturating_sub(of(&self.work));
-        let of_a_body = 1 + since(|w| w.inner_steps) + since(|w| w.pin_solves) + since(|w| w.events);
-        let of_a_contact = CONTACT + SWEEP * since(|w| w.sweeps) + NEWTON_STEP * since(|w| w.newton_steps);
-        let bodies = BODY.saturating_mul(of_a_body).saturating_mul(bodies as u64);
-        let contacts = of_a_contact.saturating_mul(since(|w| w.contacts));
-        self.spent = self.spent.saturating_add(bodies).saturating_add(contacts);
-        self.spent = self.spent.saturating_add(since(|w| w.contact_tests));
-        self.work = *work;
+        let now = [
+            work.inner_steps,
+            work.pin_solves,
+            work.events,
+            work.contacts,
+            work.sweeps,
+            work.newton_steps,
+            work.contact_tests,
+        ];
+        if now == self.before {
+            self.spent = self.spent.saturating_add(BODY.saturating_mul(bodies as u64));
+            return self.spent >= MUCH;
+        }
+        let before = std::mem::replace(&mut self.before, now);
+        let [inner_steps, pin_solves, events, contacts, sweeps, newton_steps, contact_tests] =
+            std::array::from_fn(|i| now[i].saturating_sub(before[i]));
+        let of_a_body = 1 + inner_steps + pin_solves + events;
+        let of_bodies = BODY.saturating_mul(of_a_body).saturating_mul(bodies as u64);
+        self.spent = self.spent.saturating_add(of_bodies);
+        if contacts > 0 {
+            let of_a_contact = CONTACT + SWEEP * sweeps + NEWTON_STEP * newton_steps;
+            self.spent = self.spent.saturating_add(of_a_contact.saturating_mul(contacts));
+        }
+        self.spent = self.spent.saturating_add(contact_tests);
         self.spent >= MUCH
     }
 

@@ -3,6 +3,11 @@
 use super::sample::{Batch, Ending, Event};
 use super::{RecordError, Recorder};
 
+/// Samples and bytes that are written at once. Of fewer bytes, an .rrd of 1,000 bodies would be mostly heads of chunks
+/// (measured, with a third: 85 MB for 600 samples of 1,024 bodies).
+const SAMPLES: usize = 1_000;
+const BYTES: usize = 6 << 20;
+
 /// Bodies whose batches are written as they come: a head of a chunk is about 1 kB, and batches come twice a second.
 const BODIES: usize = 64;
 
@@ -45,16 +50,24 @@ impl Gatherer {
     }
 }
 
+fn is_much(batch: &Batch) -> bool {
+    batch.len() >= SAMPLES || batch.bytes() >= BYTES
+}
+
 impl Recorder for Gatherer {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
-        // The first one shows how the run begins, at once.
-        if self.pending.is_empty() && (!self.begun || self.most == 0 || batch.is_full()) {
-            (self.begun, self.ahead) = (true, [0; 2]);
+        // The first one, which shows how the run begins, stands ahead until the second comes: of a short run the rest.
+        let is_first = !std::mem::replace(&mut self.begun, true);
+        if self.pending.is_empty() && !is_first && (self.most == 0 || is_much(batch)) {
+            self.ahead = [0; 2];
             return self.file.write(batch);
         }
         self.pending.append(batch);
+        if is_first {
+            return Ok(());
+        }
         self.waiting += 1;
-        if self.waiting > self.most || self.pending.is_full() { self.write_pending() } else { Ok(()) }
+        if self.waiting > self.most || is_much(&self.pending) { self.write_pending() } else { Ok(()) }
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {

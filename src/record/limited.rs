@@ -26,6 +26,8 @@ pub struct Limited {
     head: Option<u64>,
     numbers: f64,
     by_rate: f64,
+    /// Whether each sample of a batch stays, and those that do.
+    stays: Vec<bool>,
     kept: Batch,
     left_out: u64,
     /// Time and bodies of the last sample, if it is left out: the next one may rely on it to show where its contacts
@@ -37,13 +39,15 @@ impl Limited {
     /// In front of the file of such a run.
     pub fn new(file: Box<dyn Recorder>, header: &Header) -> Self {
         Limited {
-            file,
             streams: header.streams,
             most: header.most_bytes as f64,
             end_s: header.end_s,
-            head: None,
+            // What is written already, of a format that writes its head at once.
+            head: Some(file.bytes()).filter(|bytes| *bytes > 0),
+            file,
             numbers: 0.0,
             by_rate: 0.0,
+            stays: Vec::new(),
             kept: Batch::default(),
             left_out: 0,
             hidden: None,
@@ -54,6 +58,30 @@ impl Limited {
     fn bytes_a_number(&self) -> f64 {
         let written = self.file.bytes().saturating_sub(self.head.unwrap_or(0)) as f64;
         if self.numbers > 0.0 && written > 0.0 { written / self.numbers } else { FIRST_GUESS }
+    }
+
+    /// Writes the samples that stay.
+    fn write_some(&mut self, batch: &Batch, stays: &[bool]) -> Result<(), RecordError> {
+        self.kept.clear();
+        for (sample, stay) in batch.samples().zip(stays) {
+            if *stay {
+                let hidden = self.hidden.take();
+                let lacks = sample.acted.is_empty() && !sample.contacts.is_empty();
+                let acted = match &hidden {
+                    Some((time_s, bodies)) if lacks && *time_s == sample.acted_s => &bodies[..],
+                    _ => sample.acted,
+                };
+                self.kept.push(&Sample { acted, ..sample }, self.streams);
+            } else {
+                self.left_out += 1;
+                let (_, mut bodies) = self.hidden.take().unwrap_or_default();
+                bodies.clear();
+                bodies.extend_from_slice(sample.bodies);
+                self.hidden = Some((sample.time_s, bodies));
+            }
+        }
+        self.kept.events.extend_from_slice(&batch.events);
+        self.file.write(&self.kept)
     }
 
     /// Whether there is room for a sample: with it there are so many bytes, of them so many by rate. What decides
@@ -84,35 +112,24 @@ impl Recorder for Limited {
         let each = self.bytes_a_number();
         let written = self.file.bytes() as f64;
         let (mut more, mut more_by_rate) = (0.0, 0.0);
-        let mut left_out = 0;
-        let mut kept = std::mem::take(&mut self.kept);
-        kept.clear();
+        let mut stays = std::mem::take(&mut self.stays);
+        stays.clear();
         for sample in batch.samples() {
             let own = numbers(&sample);
             let own_by_rate = if sample.by_rate { own } else { 0.0 };
             let by_rate = each * (self.by_rate + more_by_rate + own_by_rate);
-            if self.head.is_none() || self.fits(&sample, written + each * (more + own), by_rate) {
+            let stay = self.head.is_none() || self.fits(&sample, written + each * (more + own), by_rate);
+            if stay {
                 more += own;
                 more_by_rate += own_by_rate;
-                let hidden = self.hidden.take();
-                let lacks = sample.acted.is_empty() && !sample.contacts.is_empty();
-                let acted = match &hidden {
-                    Some((time_s, bodies)) if lacks && *time_s == sample.acted_s => &bodies[..],
-                    _ => sample.acted,
-                };
-                kept.push(&Sample { acted, ..sample }, self.streams);
-            } else {
-                left_out += 1;
-                let (_, mut bodies) = self.hidden.take().unwrap_or_default();
-                bodies.clear();
-                bodies.extend_from_slice(sample.bodies);
-                self.hidden = Some((sample.time_s, bodies));
             }
+            stays.push(stay);
         }
-        kept.events.extend_from_slice(&batch.events);
-        let done = self.file.write(&kept);
-        self.kept = kept;
-        self.left_out += left_out;
+        let done = match self.hidden.is_none() && stays.iter().all(|stay| *stay) {
+            true => self.file.write(batch),
+            false => self.write_some(batch, &stays),
+        };
+        self.stays = stays;
         match self.head {
             None => self.head = Some(self.file.bytes()),
             Some(_) => {

@@ -51,11 +51,17 @@ impl McapRecorder {
     /// # Errors
     /// The file cannot be made or written.
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordError> {
-        Self::try_create(path, header).map_err(|error| RecordError::caused(path, &error))
+        let file = AheadFile::create(path).map_err(|error| RecordError::caused(path, &error))?;
+        Self::begin(file, path, header)
     }
 
-    fn try_create(path: &Path, header: &Header) -> McapResult<Self> {
-        let mut out = Out::new(AheadFile::create(path)?, &header.program)?;
+    /// The same in a file that is there.
+    pub(super) fn begin(file: AheadFile, path: &Path, header: &Header) -> Result<Self, RecordError> {
+        Self::try_begin(file, path, header).map_err(|error| RecordError::caused(path, &error))
+    }
+
+    fn try_begin(file: AheadFile, path: &Path, header: &Header) -> McapResult<Self> {
+        let mut out = Out::new(file, &header.program)?;
         let (files, of_bodies) = surfaces_as_files(header);
         let said = said(header, &of_bodies);
         let channels = out.head(header, &files, &said)?;

@@ -4,6 +4,7 @@
 //! `Recorder`. `schema` names topics, fields and units once for all of them.
 
 mod ahead_file;
+mod aside;
 mod effort;
 pub mod flight;
 pub mod foxglove_layout;

@@ -6,6 +6,7 @@
 //!
 //! 3-D data is f32 in this format; the plotted numbers are f64.
 
+mod arrangement;
 mod camera;
 mod crowd;
 pub mod ghosts;
@@ -22,13 +23,16 @@ mod statics;
 
 use self::crowd::{DrawnBodies, drawn_as};
 use self::live::Live;
-use self::names::{CONTACT_COUNT, CONTACT_FORCE, CONTACTS, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path};
+use self::names::{
+    CONTACT_COUNT, CONTACT_FORCE, CONTACTS, DECISIVE, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path,
+};
 use self::out::{Appended, Out, Sink, Times, times};
 use self::seen::{Seen, log_part};
 use super::ahead_file::AheadFile;
 use super::pictures::{Pictured, Pictures};
-use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, norm};
+use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, Severity, norm};
 use super::schema::{self, MOST_CONTACTS};
+use super::story::{Decisive, Story, TurningPoint};
 use super::{RecordError, Recorder};
 use ::rerun::external::re_build_info::CrateVersion;
 use ::rerun::external::re_log_encoding::{Encoder, EncodingOptions};
@@ -36,9 +40,9 @@ use ::rerun::{Arrows3D, Color, InstancePoses3D, Points3D, Transform3D};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// Number of the batch that the layout of a run that goes on is written with: the first is one sample, the second the
-/// rest of a short run, which ends with a layout of its own. Until then it stands ahead.
-const LAID_OUT: usize = 3;
+/// Number of the batch that the layout of a run that goes on is written with: the first may be all of a short run,
+/// which ends with a layout of its own. Until then it stands ahead.
+const LAID_OUT: usize = 2;
 
 /// A recording as one .rrd file.
 pub struct RerunRecorder {
@@ -65,11 +69,16 @@ impl RerunRecorder {
     /// # Errors
     /// The file cannot be made or written.
     pub fn create(path: &Path, header: &Header) -> Result<Self, RecordError> {
-        Self::try_create(path, header).map_err(|error| RecordError::caused(path, error.as_ref()))
+        let file = AheadFile::create(path).map_err(|error| RecordError::caused(path, &error))?;
+        Self::in_file(file, path, header)
     }
 
-    fn try_create(path: &Path, header: &Header) -> Result<Self, Box<dyn Error>> {
-        let file = AheadFile::create(path)?;
+    /// The same in a file that is there.
+    pub(super) fn in_file(file: AheadFile, path: &Path, header: &Header) -> Result<Self, RecordError> {
+        Self::try_in_file(file, path, header).map_err(|error| RecordError::caused(path, error.as_ref()))
+    }
+
+    fn try_in_file(file: AheadFile, path: &Path, header: &Header) -> Result<Self, Box<dyn Error>> {
         let encoder = Encoder::new_eager(CrateVersion::LOCAL, EncodingOptions::PROTOBUF_COMPRESSED, file.clone())?;
         Self::begin(path, header, Sink::File(encoder, file))
     }
@@ -192,6 +201,8 @@ impl RerunRecorder {
         if self.header.streams.bodies {
             self.poses(&end)?;
         }
+        let decisive = decisive(&ending.story);
+        self.out.events_at(DECISIVE.into(), &decisive)?;
         for message in head::ending(&self.header, ending, &self.seen)? {
             self.out.sink.append(&message)?;
         }
@@ -270,6 +281,26 @@ impl RerunRecorder {
         }
         Ok(())
     }
+}
+
+/// The decisive instants as the log has them. The end stands there already, and the first gain is said once.
+fn decisive(story: &Story) -> Vec<Event> {
+    let onset = story.turn(Decisive::Onset).map(|turn| turn.step);
+    let is_said = |turn: &&TurningPoint| match turn.what {
+        Decisive::End => false,
+        Decisive::FirstGain => Some(turn.step) != onset,
+        _ => true,
+    };
+    let event = |TurningPoint { what, step, time_s, text }: &TurningPoint| Event {
+        step: *step,
+        time_s: *time_s,
+        severity: match what {
+            Decisive::FirstContact | Decisive::MostContacts | Decisive::End => Severity::Info,
+            Decisive::FirstGain | Decisive::LargestGain | Decisive::Onset => Severity::Warning,
+        },
+        text: format!("{}: {text}", what.name()),
+    };
+    story.turns.iter().filter(is_said).map(event).collect()
 }
 
 /// Contacts of a sample that are drawn, in their order.

@@ -163,9 +163,8 @@ pub(super) fn norm([x, y, z]: [f64; 3]) -> f64 {
 /// Samples in a full batch: larger ones write no faster, and a kill loses what was not yet written.
 const BATCH_SAMPLES: usize = 1_000;
 
-/// Body states, or contacts, in a full batch: about 7 MB of either, for scenes with many bodies. Of fewer, an .rrd of
-/// 1,000 bodies would be mostly heads of chunks (measured, 20,000: 85 MB for 600 samples of 1,024 bodies).
-const BATCH_ENTRIES: usize = 60_000;
+/// Bytes of a full batch, for scenes with many bodies: several batches circulate.
+const BATCH_BYTES: usize = 2 << 20;
 
 /// Samples in columns. "Sample-major": all bodies of sample 0, then all of sample 1, …
 #[derive(Clone, Debug, Default)]
@@ -190,6 +189,9 @@ pub struct Batch {
     pub energy: Vec<EnergySample>,
     /// What happened since the batch before, in the order of time.
     pub events: Vec<Event>,
+    /// Whether modes of contacts and depths of overlap are still to be worked out. Until then a contact's use of
+    /// friction is its coefficient.
+    pub is_raw: bool,
 }
 
 impl Batch {
@@ -204,8 +206,12 @@ impl Batch {
 
     /// Whether it is to be written as it is.
     pub fn is_full(&self) -> bool {
-        let most = [&self.bodies, &self.acted].map(Vec::len).into_iter().fold(self.contacts.len(), usize::max);
-        self.len() >= BATCH_SAMPLES || most >= BATCH_ENTRIES
+        self.len() >= BATCH_SAMPLES || self.bytes() >= BATCH_BYTES
+    }
+
+    /// Bytes of its bodies and contacts; the rest is little.
+    pub fn bytes(&self) -> usize {
+        (self.bodies.len() + self.acted.len()) * size_of::<BodyRow>() + self.contacts.len() * size_of::<ContactSample>()
     }
 
     /// Adds the samples and events of another batch behind its own.
@@ -228,6 +234,7 @@ impl Batch {
         self.by_rate.extend_from_slice(rest(&other.by_rate, sample));
         self.energy.extend_from_slice(rest(&other.energy, sample));
         self.events.extend_from_slice(rest(&other.events, event));
+        self.is_raw |= other.is_raw;
     }
 
     /// Empties every column and keeps its memory.
@@ -243,6 +250,7 @@ impl Batch {
         self.by_rate.clear();
         self.energy.clear();
         self.events.clear();
+        self.is_raw = false;
     }
 
     /// Adds one sample of another batch.
@@ -390,6 +398,13 @@ impl ContactMode {
 
 /// Part of friction up to which the edge of the cone is met: an iteration ends within its tolerance of it.
 const EDGE: f64 = 1e-6;
+
+/// Whether a contact's mode is to stick.
+pub fn sticks(force_n: [f64; 3], normal: [f64; 3], friction: f64) -> bool {
+    let normal_n = dot(force_n, normal);
+    let tangential_n = norm(std::array::from_fn(|i| force_n[i] - normal_n * normal[i]));
+    normal_n > 0.0 && tangential_n < friction * normal_n * (1.0 - EDGE)
+}
 
 /// Mode of a contact and the use it makes of its friction, from its force.
 pub fn contact_mode(force_n: [f64; 3], normal: [f64; 3], friction: f64) -> (ContactMode, f64) {

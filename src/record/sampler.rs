@@ -3,13 +3,14 @@
 //! A recorded run is the same run: the sampler only looks. What no stream asks for is not computed.
 
 use super::RecordError;
+use super::aside::Aside;
 use super::effort::Effort;
 use super::flight::{Flight, KeptContacts};
 use super::ring::{KeptStep, Ring};
-use super::sample::{Batch, ContactSample, Ending, EnergySample, Event, Severity, Streams, contact_mode};
+use super::sample::{Batch, ContactMode, ContactSample, Ending, EnergySample, Event, Severity, Streams};
 use super::story::shortest;
 use super::watch::Watch;
-use super::writer::Writer;
+use super::writer::{FileSum, Writer};
 use crate::clock::Clock;
 use crate::collide::SolvedContact;
 use crate::experiment::types::{Record, Stream};
@@ -21,7 +22,7 @@ use crate::outcome::Outcome;
 use crate::rows::doubts::doubt;
 use crate::rows::{BodyRow, Measured, cells};
 use crate::shown::{Acted, ContactForce, Shown};
-use crate::state::State;
+use crate::state::{BodyState, State};
 use crate::work::Work;
 
 /// Largest amount of something so far, and its step where no sample shows it.
@@ -38,10 +39,11 @@ const AROUND: u64 = 4;
 pub struct Sampler {
     writer: Writer,
     streams: Streams,
-    /// Number of steps from one sample to the next.
+    /// Number of steps from one sample to the next, and the step that is due next.
     every: u64,
+    next: u64,
     ending: Option<Ending>,
-    /// Of the stream of energies, which shows the deepest overlap.
+    /// For the deepest overlap in the stream of energies, where the recording thread does not see the bodies.
     geometry: Option<GeometryLedger>,
     watch: Option<Watch>,
     ring: Ring,
@@ -64,6 +66,7 @@ impl Sampler {
             writer,
             streams: streams(record),
             every: steps_between(record, clock),
+            next: 0,
             ending: None,
             geometry: None,
             watch: None,
@@ -78,14 +81,22 @@ impl Sampler {
         }
     }
 
-    pub fn is_due(&self, step: u64) -> bool {
-        step.is_multiple_of(self.every)
+    /// Whether a step is due, which is none before the last one that was asked about but one.
+    pub fn is_due(&mut self, step: u64) -> bool {
+        while self.next < step {
+            self.next += self.every;
+        }
+        self.next == step
     }
 
     /// Begins with the first state, of a method that claims to solve the law of contact or does not.
     pub fn start(&mut self, model: &Model, start: &State, solves_contacts: bool) {
         self.watch = Some(Watch::new(model, start, solves_contacts));
-        self.sample(model, [start, start], std::iter::empty(), false);
+        self.writer.work_aside(Aside::new(model, start, self.streams));
+        if self.streams.energy && !Aside::has_depths(self.streams) {
+            self.geometry = Some(GeometryLedger::new(model, start, true));
+        }
+        self.sample(model, [start, start], std::iter::empty(), false, None);
         // How a run begins can be seen while it goes on.
         self.writer.flush();
     }
@@ -95,8 +106,9 @@ impl Sampler {
     pub fn look(&mut self, model: &Model, shown: &Shown, judge: &Judge) -> bool {
         let Some(watch) = &mut self.watch else { return false };
         let is_notable = watch.look(model, shown, judge);
-        if let (true, true, Acted::Kick { kicked, contacts, step_s, .. }) =
-            (self.is_flight, watch.gains_most(shown.after), shown.acted)
+        if self.is_flight
+            && let Acted::Kick { kicked, contacts, step_s, .. } = shown.acted
+            && watch.gains_most(shown.after)
         {
             let (step, contacts) = (shown.after.step, contacts.to_vec());
             self.flight = Some(KeptContacts { acted: kicked.clone(), step, step_s, contacts });
@@ -126,12 +138,13 @@ impl Sampler {
     /// which its contacts act.
     pub fn keep(&mut self, states: [&State; 2], (contacts, step_s): (&[SolvedContact], f64), judge: &Judge) {
         let shown = if self.streams.any_contact() { contacts } else { &[] };
-        self.ring.keep(states, shown, step_s);
+        let energy_j = judge.energy.parts_j();
+        self.ring.keep(states, shown, step_s, energy_j);
         let amounts = [contacts.len() as f64, judge.geometry.penetration_max_m.unwrap_or(0.0)];
         for (maximum, amount) in self.maxima.iter_mut().zip(amounts) {
             if amount > maximum.amount {
                 maximum.amount = amount;
-                maximum.step.keep_one(states, shown, step_s);
+                maximum.step.keep_one(states, shown, step_s, energy_j);
             }
         }
     }
@@ -148,28 +161,33 @@ impl Sampler {
     }
 
     /// Adds a sample; `contacts` are those of the step that led to `state`, and act at `acted`. One that is there
-    /// `by_rate` alone may be left out where a file becomes too large.
+    /// `by_rate` alone may be left out where a file becomes too large. `judge`: one whose last state it is.
     pub fn sample(
         &mut self,
         model: &Model,
         [state, acted]: [&State; 2],
         contacts: impl ExactSizeIterator<Item = ContactForce>,
         by_rate: bool,
+        judge: Option<&Judge>,
     ) {
-        let Sampler { writer, streams, geometry, last_s, .. } = self;
-        let watch = &mut self.watch;
-        writer.fill(|batch| {
+        let streams = self.streams;
+        let energy_j = if streams.energy { parts_j(model, state, judge) } else { [0.0; 2] };
+        let depth_m = self.geometry.as_mut().and_then(|geometry| geometry.penetration_m(model, state));
+        let (watch, last_s) = (&mut self.watch, self.last_s);
+        self.writer.fill(|batch| {
             if streams.any_contact() {
-                push_acted(batch, *streams, (state, acted, *last_s), contacts.len());
+                let acts = contacts.len() > 0 && acted.time_s != state.time_s;
+                let bodies = if acts { &acted.bodies[..] } else { &[] };
+                push_acted(batch, streams, (acted.time_s, bodies, last_s), contacts.len());
                 batch.contacts.extend(contacts.map(contact_sample));
             }
-            push(batch, *streams, geometry, model, state);
+            push(batch, streams, (state.step, state.time_s, &state.bodies), (energy_j, depth_m));
             batch.by_rate.push(by_rate);
             if let Some(watch) = watch {
                 batch.events.extend(watch.events());
             }
         });
-        *last_s = state.time_s;
+        self.last_s = state.time_s;
         self.last = state.step;
     }
 
@@ -177,7 +195,7 @@ impl Sampler {
     fn take_since(&mut self, model: &Model, step: u64) {
         let Sampler { writer, streams, geometry, ring, maxima, last_s, .. } = self;
         ring.take_since(step, |kept| {
-            for maximum in maxima.iter_mut().filter(|maximum| maximum.step.holds(kept.state.step)) {
+            for maximum in maxima.iter_mut().filter(|maximum| maximum.step.holds(kept.step)) {
                 maximum.step.clear();
             }
             add(writer, *streams, geometry, model, (kept, last_s));
@@ -190,8 +208,8 @@ impl Sampler {
         let mut taken = None;
         for maximum in maxima {
             maximum.step.take_since(0, |kept| {
-                if taken != Some(kept.state.step) {
-                    taken = Some(kept.state.step);
+                if taken != Some(kept.step) {
+                    taken = Some(kept.step);
                     add(writer, *streams, geometry, model, (kept, last_s));
                 }
             });
@@ -248,12 +266,12 @@ impl Sampler {
         });
     }
 
-    /// Writes the rest and closes the files; those of a run that has not ended stay incomplete.
+    /// Writes the rest and closes the files; those of a run that has not ended stay incomplete. Sums of those that are.
     ///
     /// # Errors
     /// The machine failed, in this call or in a write before it.
-    pub fn finish(self) -> Result<(), RecordError> {
-        self.ending.map_or(Ok(()), |ending| self.writer.finish(ending))
+    pub fn finish(self) -> Result<Vec<FileSum>, RecordError> {
+        self.ending.map_or(Ok(Vec::new()), |ending| self.writer.finish(ending))
     }
 }
 
@@ -265,45 +283,64 @@ fn add(
     model: &Model,
     (kept, last_s): (&KeptStep, &mut f64),
 ) {
-    let KeptStep { state, acted, contacts, step_s } = kept;
+    let KeptStep { step, time_s, energy_j, bodies, contacts, step_s, acted_s, acted } = kept;
+    let depth_m = geometry.as_mut().and_then(|geometry| {
+        geometry.penetration_m(model, &State { step: *step, time_s: *time_s, bodies: bodies.clone() })
+    });
     writer.fill(|batch| {
         if streams.any_contact() {
-            push_acted(batch, streams, (state, acted, *last_s), contacts.len());
+            push_acted(batch, streams, (*acted_s, acted, *last_s), contacts.len());
             batch.contacts.extend(contacts.iter().map(|solved| contact_sample(ContactForce::mean(solved, *step_s))));
         }
-        push(batch, streams, geometry, model, state);
+        push(batch, streams, (*step, *time_s, bodies), (*energy_j, depth_m));
         batch.by_rate.push(false);
     });
-    *last_s = state.time_s;
+    *last_s = *time_s;
 }
 
-/// Adds the number of contacts, when they act, and the bodies then, if neither the sample itself shows them nor the one
-/// before it, which was at `last_s`.
-fn push_acted(batch: &mut Batch, streams: Streams, (state, acted, last_s): (&State, &State, f64), contacts: usize) {
-    let is_shown = acted.time_s == last_s || acted.time_s == state.time_s;
-    let bodies = if contacts == 0 || is_shown || !streams.bodies { &[] } else { &acted.bodies[..] };
+/// Adds the number of contacts, when they act, and the bodies then, unless the sample before shows them, which was at
+/// `last_s`.
+fn push_acted(
+    batch: &mut Batch,
+    streams: Streams,
+    (acted_s, acted, last_s): (f64, &[BodyState], f64),
+    contacts: usize,
+) {
+    let bodies = if acted_s == last_s || !streams.bodies { &[] } else { acted };
     batch.contacts_len.push(contacts as u32);
-    batch.acted_s.push(acted.time_s);
+    batch.acted_s.push(acted_s);
     batch.acted_len.push(bodies.len() as u32);
     batch.acted.extend(bodies.iter().map(BodyRow::from));
 }
 
-/// Adds a state to a batch: what does not depend on its contacts.
-fn push(batch: &mut Batch, streams: Streams, geometry: &mut Option<GeometryLedger>, model: &Model, state: &State) {
-    batch.step.push(state.step);
-    batch.time_s.push(state.time_s);
+/// Adds a state to a batch: what does not depend on its contacts. Its depth is worked out later if it is not known.
+fn push(
+    batch: &mut Batch,
+    streams: Streams,
+    (step, time_s, bodies): (u64, f64, &[BodyState]),
+    ([kinetic_j, potential_j], depth_m): ([f64; 2], Option<f64>),
+) {
+    batch.is_raw = true;
+    batch.step.push(step);
+    batch.time_s.push(time_s);
     if streams.bodies {
-        batch.bodies.extend(state.bodies.iter().map(BodyRow::from));
+        batch.bodies.extend(bodies.iter().map(BodyRow::from));
     }
     if streams.energy {
-        let energy = Energy::of(model, state);
-        let geometry = geometry.get_or_insert_with(|| GeometryLedger::new(model, state, true));
-        batch.energy.push(EnergySample {
-            kinetic_j: energy.kinetic_j,
-            potential_j: energy.potential_j,
-            total_j: energy.total_j(),
-            penetration_m: geometry.penetration_m(model, state).unwrap_or(0.0),
-        });
+        let total_j = Energy { kinetic_j, potential_j, stored_j: 0.0 }.total_j();
+        let penetration_m = depth_m.unwrap_or(0.0);
+        batch.energy.push(EnergySample { kinetic_j, potential_j, total_j, penetration_m });
+    }
+}
+
+/// Kinetic and potential energy of a state; a judge whose last state it is has worked them out.
+fn parts_j(model: &Model, state: &State, judge: Option<&Judge>) -> [f64; 2] {
+    match judge {
+        Some(judge) => judge.energy.parts_j(),
+        None => {
+            let energy = Energy::of(model, state);
+            [energy.kinetic_j, energy.potential_j]
+        }
     }
 }
 
@@ -322,11 +359,11 @@ pub fn steps_between(record: &Record, clock: &Clock) -> u64 {
     ((record.every_s / clock.step_s).round() as u64).max(1)
 }
 
+/// A contact whose mode and use of friction are still to be worked out.
 fn contact_sample(ContactForce { contact, force_W }: ContactForce) -> ContactSample {
-    let (mode, friction_use) = contact_mode(force_W.into(), contact.normal.into(), contact.friction);
     ContactSample {
-        friction_use,
-        mode,
+        friction_use: contact.friction,
+        mode: ContactMode::Open,
         body: contact.body as u32,
         other: contact.other.map(|other| other as u32),
         point_m: contact.p_WC.into(),

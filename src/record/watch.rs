@@ -3,7 +3,7 @@
 //! It looks at what a step shows and at what the judges have found, and computes next to nothing of its own, so that a
 //! recorded run is as fast as another one.
 
-use super::sample::{ContactMode, Event, Severity, contact_mode};
+use super::sample::{Event, Severity, sticks};
 use super::story::{Decisive, EnergyGain, Story, TurningPoint, brief};
 use crate::collide::Contact;
 use crate::measure::Judge;
@@ -93,18 +93,22 @@ pub struct Watch {
     /// One of the step's is an impact, or worse.
     is_major: bool,
     counts: [u64; Happening::ALL.len()],
+    g_m_s2: f64,
     fall_j: f64,
+    /// Energy up to which the run is calm, and whether it was after the last step.
+    calm_j: f64,
+    is_calm: bool,
     kinetic_max_j: f64,
     last_j: f64,
+    most_j: f64,
     fastest_m_s: f64,
     residual: f64,
     ghost: f64,
     passages: u64,
-    work: Work,
+    unsolved: u64,
+    fallbacks: u64,
     most: Option<(usize, u64, f64)>,
     largest: Option<(f64, EnergyGain)>,
-    /// Largest energy, of the start's or of a fall.
-    grown: f64,
     /// The step that left the calm, if it was never found again.
     onset: Option<EnergyGain>,
     first_s: Option<f64>,
@@ -117,26 +121,32 @@ impl Watch {
         let g = model.gravity_m_s2.norm();
         let energy = Energy::of(model, start);
         let weigh = |body: &crate::model::Body| body.mass_kg * g * body.bounding_radius_m;
+        let fall_j: f64 = model.bodies.iter().filter(|body| !body.driven).map(weigh).sum();
+        let start_j = energy.total_j();
         Watch {
             solves,
-            up_to_now: Story { start_j: energy.total_j(), ..Story::default() },
+            up_to_now: Story { start_j, ..Story::default() },
             pairs: Vec::new(),
             next: Vec::new(),
             found: Vec::new(),
             events: Vec::new(),
             is_major: false,
             counts: [0; Happening::ALL.len()],
-            fall_j: model.bodies.iter().filter(|body| !body.driven).map(weigh).sum(),
+            g_m_s2: g,
+            fall_j,
+            calm_j: start_j + CALM * start_j.abs().max(LEAST * fall_j),
+            is_calm: false,
             kinetic_max_j: energy.kinetic_j,
-            last_j: energy.total_j(),
+            last_j: start_j,
+            most_j: f64::NEG_INFINITY,
             fastest_m_s: 0.0,
             residual: TOLERATED,
             ghost: TOLERATED,
             passages: 0,
-            work: Work::default(),
+            unsolved: 0,
+            fallbacks: 0,
             most: None,
             largest: None,
-            grown: 0.0,
             onset: None,
             first_s: None,
             last_s: 0.0,
@@ -148,12 +158,20 @@ impl Watch {
         if shown.stalled.is_some() {
             return false;
         }
-        self.is_major = false;
         let Shown { before, after, .. } = *shown;
+        if judge.repeats {
+            // The same contacts do the same, and no energy comes or goes.
+            if self.is_calm {
+                self.up_to_now.calm_until_s = after.time_s;
+            }
+            return false;
+        }
+        self.is_major = false;
         let at = (after.step, acted_s(shown));
         match shown.acted {
+            Acted::Kick { contacts: [], .. } if self.pairs.is_empty() => {}
             Acted::Kick { contacts, step_s, .. } => {
-                let slow_m_s = STEPS_OF_GRAVITY * model.gravity_m_s2.norm() * step_s;
+                let slow_m_s = STEPS_OF_GRAVITY * self.g_m_s2 * step_s;
                 self.touches(model, (before, at), contacts.iter().map(|s| (&s.contact, s.impulse_W)), slow_m_s);
             }
             Acted::Blow { contacts } => {
@@ -187,16 +205,17 @@ impl Watch {
 
     /// Looks at the counters of work after a step.
     pub fn count(&mut self, work: &Work, at: (u64, f64)) {
-        if work.unsolved > self.work.unsolved {
+        if work.unsolved > self.unsolved {
+            self.unsolved = work.unsolved;
             let severity = self.doubt();
             self.happen(Happening::Unsolved, at, severity, || "contacts of this step are not solved".to_string());
         }
-        if work.fallbacks > self.work.fallbacks {
+        if work.fallbacks > self.fallbacks {
+            self.fallbacks = work.fallbacks;
             self.happen(Happening::Fallback, at, Severity::Warning, || {
                 "events follow too fast: steps of equal length from here".to_string()
             });
         }
-        self.work = *work;
     }
 
     /// Events since the last call.
@@ -206,6 +225,7 @@ impl Watch {
 
     /// The story of a run that has ended so.
     pub fn story(&mut self, state: &State, outcome: Outcome, said: String) -> Story {
+        let has_grown = self.grown() > EXPLODED;
         let mut story = std::mem::take(&mut self.up_to_now);
         if let Some((ratio, gain)) = self.largest {
             let EnergyGain { step, acted_s: time_s, before_j, after_j, .. } = gain;
@@ -213,7 +233,7 @@ impl Watch {
             story.turns.push(TurningPoint { what: Decisive::LargestGain, step, time_s, text });
         }
         if let Some(EnergyGain { step, acted_s: time_s, before_j, after_j, .. }) =
-            self.onset.filter(|_| outcome == Outcome::Diverged || self.grown > EXPLODED)
+            self.onset.filter(|_| outcome == Outcome::Diverged || has_grown)
         {
             let text = format!("{} → {} J", brief(before_j), brief(after_j));
             story.turns.push(TurningPoint { what: Decisive::Onset, step, time_s, text });
@@ -226,7 +246,7 @@ impl Watch {
         let (step, end_s) = (state.step, state.time_s);
         story.turns.push(TurningPoint { what: Decisive::End, step, time_s: end_s, text: said });
         // What has exploded and goes on is looked at as what has diverged: before its bodies are gone.
-        let explodes = outcome == Outcome::Diverged || self.onset.is_some_and(|_| self.grown > EXPLODED);
+        let explodes = outcome == Outcome::Diverged || (self.onset.is_some() && has_grown);
         let stretch_s = match (explodes, self.first_s) {
             (true, _) if outcome == Outcome::Diverged => [story.calm_until_s - 0.15 * end_s, end_s],
             (true, _) => [0.85, 1.15].map(|part| part * story.calm_until_s),
@@ -356,21 +376,21 @@ impl Watch {
         let (before_j, after_j) = (self.last_j, judge.energy.without_work_j());
         self.last_j = after_j;
         // Against what there was before: an explosion is its own scale.
-        let scale_j = self.kinetic_max_j.max(LEAST * self.fall_j);
-        self.kinetic_max_j = self.kinetic_max_j.max(judge.energy.kinetic_j());
-        let start_j = self.up_to_now.start_j;
-        let is_calm = after_j <= start_j + CALM * start_j.abs().max(LEAST * self.fall_j);
-        if is_calm {
+        let kinetic_max_j = self.kinetic_max_j;
+        self.kinetic_max_j = kinetic_max_j.max(judge.energy.kinetic_j());
+        self.most_j = self.most_j.max(after_j);
+        self.is_calm = after_j <= self.calm_j;
+        if self.is_calm {
             self.up_to_now.calm_until_s = after.time_s;
             self.onset = None;
         } else if self.onset.is_none() {
             self.onset = Some(EnergyGain { step: after.step, acted_s, time_s: after.time_s, before_j, after_j });
         }
-        let scale_j = if scale_j > 0.0 { scale_j } else { self.kinetic_max_j };
-        let of_j = start_j.abs().max(self.fall_j);
-        if of_j > 0.0 {
-            self.grown = self.grown.max(after_j / of_j);
+        if after_j <= before_j {
+            return false;
         }
+        let scale_j = kinetic_max_j.max(LEAST * self.fall_j);
+        let scale_j = if scale_j > 0.0 { scale_j } else { self.kinetic_max_j };
         let rounding_j = ROUNDING * (after_j.abs() + before_j.abs() + self.fall_j);
         let is_gain = after_j - before_j > (GAIN * scale_j).max(rounding_j);
         if !is_gain {
@@ -396,6 +416,12 @@ impl Watch {
             format!("gain of energy: {} → {} J, × {}", brief(before_j), brief(after_j), brief(ratio))
         });
         true
+    }
+
+    /// Largest energy, of the start's or of a fall.
+    fn grown(&self) -> f64 {
+        let of_j = self.up_to_now.start_j.abs().max(self.fall_j);
+        if of_j > 0.0 { (self.most_j / of_j).max(0.0) } else { 0.0 }
     }
 
     /// What the judges have found in the step.
@@ -474,8 +500,7 @@ fn touches<'a>(
                 touch.pair.touches = true;
                 touch.pushed += along;
                 if touch.pair.slides {
-                    let (mode, _) = contact_mode(push.into(), contact.normal.into(), contact.friction);
-                    touch.pair.slides = mode != ContactMode::Sticking;
+                    touch.pair.slides = !sticks(push.into(), contact.normal.into(), contact.friction);
                 }
             }
             if !is_new {

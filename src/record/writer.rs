@@ -4,6 +4,8 @@
 //! simulation, the simulation waits; memory stays bounded. A write that fails does not stop the simulation: the first
 //! error is remembered and `finish` returns it.
 
+use super::ahead_file::AheadFile;
+use super::aside::Aside;
 use super::limited::Limited;
 use super::name::RecordingName;
 use super::sample::{Batch, Ending, Event, Header, Streams};
@@ -27,10 +29,25 @@ const QUEUE: usize = 16;
 const AHEAD: Duration = Duration::from_millis(150);
 
 enum Message {
+    Aside(Box<Aside>),
     Batch(Batch),
     Event(Event),
     Finish(Ending),
 }
+
+/// Length and SHA-256 of a file that is complete, added up while it was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileSum {
+    pub target: Target,
+    pub bytes: u64,
+    pub sha256: String,
+}
+
+/// Sums of the files that are complete.
+type Sums = Arc<Mutex<Vec<FileSum>>>;
+
+/// What makes a recorder, on the recording thread.
+type Begin = Box<dyn FnOnce() -> Result<Box<dyn Recorder>, RecordError> + Send>;
 
 /// The batch being filled, and its number: so many were filled before it.
 #[derive(Default)]
@@ -51,6 +68,7 @@ pub struct Writer {
     made: usize,
     full: SyncSender<Message>,
     empty: Receiver<Batch>,
+    sums: Sums,
     thread: Option<JoinHandle<Result<(), RecordError>>>,
 }
 
@@ -60,6 +78,12 @@ impl Writer {
     /// # Errors
     /// The machine has no thread to give.
     pub fn start(sinks: Vec<Box<dyn Recorder>>) -> Result<Writer, RecordError> {
+        let begins = sinks.into_iter().map(|sink| Box::new(|| Ok(sink)) as Begin).collect();
+        Self::begin(begins, Sums::default())
+    }
+
+    /// The same to recorders that begin on that thread: a head may take longer than a short run.
+    fn begin(sinks: Vec<Begin>, sums: Sums) -> Result<Writer, RecordError> {
         let filling = Arc::default();
         let (full, inbox) = sync_channel(QUEUE);
         let (outbox, empty) = sync_channel(BATCHES);
@@ -70,7 +94,12 @@ impl Writer {
                 move || record(sinks, &filling, &inbox, &outbox)
             })
             .map_err(|error| RecordError::new(Path::new("recordings"), format!("no recording thread: {error}")))?;
-        Ok(Writer { filling, made: 1, full, empty, thread: Some(thread) })
+        Ok(Writer { filling, made: 1, full, empty, sums, thread: Some(thread) })
+    }
+
+    /// Lets the thread work out what samples that follow leave to it.
+    pub fn work_aside(&mut self, aside: Aside) {
+        let _ = self.full.send(Message::Aside(Box::new(aside)));
     }
 
     /// Fills the batch: what is given pushes one entry to each column of a stream that is on, for each sample. Sends
@@ -97,14 +126,16 @@ impl Writer {
         let _ = self.full.send(Message::Event(event));
     }
 
-    /// Writes the rest and closes the files. The first error wins, also over the success of other files.
+    /// Writes the rest and closes the files, and says how long each is and what its checksum is. The first error wins,
+    /// also over the success of other files.
     ///
     /// # Errors
     /// The first failure of the machine in any write, or a panic of the recording thread.
-    pub fn finish(mut self, ending: Ending) -> Result<(), RecordError> {
+    pub fn finish(mut self, ending: Ending) -> Result<Vec<FileSum>, RecordError> {
         self.send_batch();
         let _ = self.full.send(Message::Finish(ending));
-        self.join()
+        self.join()?;
+        Ok(std::mem::take(&mut self.sums.lock().unwrap_or_else(PoisonError::into_inner)))
     }
 
     fn send_batch(&mut self) -> bool {
@@ -155,17 +186,25 @@ impl Drop for Writer {
 
 /// The recording thread. A recorder that fails is dropped, the others go on.
 fn record(
-    mut sinks: Vec<Box<dyn Recorder>>,
+    begins: Vec<Begin>,
     filling: &Mutex<Filling>,
     inbox: &Receiver<Message>,
     outbox: &SyncSender<Batch>,
 ) -> Result<(), RecordError> {
     let mut first = Ok(());
+    let mut sinks = Vec::new();
+    for begin in begins {
+        match begin() {
+            Ok(sink) => sinks.push(sink),
+            Err(error) => first = first.and(Err(error)),
+        }
+    }
+    let mut aside: Option<Box<Aside>> = None;
     let mut ahead = Ahead::default();
     let mut due = Instant::now() + AHEAD;
     loop {
         if due <= Instant::now() {
-            ahead.look(filling);
+            ahead.look(filling, aside.as_deref_mut());
             each(&mut sinks, &mut first, |sink| sink.ahead(&ahead.batch));
             due = Instant::now() + AHEAD;
         }
@@ -175,8 +214,12 @@ fn record(
             Err(RecvTimeoutError::Disconnected) => return first,
         };
         match message {
+            Message::Aside(worker) => aside = Some(worker),
             Message::Batch(mut batch) => {
                 ahead.next();
+                if let Some(aside) = &mut aside {
+                    aside.complete(&mut batch);
+                }
                 each(&mut sinks, &mut first, |sink| sink.write(&batch));
                 batch.clear();
                 // There is room for every batch; a simulation that ended does not want it back.
@@ -209,12 +252,16 @@ struct Ahead {
 
 impl Ahead {
     /// Takes what is new in the batch being filled, unless the one before it is still under way.
-    fn look(&mut self, filling: &Mutex<Filling>) {
+    fn look(&mut self, filling: &Mutex<Filling>, aside: Option<&mut Aside>) {
         self.batch.clear();
         let filling = locked(filling);
-        if filling.number == self.written {
+        if filling.number == self.written && (aside.is_some() || !filling.batch.is_raw) {
             self.batch.append_since(&filling.batch, self.shown);
             self.shown = [filling.batch.len(), filling.batch.events.len()];
+        }
+        drop(filling);
+        if let Some(aside) = aside {
+            aside.complete_ahead(&mut self.batch);
         }
     }
 
@@ -284,15 +331,25 @@ impl Target {
 /// # Errors
 /// A file cannot be made, a kind is not in this build, or there is no thread.
 pub fn open(targets: &[Target], dir: &Path, live: Option<u16>, header: &Header) -> Result<Writer, RecordError> {
-    let mut sinks: Vec<Box<dyn Recorder>> = Vec::new();
+    let header = Arc::new(header.clone());
+    let sums = Sums::default();
+    let mut sinks: Vec<Begin> = Vec::new();
     for &target in targets {
         let partial = dir.join(format!("{}{PARTIAL}{}", header.case, target.extension()));
-        let file = create(target, &partial, header)?;
-        let (dir, name) = (dir.to_path_buf(), header.name.clone());
-        sinks.push(Box::new(Renamed { file, target, partial, dir, name }));
+        if !Target::AVAILABLE.contains(&target) {
+            return Err(RecordError::new(&partial, "this build has no Rerun (cargo feature `rerun`)"));
+        }
+        let file = AheadFile::create(&partial).map_err(|error| RecordError::caused(&partial, &error))?;
+        let (dir, header, sums) = (dir.to_path_buf(), Arc::clone(&header), Arc::clone(&sums));
+        sinks.push(Box::new(move || {
+            let recorder = begun(target, file.clone(), &partial, &header)?;
+            Ok(Box::new(Renamed { recorder, file, sums, target, partial, dir, name: header.name.clone() }))
+        }));
     }
-    sinks.extend(live.and_then(|port| in_viewer(port, header)));
-    Writer::start(sinks)
+    if let Some(viewer) = live.and_then(|port| in_viewer(port, &header)) {
+        sinks.push(Box::new(|| Ok(viewer)));
+    }
+    Writer::begin(sinks, sums)
 }
 
 #[cfg(feature = "rerun")]
@@ -306,18 +363,19 @@ fn in_viewer(_: u16, _: &Header) -> Option<Box<dyn Recorder>> {
     None
 }
 
-fn create(target: Target, path: &Path, header: &Header) -> Result<Box<dyn Recorder>, RecordError> {
+/// A recorder of a kind, whose head is in its file.
+fn begun(target: Target, file: AheadFile, path: &Path, header: &Header) -> Result<Box<dyn Recorder>, RecordError> {
     match target {
         Target::Mcap => {
-            let file = super::mcap::McapRecorder::create(path, header)?;
+            let recorder = super::mcap::McapRecorder::begin(file, path, header)?;
             lay_out(path)?;
-            Ok(Box::new(Limited::new(Box::new(file), header)))
+            Ok(Box::new(Limited::new(Box::new(recorder), header)))
         }
         #[cfg(feature = "rerun")]
         Target::Rerun => {
-            let file = super::rerun::RerunRecorder::create(path, header)?;
-            let heads = file.heads();
-            let limited = Limited::new(Box::new(file), header);
+            let recorder = super::rerun::RerunRecorder::in_file(file, path, header)?;
+            let heads = recorder.heads();
+            let limited = Limited::new(Box::new(recorder), header);
             Ok(Box::new(super::gather::Gatherer::new(Box::new(limited), heads)))
         }
         #[cfg(not(feature = "rerun"))]
@@ -340,7 +398,9 @@ fn lay_out(recording: &Path) -> Result<(), RecordError> {
 
 /// Gives a file its name when it is complete and the outcome is known.
 struct Renamed {
-    file: Box<dyn Recorder>,
+    recorder: Box<dyn Recorder>,
+    file: AheadFile,
+    sums: Sums,
     target: Target,
     partial: PathBuf,
     dir: PathBuf,
@@ -349,24 +409,28 @@ struct Renamed {
 
 impl Recorder for Renamed {
     fn write(&mut self, batch: &Batch) -> Result<(), RecordError> {
-        self.file.write(batch)
+        self.recorder.write(batch)
     }
 
     fn event(&mut self, event: &Event) -> Result<(), RecordError> {
-        self.file.event(event)
+        self.recorder.event(event)
     }
 
     fn ahead(&mut self, batch: &Batch) -> Result<(), RecordError> {
-        self.file.ahead(batch)
+        self.recorder.ahead(batch)
     }
 
     fn bytes(&self) -> u64 {
-        self.file.bytes()
+        self.recorder.bytes()
     }
 
     fn finish(self: Box<Self>, ending: &Ending) -> Result<(), RecordError> {
-        self.file.finish(ending)?;
-        let complete = self.target.path(&self.dir, &self.name.ended(ending.outcome));
-        std::fs::rename(&self.partial, &complete).map_err(|error| RecordError::caused(&complete, &error))
+        let Renamed { recorder, file, sums, target, partial, dir, name } = *self;
+        recorder.finish(ending)?;
+        let complete = target.path(&dir, &name.ended(ending.outcome));
+        std::fs::rename(&partial, &complete).map_err(|error| RecordError::caused(&complete, &error))?;
+        let (bytes, sha256) = file.sum();
+        sums.lock().unwrap_or_else(PoisonError::into_inner).push(FileSum { target, bytes, sha256 });
+        Ok(())
     }
 }

@@ -11,7 +11,7 @@ use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use prost::bytes::Bytes;
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
@@ -128,7 +128,10 @@ impl<'a> Table<'a> {
         let columns = self.names().zip(&mut filled).map(|(name, column)| (name, column.finish(), true));
         let batch = RecordBatch::try_from_iter_with_nullable(columns)?;
         let properties = match self.rows.len() {
-            0..FEW => WriterProperties::builder().set_dictionary_enabled(false),
+            0..FEW => {
+                let properties = WriterProperties::builder().set_dictionary_enabled(false);
+                properties.set_statistics_enabled(EnabledStatistics::None).set_offset_index_disabled(true)
+            }
             _ => WriterProperties::builder().set_compression(Compression::ZSTD(ZstdLevel::default())),
         };
         let properties = properties.set_key_value_metadata(Some(self.said_of(plan, hash))).build();

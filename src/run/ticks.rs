@@ -97,7 +97,7 @@ impl<'a> Samples<'a> {
     pub fn show(&mut self, model: &Model, shown: &Shown, judge: &Judge, last: bool) {
         let decides = self.sampler.look(model, shown, judge);
         match shown.way {
-            Some(way) => self.show_way(way, model, shown.after, decides || last),
+            Some(way) => self.show_way(way, model, (shown.after, judge), decides || last),
             None => self.show_step(model, shown, judge, decides || last),
         }
     }
@@ -107,13 +107,14 @@ impl<'a> Samples<'a> {
         self.sampler.count(work, state);
     }
 
-    fn show_way(&mut self, way: &dyn Passage, model: &Model, end: &State, end_is_wanted: bool) {
+    fn show_way(&mut self, way: &dyn Passage, model: &Model, (end, judge): (&State, &Judge), end_is_wanted: bool) {
         while !(self.every_step || end_is_wanted && self.ticks.next_s() == end.time_s) {
             let Some(DueAt { state, .. }) = self.ticks.next(way, model, end) else { break };
-            self.sampler.sample(model, [state, state], way.forces_at(model, state).into_iter(), true);
+            self.sampler.sample(model, [state, state], way.forces_at(model, state).into_iter(), true, None);
         }
         if end_is_wanted || self.every_step {
-            self.sampler.sample(model, [end, end], way.forces_at(model, end).into_iter(), !end_is_wanted);
+            let forces = way.forces_at(model, end).into_iter();
+            self.sampler.sample(model, [end, end], forces, !end_is_wanted, Some(judge));
         }
     }
 
@@ -129,7 +130,7 @@ impl<'a> Samples<'a> {
         if wanted {
             let forces = solved.iter().map(|solved| ContactForce::mean(solved, step_s));
             self.sampler.note(forces.len(), judge);
-            self.sampler.sample(model, [shown.after, acted], forces, due && !end_is_wanted);
+            self.sampler.sample(model, [shown.after, acted], forces, due && !end_is_wanted, Some(judge));
         } else if shown.stalled.is_none() && !shown.is_part() {
             self.sampler.keep([shown.after, acted], (solved, step_s), judge);
         }

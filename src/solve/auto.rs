@@ -3,11 +3,10 @@
 //! (`AFFORDABLE_PRODUCTS`; `rule_of_auto` says it to people).
 //!
 //! One contact alone has a closed solution. From where impulses are near, Newton's method goes on alone, and what
-//! redundant contacts share stays as it was. Few contacts are mostly near after some sweeps; only what is left then goes
-//! the whole way of the exact solver, and so does what slips different ways, as there even shares are a part of the
-//! answer. Islands that are too large, and what the exact
-//! solver is given up at, are left to conjugate gradients, whose starts survive from step to step; where they miss the
-//! tolerance they say so.
+//! redundant contacts share stays as it was. Few contacts are mostly near after some sweeps; only what is left then
+//! goes the whole way of the exact solver, and so does what slips different ways, as there even shares are a part of
+//! the answer. Islands that are too large, and what the exact solver is given up at, are left to conjugate gradients,
+//! whose starts survive from step to step; where they miss the tolerance they say so.
 
 use super::block::Block;
 use super::gauss_seidel::{self, Sweeps};

@@ -10,7 +10,7 @@ use crate::record::RecordError;
 use crate::record::head::header;
 use crate::record::name::RecordingName;
 use crate::record::sampler::Sampler;
-use crate::record::writer::{Target, open};
+use crate::record::writer::{FileSum, Target, open};
 use crate::run::{self, Ended, ticks};
 use crate::state::State;
 use std::path::Path;
@@ -40,8 +40,8 @@ pub struct Studied {
     pub ended: Ended,
     /// Experiment that has run.
     pub chosen: Chosen,
-    /// Failure of the recording, if there was one. A run that cannot be recorded still has its result.
-    pub recorded: Result<(), RecordError>,
+    /// Sums of the files of the recording, or its failure. A run that cannot be recorded still has its result.
+    pub recorded: Result<Vec<FileSum>, RecordError>,
 }
 
 /// Result of an experiment, run from `start` to its end or its divergence.
@@ -58,7 +58,7 @@ pub fn measure(experiment: &Experiment, model: &Model, start: State, place: &Pla
         };
     let Chosen { experiment, method, .. } = &chosen;
     let mut ended = run::run(experiment, method, model, start.clone(), sampler.as_mut(), reference.as_ref());
-    let recorded = opened.and_then(|()| sampler.map_or(Ok(()), Sampler::finish));
+    let recorded = opened.and_then(|()| sampler.map_or(Ok(Vec::new()), Sampler::finish));
     sensitivity::fill(&chosen, model, &start, &mut ended);
     chosen.describe(&mut ended.measured);
     Studied { ended, chosen, recorded }

@@ -6,7 +6,7 @@ use crate::digest::{sha256, sha256_of};
 use crate::experiment::types::{Record, RecordCases};
 use crate::files::FileError;
 use crate::outcome::Outcome;
-use crate::record::writer::Target;
+use crate::record::writer::{FileSum, Target};
 use crate::study::Recording;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -37,15 +37,11 @@ pub struct Sum {
 }
 
 impl Recorded {
-    /// Recording of files that have just been written, of a run that ended so.
-    ///
-    /// # Errors
-    /// They cannot be read.
-    pub fn of(Recording { dir, targets, case, name, .. }: Recording, outcome: Outcome) -> Result<Self, FileError> {
-        let name = name.ended(outcome);
-        let sum = |target: &Target| Ok((target.extension().to_string(), Sum::of(&target.path(dir, &name))?));
-        let files = targets.iter().map(sum).collect::<Result<_, FileError>>()?;
-        Ok(Recorded { recorded: case.id.clone(), build: BUILD.to_string(), shows: shows(case), name, files })
+    /// Recording of files that have just been written, with these sums, of a run that ended so.
+    pub fn of(Recording { case, name, .. }: Recording, outcome: Outcome, sums: Vec<FileSum>) -> Self {
+        let sum = |FileSum { target, bytes, sha256 }| (target.extension().to_string(), Sum { bytes, sha256 });
+        let (name, files) = (name.ended(outcome), sums.into_iter().map(sum).collect());
+        Recorded { recorded: case.id.clone(), build: BUILD.to_string(), shows: shows(case), name, files }
     }
 
     /// The recording with the files of another one that is of the same run and shows the same.

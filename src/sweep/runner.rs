@@ -280,9 +280,9 @@ pub fn build_and_run(planned: &Planned, dir: &Path, targets: &[Target]) -> (Meas
 /// Result of one case, whose recordings are written, and what was recorded.
 pub fn run_case(case: &Case, model: &Model, start: State, place: &Place) -> (Ended, Written) {
     let Studied { ended, recorded, .. } = study::measure(&case.experiment, model, start, place);
-    let of_files = |recording| Recorded::of(recording, ended.measured.outcome);
     let in_files = place.recording.filter(|recording| !recording.targets.is_empty());
-    let written = recorded.map_err(SweepError::from).and_then(|()| Ok(in_files.map(of_files).transpose()?));
+    let of_files = |sums| in_files.map(|recording| Recorded::of(recording, ended.measured.outcome, sums));
+    let written = recorded.map_err(SweepError::from).map(of_files);
     (ended, written)
 }
 

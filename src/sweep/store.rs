@@ -10,7 +10,7 @@ use super::plan::SweepPlan;
 use super::planned::Planned;
 use super::recorded::Recorded;
 use crate::build_info::BUILD;
-use crate::files::{self, FileError, write_whole};
+use crate::files::{self, FileError, write_if_new, write_whole};
 use crate::outcome::Outcome;
 use crate::record::writer::Target;
 use crate::rows::plan_file::PlanFile;
@@ -71,8 +71,8 @@ impl Store {
             done.retain_build();
         }
         let before = read_plan(dir).ok();
-        write_whole(&dir.join(EXPERIMENT), plan.written.as_bytes())?;
-        write_whole(&dir.join(PLAN), &serde_json::to_vec_pretty(&plan.file).unwrap_or_default())?;
+        write_if_new(&dir.join(EXPERIMENT), plan.written.as_bytes())?;
+        write_if_new(&dir.join(PLAN), &serde_json::to_vec_pretty(&plan.file).unwrap_or_default())?;
         Ok(Store { dir: dir.to_path_buf(), plan: plan.file.clone(), order: order(&plan.cases), before, journal, done })
     }
 

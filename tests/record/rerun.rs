@@ -5,7 +5,7 @@ use ::rerun::{ChunkStore, ChunkStoreConfig, StoreKind};
 use gotai::record::Recorder;
 use gotai::record::rerun::RerunRecorder;
 use gotai::record::sample::{Event, Severity, Streams};
-use gotai::record::story::markdown;
+use gotai::record::story::{Decisive, markdown};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufReader;
@@ -84,6 +84,7 @@ fn an_rrd_holds_every_sample() {
         ("/energy/potential", 1000),
         ("/energy/total", 1000),
         ("/log", 1),
+        ("/log/decisive", 2),
         ("/log_energy/gains", 1),
         ("/log_energy/limit", 2),
         ("/log_energy/total", 1000),
@@ -132,7 +133,7 @@ fn streams_that_are_off_leave_no_entity() {
         paths.dedup();
         paths
     };
-    let always = ["/", "/config", "/headline", "/log", "/world", "/world/container", "/world/ground"];
+    let always = ["/", "/config", "/headline", "/log", "/log/decisive", "/world", "/world/container", "/world/ground"];
     assert_eq!(entities(NONE), always);
     fn with(always: &[&str], more: &[impl AsRef<str>]) -> Vec<String> {
         let more = more.iter().map(|path| path.as_ref().to_owned());
@@ -160,6 +161,25 @@ fn streams_that_are_off_leave_no_entity() {
         "/penetration",
     ];
     assert_eq!(entities(Streams { energy: true, ..NONE }), with(&always, &energy));
+}
+
+#[test]
+fn decisive_instants_stand_in_the_log() {
+    let dir = crate::scratch::folder();
+    let path = dir.path().join("a.rrd");
+    record(&path, 10, ALL);
+    let store = read(&path);
+    let texts: String = store
+        .iter_physical_chunks()
+        .filter(|chunk| chunk.entity_path().to_string() == "/log/decisive")
+        .map(|chunk| format!("{} rows: {:?}", chunk.num_rows(), chunk.components()))
+        .collect();
+    let turns = s::ending().story.turns;
+    let decisive: Vec<_> = turns.iter().filter(|turn| turn.what != Decisive::End).collect();
+    assert!(!decisive.is_empty() && texts.starts_with(&format!("{} rows", decisive.len())), "{texts}");
+    for turn in decisive {
+        assert!(texts.contains(turn.what.name()) && texts.contains(&turn.text), "{texts}");
+    }
 }
 
 #[test]

@@ -71,6 +71,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "state",
             "clock",
             "files",
+            "digest",
             "build_info",
             "panics",
         ],

@@ -83,14 +83,14 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
     let ids: Vec<&str> = cases.iter().map(|case| case.header.case.as_str()).collect();
     let store = StoreId::recording(application.clone(), format!("{} {}", ids.join(" "), first.header.build));
     let mut stream = Statics::new(store.clone());
-    stream.begin()?;
+    stream.begin(&format!("{differing}: {}", labels.join(", ")))?;
     let room = drawn.iter().filter_map(Drawn::room).reduce(Room::with);
     let camera = room.and_then(|room| camera_on(&first.header, room)).map(|camera| Camera {
         // One of several bodies cannot be gone along with.
         follows: false,
         ..camera
     });
-    let contacts = drawn.iter().map(|case| case.seen.contacts.most).fold(1.0, f64::max);
+    let contacts = layout::marked(drawn.iter().map(|case| case.seen.contacts.most).fold(1.0, f64::max));
     let opening = Opening {
         application,
         eye: layout::eye(&first.header, camera),
@@ -107,7 +107,6 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
         stretch_s: stretch_s(cases),
     };
 
-    stream.name(&format!("{differing}: {}", labels.join(", ")))?;
     stream.log("/", &ViewCoordinates::RIGHT_HAND_Y_UP())?;
     stream.log(WORLD, &ViewCoordinates::RIGHT_HAND_Y_UP())?;
     let scale = scale(&first.header);

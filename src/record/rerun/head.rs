@@ -63,7 +63,7 @@ pub fn messages(
 ) -> Result<(StoreId, Vec<LogMsg>), Box<dyn Error>> {
     let store = store(header)?;
     let mut stream = Statics::new(store.clone());
-    stream.begin()?;
+    stream.begin(&header.name.begun())?;
     describe(header, &mut stream, is_live)?;
     if header.streams.bodies {
         for DrawnBodies { path, bodies, colour } in bodies {
@@ -137,7 +137,6 @@ fn store(header: &Header) -> Result<StoreId, Box<dyn Error>> {
 }
 
 fn describe(header: &Header, stream: &mut Statics, is_live: bool) -> Appended {
-    stream.name(&header.name.begun())?;
     // A path is never empty, which is all that is asked of a name.
     let named = header.axes.iter().filter_map(|(path, value)| Some((ComponentIdentifier::try_new(path).ok()?, value)));
     let axes = named.fold(AnyValues::default(), |run, (field, value)| match value.as_f64() {

@@ -24,6 +24,8 @@ const MEASURES: [(&str, &str); 10] = [
 
 /// Growth of the energy from which a run that ends is one that has exploded.
 const GROWN: f64 = 10.0;
+/// Rise of the energy, of the scale S of a row, from which a run without a gain in a single step is said to creep up.
+const CREPT: f64 = 1e-3;
 
 /// Contacts that are listed of a step, and rows of A that are shown.
 const MOST_SHOWN: usize = 24;
@@ -57,10 +59,12 @@ fn title(ending: &Ending) -> String {
     let growth = ending.row.get("energy_growth_max").and_then(Value::as_f64);
     match (ending.outcome, ending.criterion.as_deref()) {
         (Outcome::Finished, _) => {
-            let gains = match ending.story.gains_count {
-                0 => "no step gains energy".to_string(),
-                1 => "one step gains energy".to_string(),
-                n => format!("{n} steps gain energy"),
+            let rise = ending.row.get("energy_rise_max_rel").and_then(Value::as_f64).filter(|rise| *rise > CREPT);
+            let gains = match (ending.story.gains_count, rise) {
+                (0, Some(rise)) => format!("energy creeps up by {} S", brief(rise)),
+                (0, None) => "no step gains energy".to_string(),
+                (1, _) => "one step gains energy".to_string(),
+                (n, _) => format!("{n} steps gain energy"),
             };
             match growth.filter(|growth| *growth > GROWN) {
                 Some(growth) => format!("Finished at {at}: energy {} × the start, {gains}", brief(growth)),

@@ -3,29 +3,25 @@
 //! It is written twice: at the head for a recording that is cut, and, since a story is known at its end, with the end.
 //! The viewer takes the last.
 
+use super::arrangement::{self, Piece, Several, Shows, View};
 use super::camera::{Camera, rounded, scale, spacing_m};
 use super::names::{
     CONFIG, CONTACT_COUNT, CONTACT_FORCE, ENERGY, FLIGHT, FRICTION_USE, HEADLINE, LOG, LOG_ENERGY, PENETRATION,
     SIM_TIME, application, followed_path,
 };
 use super::seen::{Between, Seen};
-use super::statics::Statics;
 use crate::record::sample::{Ending, Header, norm};
 use crate::record::schema;
-use ::rerun::blueprint::{
-    Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, Tabs,
-    TextDocumentView, TextLogView, TimePanel, TimeSeriesView, Vertical,
-};
+use ::rerun::ApplicationId;
 use ::rerun::components::{Color, Plane3D, Range1D};
-use ::rerun::external::re_log_types::TimeInt;
 use ::rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, EyeControls3D, LineGrid3D, PlotLegend, ScalarAxis, TimeAxis,
+    Background, EyeControls3D, LineGrid3D, PlotLegend, ScalarAxis, TimeAxis, TimePanelBlueprint,
 };
 use ::rerun::external::re_sdk_types::blueprint::components::{
-    BackgroundKind, Corner2D, LinkAxis, LoopMode, PanelState, PlayState,
+    BackgroundKind, Corner2D, LinkAxis, LoopMode, PanelState, PlayState, PlaybackSpeed, TimelineName,
 };
+use ::rerun::external::re_sdk_types::datatypes::{AbsoluteTimeRange, Float64};
 use ::rerun::log::LogMsg;
-use ::rerun::{ApplicationId, AsComponents, RecordingStreamBuilder, StoreId};
 use std::error::Error;
 
 /// What a layout is made for that comes with the end: the end, what was seen, the camera.
@@ -98,120 +94,72 @@ impl Opening {
     /// Rerun's own.
     pub fn messages(self) -> Result<Vec<LogMsg>, Box<dyn Error>> {
         let Opening { application, eye, grid, energy, contacts, has_config, has_flight, stretch_s } = self;
-        let mut properties = Properties::default();
-        let scene: ContainerLike = Spatial3DView::new("scene").with_origin("/").with_contents(["+ /world/**"]).into();
+        let mut scene = View::new(Shows::Scene, "scene", "/").of("+ /world/**");
         let [r, g, b] = BACKGROUND;
         let background = Background::new(BackgroundKind::SolidColor).with_color(Color::from_rgb(r, g, b));
-        properties.add(&scene, "Background", background);
+        scene.add("Background", background);
         if let Some(eye) = eye {
-            properties.add(&scene, "EyeControls3D", eye);
+            scene.add("EyeControls3D", eye);
         }
-        properties.add(&scene, "LineGrid3D", grid);
-        let mut view = |plot: Plot| {
-            let view: ContainerLike = TimeSeriesView::new(plot.name).with_origin(plot.path).into();
-            let legend = PlotLegend::new().with_visible(plot.legend.is_some());
-            let legend = plot.legend.into_iter().fold(legend, PlotLegend::with_corner);
-            properties.add(&view, "PlotLegend", legend);
-            properties.add(&view, "TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
-            if let Some([low, high]) = plot.range {
-                properties.add(&view, "ScalarAxis", ScalarAxis::new().with_range(Range1D::new(low, high)));
-            }
-            view
+        scene.add("LineGrid3D", grid);
+        let energy = energy.map(plot_view);
+        let contacts: Vec<Piece> = contacts.into_iter().map(plot_view).collect();
+        let root = arranged(scene.into(), energy, contacts, [has_config, has_flight]);
+        let time = TimePanelBlueprint::new().with_timeline(TimelineName(SIM_TIME.into()));
+        let time = time.with_state(PanelState::Collapsed);
+        let time = match stretch_s {
+            Some(stretch_s) => played(time, stretch_s),
+            None => time,
         };
-        let energy = energy.map(&mut view);
-        let contacts: Vec<_> = contacts.into_iter().map(&mut view).collect();
-
-        // The public interface only sends a layout through a recording's stream; the recording is thrown away.
-        let (stream, memory) = RecordingStreamBuilder::new(application).enabled(true).memory()?;
-        blueprint(scene, energy, contacts, [has_config, has_flight], stretch_s)
-            .send(&stream, BlueprintActivation::default())?;
-        let mut messages = memory.take();
-        let recording = memory.store_id();
-        messages.retain(|message| Some(message.store_id()) != recording.as_ref());
-
-        // The activation ends a layout; whatever comes later is not part of it.
-        let last = messages.iter().rposition(|message| matches!(message, LogMsg::BlueprintActivationCommand(_)));
-        if let Some(last) = last {
-            let store = messages[last].store_id().clone();
-            messages.splice(last..last, properties.messages(&store)?);
-        }
-        Ok(messages)
+        arrangement::messages(application, &root, &time)
     }
 }
 
-/// Properties of views that the public interface has no words for: camera, legend.
-#[derive(Default)]
-struct Properties(Vec<(String, Box<dyn AsComponents>)>);
-
-impl Properties {
-    fn add(&mut self, view: &ContainerLike, name: &str, value: impl AsComponents + 'static) {
-        if let ContainerLike::View(view) = view {
-            self.0.push((format!("{}/{name}", view.blueprint_path()), Box::new(value)));
-        }
+fn plot_view(plot: Plot) -> Piece {
+    let mut view = View::new(Shows::Series, plot.name, plot.path);
+    let legend = PlotLegend::new().with_visible(plot.legend.is_some());
+    view.add("PlotLegend", plot.legend.into_iter().fold(legend, PlotLegend::with_corner));
+    view.add("TimeAxis", TimeAxis::new().with_link(LinkAxis::LinkToGlobal));
+    if let Some([low, high]) = plot.range {
+        view.add("ScalarAxis", ScalarAxis::new().with_range(Range1D::new(low, high)));
     }
-
-    /// Messages of the layout's store.
-    fn messages(&self, store: &StoreId) -> Result<Vec<LogMsg>, Box<dyn Error>> {
-        let mut stream = Statics::of_layout(store.clone());
-        for (path, value) in &self.0 {
-            stream.log(path.as_str(), value.as_ref())?;
-        }
-        Ok(stream.messages())
-    }
+    view.into()
 }
 
-fn blueprint(
-    scene: ContainerLike,
-    energy: Option<ContainerLike>,
-    contacts: Vec<ContainerLike>,
-    [has_config, has_flight]: [bool; 2],
-    stretch_s: Option<[f64; 2]>,
-) -> Blueprint {
-    let mut notes: Vec<ContainerLike> = vec![TextLogView::new("events").with_origin(LOG).into()];
+fn arranged(scene: Piece, energy: Option<Piece>, contacts: Vec<Piece>, [has_config, has_flight]: [bool; 2]) -> Several {
+    let mut notes: Vec<Piece> = vec![View::new(Shows::Log, "events", LOG).into()];
     if has_flight {
-        notes.push(TextDocumentView::new("largest gain").with_origin(FLIGHT).into());
+        notes.push(View::new(Shows::Document, "largest gain", FLIGHT).into());
     }
     if has_config {
-        notes.push(TextDocumentView::new("configuration").with_origin(CONFIG).into());
+        notes.push(View::new(Shows::Document, "configuration", CONFIG).into());
     }
-    let notes = Tabs::new(notes);
-    let left = Vertical::new([scene, notes.into()]).with_row_shares([3.2, 1.0]);
-    let headline: ContainerLike = TextDocumentView::new("what happened").with_origin(HEADLINE).into();
-    let mut right = vec![headline];
+    let left = Several::above(vec![scene, Several::tabs(notes).into()], vec![3.2, 1.0]);
+    let mut right: Vec<Piece> = vec![View::new(Shows::Document, "what happened", HEADLINE).into()];
     let mut shares = vec![2.4];
     if let Some(energy) = energy {
         right.push(energy);
         shares.push(1.8);
     }
     if !contacts.is_empty() {
-        right.push(Tabs::new(contacts).into());
+        right.push(Several::tabs(contacts).into());
         shares.push(1.2);
     }
-    let right = Vertical::new(right).with_row_shares(shares);
-    let root = Horizontal::new([left.into(), right.into()]).with_column_shares([1.05, 1.0]);
-    let time = TimePanel::new().with_timeline(SIM_TIME).with_state(PanelState::Collapsed);
-    Blueprint::new(root)
-        .with_auto_views(false)
-        .with_auto_layout(false)
-        .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
-        .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
-        .with_time_panel(match stretch_s {
-            Some(stretch_s) => played(time, stretch_s),
-            None => time,
-        })
+    let right = Several::above(right, shares);
+    Several::beside(vec![left.into(), right.into()], vec![1.05, 1.0])
 }
 
 /// Plays the decisive stretch again and again, in a few seconds.
-fn played(time: TimePanel, [from_s, to_s]: [f64; 2]) -> TimePanel {
+fn played(time: TimePanelBlueprint, [from_s, to_s]: [f64; 2]) -> TimePanelBlueprint {
     let length_s = to_s - from_s;
     if length_s.is_nan() || length_s <= 0.0 {
         return time;
     }
-    let at = |time_s: f64| TimeInt::new_temporal(i64::try_from(schema::time_ns(time_s)).unwrap_or(i64::MAX));
+    let at = |time_s: f64| i64::try_from(schema::time_ns(time_s)).unwrap_or(i64::MAX).into();
     let speed = round_speed(length_s / PLAYED_S);
-    time.with_time_selection(at(from_s)..=at(to_s))
+    time.with_time_selection(AbsoluteTimeRange { min: at(from_s), max: at(to_s) })
         .with_loop_mode(LoopMode::Selection)
-        .with_playback_speed(speed)
+        .with_playback_speed(PlaybackSpeed(Float64(speed)))
         .with_play_state(PlayState::Playing)
 }
 
@@ -278,10 +226,21 @@ fn contact_plots(header: &Header, known: Option<Known<'_>>) -> Vec<Plot> {
             // From nothing up; the friction that one wrong contact uses has no end.
             let most = |seen: Between| if path == FRICTION_USE { seen.most.min(2.0) } else { seen.most };
             // A little below nothing: the mark of zero is clear of the time below it.
-            let range = seen.map(|seen| [-BELOW, 1.08].map(|part| part * most(seen).max(floor)));
+            let range = seen.map(|seen| [-BELOW, 1.08].map(|part| part * marked(most(seen).max(floor))));
             Plot { name: name.to_string(), path, range, legend: None }
         })
         .collect()
+}
+
+/// The end of an axis from nothing to here, with a mark on it: a low plot has marks at powers of ten, and between them
+/// where there is room.
+pub fn marked(end: f64) -> f64 {
+    const ROOM: f64 = 4.5;
+    if !(end.is_finite() && end > 0.0) {
+        return end;
+    }
+    let power = libm::exp10(libm::floor(libm::log10(end)));
+    if end > ROOM * power { 10.0 * power } else { end }
 }
 
 /// A range of at least this height.

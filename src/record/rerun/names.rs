@@ -48,6 +48,8 @@ pub const CONTACT_COUNT: &str = "/contact/count";
 pub const CONTACT_FORCE: &str = "/contact/force";
 pub const FRICTION_USE: &str = "/contact/friction_use";
 pub const LOG: &str = "/log";
+/// Instants that decide, in the log: a click on the time of one goes there, as no link of a page can.
+pub const DECISIVE: &str = "/log/decisive";
 pub const HEADLINE: &str = "/headline";
 pub const CONFIG: &str = "/config";
 pub const FLIGHT: &str = "/largest_gain";

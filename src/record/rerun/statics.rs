@@ -26,15 +26,21 @@ impl Statics {
         Statics { at, ..Statics::new(store) }
     }
 
-    /// What opens a recording: its store, and when it was made.
-    pub fn begin(&mut self) -> Appended {
+    /// What comes first in a store.
+    pub fn open(&mut self) {
         let source = StoreSource::Other("gotai".to_owned());
         let info = StoreInfo::new(self.store.clone(), source);
         self.messages.push(LogMsg::SetStoreInfo(SetStoreInfo { row_id: *RowId::new(), info }));
-        self.log(EntityPath::properties(), &RecordingInfo::update_fields().with_start_time(Timestamp::now()))
     }
 
-    /// A name that the viewer lists the recording by.
+    /// What opens a recording: its store, when it was made, and a name that the viewer lists it by.
+    pub fn begin(&mut self, name: &str) -> Appended {
+        self.open();
+        self.log(EntityPath::properties(), &RecordingInfo::update_fields().with_start_time(Timestamp::now()))?;
+        self.name(name)
+    }
+
+    /// A name, in the place of the one before.
     pub fn name(&mut self, name: &str) -> Appended {
         self.log(EntityPath::properties(), &RecordingInfo::update_fields().with_name(name))
     }

@@ -7,6 +7,7 @@ mod coupling;
 pub mod end;
 pub mod exact_contact;
 pub mod gauss_seidel;
+pub mod given;
 pub mod impact;
 mod impulse;
 mod interior;

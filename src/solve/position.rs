@@ -132,8 +132,7 @@ impl Push {
         accounts.clear();
         accounts.resize(model.bodies.len(), Account::default());
         for contact in joining() {
-            let is_held = contact.other.is_none() || contact.ends().any(|(i, ..)| model.bodies[i].driven);
-            accounts[islands.of(model, &contact)].is_held |= is_held;
+            accounts[islands.of(model, &contact)].is_held |= contact.is_fixed(model);
         }
         for pin in &model.pins {
             accounts[first[pin.body]].is_held = true;

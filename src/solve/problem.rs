@@ -178,9 +178,8 @@ impl ContactProblem {
         if self.blocks.iter().all(|block| block.meant || block.friction == 0.0) {
             return false;
         }
-        let twice = |(block, p): (&Block, &Impulse)| {
-            (p.dot(&(block.before + block.after(u))), p.norm() * block.before.norm())
-        };
+        let twice =
+            |(block, p): (&Block, &Impulse)| (p.dot(&(block.before + block.after(u))), p.norm() * block.before.norm());
         let mut given = Given::with_capacity(self.bodies);
         given.add_up(model, contacts, self.blocks.iter().zip(impulses).map(twice));
         let mut any = false;

@@ -9,7 +9,7 @@ use super::Impulse;
 use super::block::Block;
 use super::coupling::{Dense, Memory, ThroughBodies};
 use super::end::{End, Inertia};
-use super::given::Given;
+use super::gains::Gains;
 use super::pins::Pin;
 use super::speeds::Speeds;
 use super::twist::Twist;
@@ -180,7 +180,7 @@ impl ContactProblem {
         }
         let twice =
             |(block, p): (&Block, &Impulse)| (p.dot(&(block.before + block.after(u))), p.norm() * block.before.norm());
-        let mut given = Given::with_capacity(self.bodies);
+        let mut given = Gains::with_capacity(self.bodies);
         given.add_up(model, contacts, self.blocks.iter().zip(impulses).map(twice));
         let mut any = false;
         for (block, contact) in self.blocks.iter_mut().zip(contacts) {

@@ -1,11 +1,11 @@
-//! Gaps that an iteration opens under what it holds.
+//! Gaps and depths that an iteration makes under what it holds.
 //!
 //! Sweeps that end before they have settled leave some velocity at contacts that press, and that opens gaps. If such a
 //! gap had to close within a step, impulses would follow places. An iteration takes many steps to mend a slow mode of
 //! its bodies, and what then follows places swings further and further: a stack of 20 cubes at 4 ms swayed by 0.25 m
-//! within a minute, fed by the height that it lost and was given back. It comes to rest where gaps close more slowly than
-//! the slowest mode is mended, and where as much depth is left as bodies sink by before the sweeps have found what holds
-//! them: so that they press on all their contacts.
+//! within a minute, fed by the height that it lost and was given back. It comes to rest where gaps close more slowly
+//! than the slowest mode is mended, and where as much depth is left as bodies sink by before the sweeps have found what
+//! holds them: so that they press on all their contacts.
 
 use crate::collide::Contact;
 use crate::solve::Impulse;

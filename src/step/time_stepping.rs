@@ -48,6 +48,9 @@ const MOST_SOLVES: u32 = 6;
 /// Residual up to which impulses that are no solution are near enough to one to tell what friction is against.
 const NEAR: f64 = 1e-6;
 
+/// A residual from which sweeps have ended far from a solution.
+const FAR: f64 = 1e-3;
+
 /// A way in a step, of the least width of all bodies, or a turn in radians, from which bodies are looked at before a
 /// step whose kick is half-way.
 const FAST: f64 = 0.25;
@@ -99,9 +102,9 @@ pub struct TimeStepping {
     flight: u64,
     turning: Turning,
     rebounds: Rebounds,
-    /// The solver's impulses have settled, of this step as far as it is solved and of the last one.
-    is_settled: bool,
-    was_settled: bool,
+    /// Sweeps have ended far from a solution, of this step as far as it is solved and of the last one.
+    is_far: bool,
+    was_far: bool,
     /// The last step was left when time was up.
     pub(super) is_cut: bool,
     pub(super) scratch: Scratch,
@@ -154,8 +157,8 @@ impl TimeStepping {
             flight: 0,
             turning: Turning::with_capacity(scratch.free.capacity()),
             rebounds: Rebounds::default(),
-            is_settled: true,
-            was_settled: true,
+            is_far: false,
+            was_far: false,
             is_cut: false,
             scratch,
         }
@@ -356,7 +359,7 @@ impl TimeStepping {
 
     fn take_solution(&mut self) {
         std::mem::swap(&mut self.last, &mut self.solved);
-        self.was_settled = self.is_settled;
+        self.was_far = self.is_far;
         self.last_pins.clear();
         self.last_pins.extend_from_slice(&self.scratch.impulses[self.scratch.found.len()..]);
         self.scratch.take_solution();
@@ -400,7 +403,7 @@ impl TimeStepping {
         let through = (self.approach, step_s);
         self.turning.ask(model, after, s, through);
         warm_start(&s.found, &s.problem, &self.last, &mut s.impulses);
-        if !self.was_settled && !is_half_way && self.solver.is_iteration() {
+        if self.was_far && !is_half_way {
             close_slowly(&mut s.problem, &s.found, &s.impulses, step_s);
         }
         if !self.solved.is_empty() {
@@ -427,6 +430,8 @@ impl TimeStepping {
             }
             settled = false;
         }
+        self.is_far =
+            !settled && self.solver.is_iteration() && strict_residual(&s.problem, &s.impulses, &s.response) > FAR;
         if !settled {
             self.is_cut |= self.sweeps.deadline.is_over();
             s.work.unsolved += 1;
@@ -434,7 +439,6 @@ impl TimeStepping {
             // That is seen here, at the end, alone: a stack needs such a start when it has just been held too well.
             s.problem.take_back(&mut s.impulses, &s.response);
         }
-        self.is_settled = settled;
         if let Some((blow, _)) = struck {
             s.problem.take_off(&blow.response);
             s.impulses.iter_mut().zip(&blow.impulses).for_each(|(p, blow)| *p += blow);
@@ -453,8 +457,7 @@ impl TimeStepping {
         let free = is_half_way.then_some(&s.free[..]);
         let taken_j = |taken: &mut Vec<f64>| s.problem.taken_j(state, free, (&s.impulses, &s.response), taken);
         let through = (&s.impulses[..], &s.response[..], step_s);
-        let is_unfinished = !self.is_settled && self.solver.is_iteration();
-        let left_m = |contact: &Contact| if is_unfinished { left_m(contact, state, &s.free, step_s) } else { 0.0 };
+        let left_m = |contact: &Contact| if self.is_far { left_m(contact, state, &s.free, step_s) } else { 0.0 };
         self.position_correction == PositionCorrection::Projection
             && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg), left_m, &mut s.work)
     }

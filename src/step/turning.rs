@@ -15,7 +15,7 @@ use crate::collide::approach::Approach;
 use crate::collide::{Contact, SolvedContact};
 use crate::model::Model;
 use crate::model::pins::Anchor;
-use crate::solve::given::Given;
+use crate::solve::gains::Gains;
 use crate::solve::missed::strict_residual;
 use crate::solve::twist::Twist;
 use crate::state::State;
@@ -38,7 +38,7 @@ pub(super) struct Turning {
     pressed: Vec<u32>,
     /// Of every body: its contacts are to know nothing of it in this step.
     is_left_out: Vec<bool>,
-    given: Given,
+    given: Gains,
 }
 
 /// What there is left of contacts after a blow, and what that did to the bodies.
@@ -50,7 +50,7 @@ impl Turning {
         Turning {
             pressed: Vec::with_capacity(bodies),
             is_left_out: Vec::with_capacity(bodies),
-            given: Given::with_capacity(bodies),
+            given: Gains::with_capacity(bodies),
             ..Turning::default()
         }
     }

@@ -9,16 +9,16 @@ const NOTHING: f64 = 1e-13;
 
 /// What the contacts of every island give, kept from step to step to spare the allocator.
 #[derive(Clone, Debug, Default)]
-pub struct Given {
+pub struct Gains {
     islands: Islands,
     /// Of every island by its first body: what its contacts give, and the size of what it is made of.
     of: Vec<(f64, f64)>,
 }
 
-impl Given {
+impl Gains {
     /// With room for so many bodies.
     pub fn with_capacity(bodies: usize) -> Self {
-        Given { islands: Islands::with_capacity(bodies), of: Vec::with_capacity(bodies) }
+        Gains { islands: Islands::with_capacity(bodies), of: Vec::with_capacity(bodies) }
     }
 
     /// Adds up what contacts give: of each the energy, or any multiple of it that all have, and the size of its terms.

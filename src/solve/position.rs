@@ -89,8 +89,7 @@ impl Push {
         contacts: &[Contact],
         model: &Model,
         (impulses, response, step_s): (&[Impulse], &[Twist], f64),
-        (taken_j, lost_j_kg): (impl FnOnce(&mut Vec<f64>), f64),
-        left_m: impl Fn(&Contact) -> f64,
+        (taken_j, lost_j_kg, left_m): (impl FnOnce(&mut Vec<f64>), f64, impl Fn(&Contact) -> f64),
         work: &mut Work,
     ) -> bool {
         let wanted_m = |block: &Block, contact: &Contact| {

@@ -1,11 +1,11 @@
 //! Rebounds that are not due: of a contact whose gap the free motion would close within the step, and that another
 //! impulse of the same step sends away first.
 //!
-//! A step knows no order in time. Where a body comes at a floor and a wall, both gaps close by its free motion, and both
-//! would send it back, though after the floor's impulse it never comes to the wall. So what rebounds at a gap that is
-//! not closed yet is moved on with all impulses but its own: if its gap stays open, it is no impact of this step, and
-//! the step is solved again without its restitution. Of several such contacts that keep each other open the one whose
-//! gap closes last is left out first, as it would come last. What then presses all the same does rebound.
+//! A step knows no order in time. Where a body comes at a floor and a wall, both gaps close by its free motion, and
+//! both would send it back, though after the floor's impulse it never comes to the wall. So what rebounds at a gap that
+//! is not closed yet is moved on with all impulses but its own: if its gap stays open, it is no impact of this step,
+//! and the step is solved again without its restitution. Of several such contacts that keep each other open the one
+//! whose gap closes last is left out first, as it would come last. What then presses all the same does rebound.
 
 use super::scratch::Scratch;
 use crate::collide::closed::{is_closed_to_rounding, rounding_m};

@@ -459,7 +459,7 @@ impl TimeStepping {
         let through = (&s.impulses[..], &s.response[..], step_s);
         let left_m = |contact: &Contact| if self.is_far { left_m(contact, state, &s.free, step_s) } else { 0.0 };
         self.position_correction == PositionCorrection::Projection
-            && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg), left_m, &mut s.work)
+            && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg, left_m), &mut s.work)
     }
 }
 

@@ -19,6 +19,7 @@
 use super::exchange::{Exchange, Met, Motion, Moved};
 use super::push::relative;
 use crate::collide::approach::{Approach, NormalMotion};
+use crate::collide::closed::is_closed_to_rounding;
 use crate::collide::lasting::{Hold, Lasting};
 use crate::collide::{Contact, Key, SolvedContact};
 use crate::model::Model;
@@ -112,7 +113,14 @@ impl<'a> Seen<'a> {
             return missed(self);
         }
         let motion = NormalMotion { turning: 0.0, ..self.motion };
-        missed(self).min(missed(&Seen { motion, ..*self }))
+        let found = missed(self).min(missed(&Seen { motion, ..*self }));
+        // A gap that stays open, as other impulses part the bodies first, has nothing to send back.
+        let is_open = self.through.0 == Approach::Start && !is_closed_to_rounding(self.model, self.contact);
+        if is_open && *impulse_W == Vector3::zeros() && self.strikes() {
+            let contact = &Contact { restitution: 0.0, tangential_restitution: 0.0, ..*self.contact };
+            return found.min(missed(&Seen { contact, ..*self }));
+        }
+        found
     }
 
     /// Friction is against the velocity after, where a contact lasts against the mean.

@@ -6,6 +6,7 @@ pub mod block;
 mod coupling;
 pub mod end;
 pub mod exact_contact;
+pub mod gains;
 pub mod gauss_seidel;
 pub mod impact;
 mod impulse;

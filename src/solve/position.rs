@@ -81,19 +81,20 @@ impl Push {
 
     /// Finds every body's displacement; false if no contact will be inside (then `moved` means nothing). `response`:
     /// what the impulses did to the velocities, which last until the next step's contacts are seen. `taken_j`: what
-    /// every contact of this step took; `lost_j_kg`: what every body has lost beside that.
+    /// every contact of this step took; `lost_j_kg`: what every body has lost beside that. `left_m`: a depth that is
+    /// left to a contact.
     pub fn find(
         &mut self,
         problem: &ContactProblem,
         contacts: &[Contact],
         model: &Model,
         (impulses, response, step_s): (&[Impulse], &[Twist], f64),
-        (taken_j, lost_j_kg): (impl FnOnce(&mut Vec<f64>), f64),
+        (taken_j, lost_j_kg, left_m): (impl FnOnce(&mut Vec<f64>), f64, impl Fn(&Contact) -> f64),
         work: &mut Work,
     ) -> bool {
         let wanted_m = |block: &Block, contact: &Contact| {
             let moves_m = step_s * (block.velocity(response).x + block.least + block.turning);
-            let inside_m = -(contact.gap_m + moves_m.max(0.0)) - block.swing(step_s);
+            let inside_m = -(contact.gap_m + moves_m.max(0.0)) - block.swing(step_s) - left_m(contact);
             let is_pushed = contact.restitution < 1.0 && inside_m > rounding_m(model, contact);
             let at_once_m = SHALLOW * size_m(model, contact);
             if is_pushed { inside_m.min(at_once_m.max(PART * inside_m)) } else { -(contact.gap_m + moves_m).max(0.0) }
@@ -132,8 +133,7 @@ impl Push {
         accounts.clear();
         accounts.resize(model.bodies.len(), Account::default());
         for contact in joining() {
-            let is_held = contact.other.is_none() || contact.ends().any(|(i, ..)| model.bodies[i].driven);
-            accounts[islands.of(model, &contact)].is_held |= is_held;
+            accounts[islands.of(model, &contact)].is_held |= contact.is_fixed(model);
         }
         for pin in &model.pins {
             accounts[first[pin.body]].is_held = true;

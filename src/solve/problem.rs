@@ -9,12 +9,12 @@ use super::Impulse;
 use super::block::Block;
 use super::coupling::{Dense, Memory, ThroughBodies};
 use super::end::{End, Inertia};
+use super::gains::Gains;
 use super::pins::Pin;
 use super::speeds::Speeds;
 use super::twist::Twist;
 use crate::collide::Contact;
 use crate::collide::approach::Approach;
-use crate::collide::islands::Islands;
 use crate::collide::lasting::Hold;
 use crate::model::Model;
 use crate::state::State;
@@ -40,9 +40,6 @@ const DENSE: usize = 32;
 /// Part of the impulses of a step that counts though they cancel: a light body under one that is up to 10⁴ times as
 /// heavy is solved by its own weight (as the judge has it, `measure::exchange`).
 const CANCELLING: f64 = 1e-4;
-
-/// Energy that contacts give, of the sizes of impulses and velocities: rounding.
-const GIVES_NOTHING: f64 = 1e-13;
 
 impl ContactProblem {
     pub fn with_capacity(contacts: usize, bodies: usize) -> Self {
@@ -188,19 +185,14 @@ impl ContactProblem {
         if self.blocks.iter().all(|block| block.meant || block.friction == 0.0) {
             return false;
         }
-        let mut islands = Islands::with_capacity(self.bodies);
-        islands.find(model, contacts.iter().copied());
-        // What an island gets, and of that what is rounding.
-        let mut given = vec![(0.0, 0.0); self.bodies];
-        for ((block, contact), p) in self.blocks.iter().zip(contacts).zip(impulses) {
-            let (of, both) = (&mut given[islands.of(model, contact)], block.before + block.after(u));
-            *of = (of.0 + p.dot(&both), of.1 + p.norm() * block.before.norm());
-        }
+        let twice =
+            |(block, p): (&Block, &Impulse)| (p.dot(&(block.before + block.after(u))), p.norm() * block.before.norm());
+        let mut given = Gains::with_capacity(self.bodies);
+        given.add_up(model, contacts, self.blocks.iter().zip(impulses).map(twice));
         let mut any = false;
         for (block, contact) in self.blocks.iter_mut().zip(contacts) {
-            let (given, size) = given[islands.of(model, contact)];
             let is_free = !block.meant && block.friction > 0.0 && (block.hold.is_some() || block.least <= 0.0);
-            if given > GIVES_NOTHING * size && is_free {
+            if is_free && given.to_island_of(model, contact) {
                 block.mean(true);
                 any = true;
             }

@@ -54,6 +54,11 @@ impl ContactSolver {
         }
     }
 
+    /// Whether impulses get nearer and nearer to the law from step to step, and need not obey it after any.
+    pub fn is_iteration(&self) -> bool {
+        matches!(self, ContactSolver::Pgs(_) | ContactSolver::Nncg(_))
+    }
+
     /// Improves `p`. Whether it is solved, or has settled.
     pub fn solve(&mut self, problem: &ContactProblem, sweeps: &Sweeps, p: &mut [Impulse], work: &mut Work) -> bool {
         let start = Start::new(problem, p, &mut self.u);

@@ -6,7 +6,6 @@ use crate::collide::Contact;
 use crate::collide::approach::{Approach, NormalMotion};
 use crate::collide::closed::is_closed_to_rounding;
 use crate::collide::islands::Islands;
-use crate::collide::lasting::Hold;
 use crate::deadline::Deadline;
 use crate::experiment::types::Impact;
 use crate::model::Model;
@@ -20,8 +19,8 @@ use nalgebra::Vector3;
 /// An approach, of the speed of the bodies with the step's forces, that strikes nothing.
 const ROUNDING: f64 = 1e-9;
 
-/// What friction did where a contact lasts.
-type Holds<'a> = dyn Fn(&Contact) -> Option<Hold> + 'a;
+/// Whether a contact may have an impact: what lasts has none.
+type MayStrike<'a> = dyn Fn(&Contact) -> bool + 'a;
 
 pub struct Blow {
     law: Law,
@@ -75,11 +74,12 @@ impl Blow {
         model: &Model,
         state: &State,
         free: &[Twist],
-        (found, hold): (&[Contact], &Holds),
+        (found, may_strike): (&[Contact], &MayStrike),
         (step_s, deadline): (f64, Deadline),
         solver: &mut Plastic,
     ) -> Option<bool> {
-        if !self.take_part(model, state, free, (found, hold), step_s) {
+        self.impulses.clear();
+        if !self.take_part(model, state, free, (found, may_strike), step_s) {
             return None;
         }
         // Half-way through the kick of `moreau` half of the forces have acted: with e = 1 no energy is lost.
@@ -106,7 +106,7 @@ impl Blow {
         model: &Model,
         state: &State,
         free: &[Twist],
-        (found, hold): (&[Contact], &Holds),
+        (found, may_strike): (&[Contact], &MayStrike),
         step_s: f64,
     ) -> bool {
         self.islands.find(model, found.iter().copied());
@@ -119,7 +119,7 @@ impl Blow {
                 // Bodies that rest on each other fall alike: what they approach each other by is rounding.
                 let speed = |(i, r_W, _): (usize, Vector3<f64>, f64)| free[i].v.norm() + free[i].w.norm() * r_W.norm();
                 let rounding = ROUNDING * contact.ends().map(speed).fold(0.0, f64::max);
-                hold(contact).is_none()
+                may_strike(contact)
                     && -motion.before > rounding
                     && self.approach.strikes(model, contact, motion, step_s)
             })

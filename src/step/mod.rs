@@ -4,6 +4,7 @@
 //! nonsense and forbid substeps and events.
 
 mod blow;
+mod closing;
 mod drift;
 mod event_driven;
 mod event_passage;
@@ -13,6 +14,7 @@ mod lecture;
 mod moments;
 mod penalty;
 mod push_out;
+mod rebounds;
 mod scratch;
 mod stepper;
 mod still;

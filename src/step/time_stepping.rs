@@ -10,9 +10,11 @@
 //! where bodies hit each other that would be through by its end.
 
 use super::blow::{Blow, normal_motion};
+use super::closing::{close_slowly, left_m};
 use super::drift::drift;
 use super::foreseen::Foreseen;
 use super::push_out::push_out;
+use super::rebounds::Rebounds;
 use super::scratch::Scratch;
 use super::still;
 use super::turning::Turning;
@@ -30,6 +32,7 @@ use crate::model::{Body, Model};
 use crate::plan::Plan;
 use crate::solve::Impulse;
 use crate::solve::gauss_seidel::{Sweeps, Variant};
+use crate::solve::missed::strict_residual;
 use crate::solve::pins::{self, Pin};
 use crate::solve::position::Push;
 use crate::solve::problem::ContactProblem;
@@ -41,6 +44,12 @@ use nalgebra::Vector3;
 /// Most solves of a step: after each, friction may be put against another velocity where the kick is half-way, and
 /// bodies may turn on otherwise where it is not.
 const MOST_SOLVES: u32 = 6;
+
+/// Residual up to which impulses that are no solution are near enough to one to tell what friction is against.
+const NEAR: f64 = 1e-6;
+
+/// A residual from which sweeps have ended far from a solution.
+const FAR: f64 = 1e-3;
 
 /// A way in a step, of the least width of all bodies, or a turn in radians, from which bodies are looked at before a
 /// step whose kick is half-way.
@@ -94,6 +103,10 @@ pub struct TimeStepping {
     /// Steps ahead in which nothing can be touched.
     flight: u64,
     turning: Turning,
+    rebounds: Rebounds,
+    /// Sweeps have ended far from a solution, of this step as far as it is solved and of the last one.
+    is_far: bool,
+    was_far: bool,
     /// The last step was left when time was up.
     pub(super) is_cut: bool,
     pub(super) scratch: Scratch,
@@ -146,6 +159,9 @@ impl TimeStepping {
             rests_to: 0,
             flight: 0,
             turning: Turning::with_capacity(scratch.free.capacity()),
+            rebounds: Rebounds::default(),
+            is_far: false,
+            was_far: false,
             is_cut: false,
             scratch,
         }
@@ -307,14 +323,24 @@ impl TimeStepping {
     fn solve_rounds(&mut self, model: &Model, state: &State, step_s: f64, ahead_s: f64) {
         let unsolved = self.scratch.work.unsolved;
         self.solved.clear();
+        self.rebounds.begin();
         self.solve_contacts(model, state, step_s);
-        while !self.is_cut && self.foreseen.revise(model, state, &mut self.scratch, (self.approach, ahead_s)) {
+        while !self.is_cut && self.asks_again(model, state, step_s, ahead_s) {
             self.scratch.work.unsolved = unsolved;
             self.solve_contacts(model, state, step_s);
         }
         if self.foreseen.is_given_up {
             self.scratch.work.unsolved = unsolved + 1;
         }
+    }
+
+    /// Whether impulses ask for other contacts than those that they are of, or for other rebounds.
+    fn asks_again(&mut self, model: &Model, state: &State, step_s: f64, ahead_s: f64) -> bool {
+        if self.foreseen.revise(model, state, &mut self.scratch, (self.approach, ahead_s)) {
+            return true;
+        }
+        let struck = self.blow.as_ref().map(|blow| &blow.impulses[..]).filter(|struck| !struck.is_empty());
+        self.approach == Approach::Start && self.rebounds.revise(model, &self.scratch, struck, step_s)
     }
 
     /// Keeps what lasts into the next step.
@@ -338,6 +364,7 @@ impl TimeStepping {
 
     fn take_solution(&mut self) {
         std::mem::swap(&mut self.last, &mut self.solved);
+        self.was_far = self.is_far;
         self.last_pins.clear();
         self.last_pins.extend_from_slice(&self.scratch.impulses[self.scratch.found.len()..]);
         self.scratch.take_solution();
@@ -354,7 +381,9 @@ impl TimeStepping {
         }
         let is_half_way = self.approach == Approach::Middle;
         let hold = |contact: &Contact| self.lasting.of(contact).filter(|_| is_half_way);
-        s.problem.gather_held(model, state, &s.free, &mut s.found, (self.approach, step_s), hold);
+        let mut asked = self.rebounds.asked(&s.found);
+        let contacts = asked.as_mut().unwrap_or(&mut s.found);
+        s.problem.gather_held(model, state, &s.free, contacts, (self.approach, step_s), hold);
         if !model.pins.is_empty() {
             // The velocity that closes what gap there is until the next step.
             let closing = |pin: &Joint, _: &_, _: Option<&_>| -pin.apart_W(&state.bodies) / step_s;
@@ -365,17 +394,23 @@ impl TimeStepping {
             let (solver, work) = (&mut self.solver, &mut s.work);
             let mut plastic =
                 |problem: &ContactProblem, p: &mut [Impulse]| solver.solve(problem, &self.sweeps, p, work);
-            let ended =
-                blow.strike(model, state, &s.free, (&s.found, &hold), (step_s, self.sweeps.deadline), &mut plastic)?;
+            let may_strike = |contact: &Contact| hold(contact).is_none() && !self.rebounds.is_waived(contact);
+            let through = (step_s, self.sweeps.deadline);
+            let ended = blow.strike(model, state, &s.free, (&s.found, &may_strike), through, &mut plastic)?;
             s.work.unsolved += u64::from(!ended);
             self.is_cut |= !ended && self.sweeps.deadline.is_over();
             let plastic = go_on_after(blow, model, &mut s.problem, &s.free, &s.found, (self.approach, step_s), hold);
             Some((blow, plastic))
         });
+        let unmoved = asked.as_ref().map_or_else(Vec::new, |_| vec![Twist::ZERO; model.bodies.len()]);
         let after = struck.as_ref().map(|(blow, plastic)| (&plastic[..], &blow.response[..]));
+        let after = after.or(asked.as_ref().map(|asked| (&asked[..], &unmoved[..])));
         let through = (self.approach, step_s);
         self.turning.ask(model, after, s, through);
         warm_start(&s.found, &s.problem, &self.last, &mut s.impulses);
+        if self.was_far && !is_half_way {
+            close_slowly(&mut s.problem, &s.found, &s.impulses, step_s);
+        }
         if !self.solved.is_empty() {
             warm_start(&s.found, &s.problem, &self.solved, &mut s.impulses);
         }
@@ -390,7 +425,8 @@ impl TimeStepping {
             let changes = match self.approach {
                 Approach::Middle => {
                     let (p, u) = (&s.impulses, &s.response);
-                    settled && (s.problem.stop(p, u) || s.problem.take_mean(&s.found, model, p, u))
+                    let is_near = settled || strict_residual(&s.problem, p, u) <= NEAR;
+                    is_near && (s.problem.stop(p, u) || s.problem.take_mean(&s.found, model, p, u))
                 }
                 _ => self.turning.revise(model, state, s, after, (through, settled, enough)),
             };
@@ -399,6 +435,8 @@ impl TimeStepping {
             }
             settled = false;
         }
+        self.is_far =
+            !settled && self.solver.is_iteration() && strict_residual(&s.problem, &s.impulses, &s.response) > FAR;
         if !settled {
             self.is_cut |= self.sweeps.deadline.is_over();
             s.work.unsolved += 1;
@@ -424,8 +462,9 @@ impl TimeStepping {
         let free = is_half_way.then_some(&s.free[..]);
         let taken_j = |taken: &mut Vec<f64>| s.problem.taken_j(state, free, (&s.impulses, &s.response), taken);
         let through = (&s.impulses[..], &s.response[..], step_s);
+        let left_m = |contact: &Contact| if self.is_far { left_m(contact, state, &s.free, step_s) } else { 0.0 };
         self.position_correction == PositionCorrection::Projection
-            && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg), &mut s.work)
+            && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg, left_m), &mut s.work)
     }
 }
 

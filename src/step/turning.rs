@@ -12,17 +12,15 @@
 
 use super::scratch::Scratch;
 use crate::collide::approach::Approach;
-use crate::collide::islands::Islands;
 use crate::collide::{Contact, SolvedContact};
 use crate::model::Model;
 use crate::model::pins::Anchor;
+use crate::solve::gains::Gains;
 use crate::solve::missed::strict_residual;
 use crate::solve::twist::Twist;
 use crate::state::State;
 use nalgebra::Vector3;
 
-/// Energy that contacts give, of the sizes of impulses and velocities: rounding.
-const GIVES_NOTHING: f64 = 1e-13;
 /// Rounds after which it is left out.
 const MOST: u32 = 3;
 /// Contacts that hold a face.
@@ -40,9 +38,7 @@ pub(super) struct Turning {
     pressed: Vec<u32>,
     /// Of every body: its contacts are to know nothing of it in this step.
     is_left_out: Vec<bool>,
-    islands: Islands,
-    /// Of every island by its first body: energy that its contacts give, and the size of what it is made of.
-    given: Vec<(f64, f64)>,
+    given: Gains,
 }
 
 /// What there is left of contacts after a blow, and what that did to the bodies.
@@ -54,8 +50,7 @@ impl Turning {
         Turning {
             pressed: Vec::with_capacity(bodies),
             is_left_out: Vec::with_capacity(bodies),
-            islands: Islands::with_capacity(bodies),
-            given: Vec::with_capacity(bodies),
+            given: Gains::with_capacity(bodies),
             ..Turning::default()
         }
     }
@@ -125,19 +120,12 @@ impl Turning {
 
     /// Leaves it out in islands whose contacts give energy, or in all of them. Whether there is any.
     fn leave_out(&mut self, model: &Model, scratch: &Scratch, all: bool) -> bool {
-        let Turning { is_left_out, islands, given, .. } = self;
+        let Turning { is_left_out, given, .. } = self;
         let Scratch { found, problem, impulses, response, turning, .. } = scratch;
-        islands.find(model, found.iter().copied());
-        given.clear();
-        given.resize(model.bodies.len(), (0.0, 0.0));
-        for ((block, contact), p) in problem.blocks.iter().zip(found).zip(impulses) {
-            let (of, (given_j, size_j)) = (&mut given[islands.of(model, contact)], block.given_j(p, response));
-            *of = (of.0 + given_j, of.1 + size_j);
-        }
+        given.add_up(model, found, problem.blocks.iter().zip(impulses).map(|(block, p)| block.given_j(p, response)));
         let mut any = false;
         for (i, is_left_out) in is_left_out.iter_mut().enumerate().filter(|(i, _)| turning[*i] != Vector3::zeros()) {
-            let (given_j, size_j) = given[islands.first(i)];
-            if all || given_j > GIVES_NOTHING * size_j {
+            if all || given.to_island_with(i) {
                 *is_left_out = true;
                 any = true;
             }

@@ -242,8 +242,8 @@ impl<'a> Two<'a> {
         }
     }
 
-    /// When they came to be deeper in each other than the band, with parts that are not held, though no look has seen it:
-    /// another part may have come to be the nearest on the way.
+    /// When they came to be deeper in each other than the band, with parts that are not held, though no look has seen
+    /// it: another part may have come to be the nearest on the way.
     fn unseen_s(&self, window: Window, work: &mut Work) -> Option<f64> {
         let band_m = self.band_m();
         let is_unseen = !self.paths.deadline.is_over()

@@ -273,8 +273,8 @@ const ROUNDING_OF_PLACE: f64 = 4.0 * f64::EPSILON;
 /// Displacements that follow each other, as turns are not displacements: what the second leaves is rounding.
 const TRIES: u32 = 3;
 
-/// Closes the gaps of what is held. Whether there was any.
-pub fn close_gaps(model: &Model, state: &mut State, held: &[Held], gathered: &mut Gathered) -> bool {
+/// Whether there was any gap.
+fn close_gaps(model: &Model, state: &mut State, held: &[Held], gathered: &mut Gathered) -> bool {
     for tries in 0..TRIES {
         gathered.gather_velocities(model, state, held.iter().map(|held| &held.touch));
         let mut largest = 0.0_f64;

@@ -11,7 +11,7 @@ use crate::deadline::Deadline;
 use crate::event::caps::{self, Sinking};
 use crate::event::change::Looking;
 use crate::event::decide::{Change, Decision, Margin, decide, margin};
-use crate::event::dense::{Dense, close_gaps, project};
+use crate::event::dense::{Dense, project};
 use crate::event::ending::{self, steady};
 use crate::event::field::Field;
 use crate::event::forces::{Gathered, Held, NO_SLIP, Solved};
@@ -252,20 +252,8 @@ impl EventDriven {
         if stretch.is_over() {
             self.work.unsolved += stretch.unsolved();
             self.stretch = None;
-            self.put_down(model, state);
             self.next = Event::Start;
             self.patience.begin(state.time_s, &self.work);
-        }
-    }
-
-    /// Closes what pressed in the last step of equal length, which is there to the square of its length only: as many
-    /// impacts would follow as it has contacts.
-    fn put_down(&mut self, model: &Model, state: &mut State) {
-        self.found.clear();
-        self.detector.detect(model, state, &stretch::NEAR, &mut self.found, &mut self.work);
-        let held = stretch::pressed(model, state, &self.found, &self.solved);
-        if !held.is_empty() {
-            close_gaps(model, state, &held, &mut self.placing);
         }
     }
 

@@ -4,17 +4,14 @@
 use super::scratch::Scratch;
 use super::time_stepping;
 use crate::clock::Clock;
-use crate::collide::{Contact, Reach, SolvedContact};
+use crate::collide::SolvedContact;
 use crate::deadline::Deadline;
-use crate::event::forces::{Held, Mode, Slip};
 use crate::event::patience::Patience;
 use crate::event::slip::falls;
-use crate::event::touch::Touch;
 use crate::experiment::types::{Impact, Method, Scheme, Solver, TimeStepping};
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::state::State;
-use nalgebra::Vector3;
 
 pub struct Stretch {
     stepper: Box<time_stepping::TimeStepping>,
@@ -86,22 +83,6 @@ impl Stretch {
 pub fn patience(model: &Model, start: &State) -> Patience {
     let moving = model.bodies.iter().filter(|body| !body.driven).count();
     Patience::new(f64::from(STEPS) * whole_s(model), [model.bodies.len(), moving], start.time_s)
-}
-
-/// Gaps that steps of equal length leave, of a body's size.
-pub const NEAR: Reach = Reach { margin: 1e-6 };
-
-/// Of what is nearly closed, what pressed in the last step.
-pub fn pressed(model: &Model, state: &State, found: &[Contact], solved: &[SolvedContact]) -> Vec<Held> {
-    let near_m = NEAR.margin * model.largest_radius_m();
-    let presses = |contact: &&Contact| {
-        let is_it = |solved: &SolvedContact| {
-            solved.contact.key() == contact.key() && solved.contact.normal.dot(&solved.impulse_W) > 0.0
-        };
-        contact.gap_m.abs() <= near_m && solved.iter().any(is_it)
-    };
-    let touches = found.iter().filter(presses).filter_map(|contact| Touch::new(model, state, contact));
-    touches.map(|touch| Held { touch, mode: Mode::Slide(Vector3::zeros()), slip: Slip::Fast }).collect()
 }
 
 /// A thousandth of a fall by the size of the bodies.

@@ -40,9 +40,15 @@ pub struct Looking<'a> {
     /// Where the bodies are at the time looked at.
     pub at: &'a mut State,
     pub work: &'a mut Work,
+    /// Linear systems beyond which nothing is looked for.
+    pub until: u64,
 }
 
 impl Looking<'_> {
+    fn is_over(&self) -> bool {
+        self.gathered.deadline.is_over() || self.work.newton_steps > self.until
+    }
+
     fn look(&mut self, t_s: f64) {
         self.at.time_s = t_s;
         (0..self.at.bodies.len()).for_each(|i| self.at.bodies[i] = self.paths.at(i, t_s));
@@ -53,7 +59,7 @@ impl Looking<'_> {
         let mut low_s = from_s;
         for look in 1..=LOOKS {
             let high_s = from_s + (to_s - from_s) * f64::from(look) / f64::from(LOOKS);
-            if self.gathered.deadline.is_over() {
+            if self.is_over() {
                 return None;
             }
             let changed_s = if self.has_changed(high_s) { Some(high_s) } else { self.slips_between(low_s, high_s) };
@@ -157,7 +163,7 @@ impl Looking<'_> {
     /// Bisection: the first moment after the change, to the last bit but some.
     fn when(&mut self, mut low_s: f64, mut high_s: f64) -> f64 {
         let width_s = (high_s - low_s) * WIDTH;
-        while high_s - low_s > width_s.max(f64::EPSILON * high_s) && !self.gathered.deadline.is_over() {
+        while high_s - low_s > width_s.max(f64::EPSILON * high_s) && !self.is_over() {
             let middle_s = 0.5 * (low_s + high_s);
             if self.has_changed(middle_s) {
                 high_s = middle_s;

@@ -4,6 +4,7 @@
 //! it; the other laws are `solve::impact`. Held contacts take part. Bodies do not move in an impact.
 
 use super::forces::{Gathered, Solved};
+use super::law;
 use crate::collide::{Contact, SolvedContact};
 use crate::deadline::Deadline;
 use crate::experiment::types::Impact;
@@ -61,7 +62,7 @@ pub(super) fn plastic(problem: &ContactProblem, p: &mut [Impulse], deadline: Dea
         p[0] = exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
         return true;
     }
-    newton::solve_evenly(problem, &newton::to_rounding(MOST, deadline), p, work)
+    law::solve_evenly(problem, p, deadline, work)
 }
 
 /// Of the slip: an approach that is none.

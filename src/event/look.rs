@@ -33,7 +33,7 @@ impl Paths<'_> {
 }
 
 /// Looks taken before a search is given up; they get shorter only where a gap stays within some δ.
-const MOST: u32 = 100_000;
+const MOST: u32 = 10_000;
 
 /// One look at a gap.
 pub(super) struct Look {

@@ -11,6 +11,7 @@
 //! - `watch`: when the next gap closes, and the proof that none was missed, of two bodies in `pairs`, from `look` to
 //!   look
 //! - `which`: what bodies that share an edge alone do to each other; `flush`: blocks side by side
+//! - `patience`: when steps of equal length take the place of events
 //! - `impact`: the laws of impact at one moment; `zeno`: which of them is the last that matters
 //!
 //! Errors. A gap beyond δ = 1e-13 of the body (and rounding of its coordinates) is never stepped over. Impacts that
@@ -31,6 +32,7 @@ pub mod law;
 pub mod look;
 pub mod motion;
 mod pairs;
+pub mod patience;
 pub mod radau_tableau;
 pub mod settle;
 pub mod shown;

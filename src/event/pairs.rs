@@ -52,8 +52,13 @@ pub(super) fn with_each_other(
 const FEW: f64 = 10.0;
 const MOST_ARRIVING: u32 = 200;
 
+/// Of the band: where an axis leaves it is not asked more closely.
+const PART_OF_BAND: f64 = 0.1;
+
 /// Parts of two bodies that face each other.
 struct Parted {
+    /// The least gap.
+    least_m: f64,
     /// In which none can touch; none of those that do not.
     safe_s: f64,
     others_s: f64,
@@ -182,7 +187,9 @@ impl<'a> Two<'a> {
         let mut found: Vec<Found> = Vec::new();
         let mut way = Way::Apart;
         let mut known = None;
-        march(window, self.paths.deadline, |t_s| {
+        // The last two looks at parts, and the least gaps there.
+        let mut looks = [None::<(f64, f64)>; 2];
+        let touch_s = march(window, self.paths.deadline, |t_s| {
             let now = self.now(t_s, work);
             let at = &now.at;
             let look = Look::of_points(at[0].p_WB - at[1].p_WB, at[0].v_WB - at[1].v_WB, reach_m, toward_m_s2);
@@ -190,7 +197,8 @@ impl<'a> Two<'a> {
                 return Some((look.safe_s(now.delta_m, now.slow_m_s), false));
             }
             self.find(&now, &mut found);
-            let Parted { safe_s, others_s, touching, lingering } = self.parts(&now, &found);
+            let Parted { least_m, safe_s, others_s, touching, lingering } = self.parts(&now, &found);
+            looks = [looks[1], Some((t_s, least_m))];
             // What comes to be touched beside what is held is to be held, too.
             let is_new = known.replace(lingering).is_some_and(|known| lingering > known);
             if !self.resting.is_empty() && is_new {
@@ -220,7 +228,60 @@ impl<'a> Two<'a> {
                 },
                 Way::Apart => Some((safe_s, false)),
             }
-        })
+        });
+        let Some(touch_s) = touch_s else { return self.unseen_s(window, work) };
+        let few_m = FEW * self.now(touch_s, work).delta_m;
+        match looks {
+            // Another part has come nearer than those that were looked at: what lies along a face, but next to.
+            [Some((open_s, open_m)), Some((deep_s, deep_m))]
+                if deep_s == touch_s && open_m > 0.0 && deep_m < -few_m =>
+            {
+                Some(self.closes_s([open_s, deep_s], few_m, work))
+            }
+            _ => Some(touch_s),
+        }
+    }
+
+    /// When they came to be deeper in each other than the band, with parts that are not held, though no look has seen
+    /// it: another part may have come to be the nearest on the way.
+    fn unseen_s(&self, window: Window, work: &mut Work) -> Option<f64> {
+        let band_m = self.band_m();
+        let is_unseen = !self.paths.deadline.is_over()
+            && self.least_m(window.to_s, work) < -band_m
+            && self.least_m(window.from_s, work) >= -band_m;
+        is_unseen.then(|| self.closes_s([window.from_s, window.to_s], band_m, work))
+    }
+
+    /// The least gap of what is not held.
+    fn least_m(&self, t_s: f64, work: &mut Work) -> f64 {
+        let now = self.now(t_s, work);
+        if (now.at[0].p_WB - now.at[1].p_WB).norm() > self.sizes[0] + self.sizes[1] {
+            return f64::INFINITY;
+        }
+        let mut found = Vec::new();
+        self.find(&now, &mut found);
+        let held = self.places(&now.at);
+        let others = found.iter().filter(|touch| !self.is_held(&held, &now, touch));
+        others.map(|touch| touch.gap_m).fold(f64::INFINITY, f64::min)
+    }
+
+    /// When they touch, between two times: at the one they are apart, at the other one deep in each other.
+    fn closes_s(&self, [mut open_s, mut deep_s]: [f64; 2], few_m: f64, work: &mut Work) -> f64 {
+        loop {
+            let middle_s = 0.5 * (open_s + deep_s);
+            if middle_s <= open_s || middle_s >= deep_s || self.paths.deadline.is_over() {
+                return deep_s;
+            }
+            let gap_m = self.least_m(middle_s, work);
+            if gap_m > 0.0 {
+                open_s = middle_s;
+            } else {
+                deep_s = middle_s;
+                if gap_m >= -few_m {
+                    return deep_s;
+                }
+            }
+        }
     }
 
     fn find(&self, now: &Now, found: &mut Vec<Found>) {
@@ -252,8 +313,9 @@ impl<'a> Two<'a> {
             let look = Look { gap_m: along.gap_m + self.band_m(), rate_m_s: *rate_m_s, toward_m_s2, ..Look::EMPTY };
             look.safe_s(now.delta_m, now.slow_m_s)
         };
-        let way_s = self.smaller_m() * WAY / self.closing_m_s(&now.at).max(f64::MIN_POSITIVE);
-        sharing.axes.iter().map(out_s).fold(way_s, f64::min)
+        let closing_m_s = self.closing_m_s(&now.at).max(f64::MIN_POSITIVE);
+        let least_s = PART_OF_BAND * self.band_m() / closing_m_s;
+        sharing.axes.iter().map(out_s).fold(self.smaller_m() * WAY / closing_m_s, f64::min).max(least_s)
     }
 
     /// When a gap that closes ever more slowly has closed, if it does not go on: what comes over an edge along a
@@ -309,9 +371,10 @@ impl<'a> Two<'a> {
         let near_m = NEAR * self.smaller_m();
         let closing = self.closing_m_s(at);
         let (mut safe_s, mut others_s) = (f64::INFINITY, f64::INFINITY);
-        let (mut touching, mut lingering) = (false, 0);
+        let (mut touching, mut lingering, mut least_m) = (false, 0, f64::INFINITY);
         let held = self.places(at);
         for touch in found.iter().filter(|touch| !self.is_held(&held, now, touch)) {
+            least_m = least_m.min(touch.gap_m);
             if touch.gap_m > near_m {
                 let (gap_m, rate_m_s) = (touch.gap_m - near_m / 2.0, -closing);
                 let bound = Look { gap_m, rate_m_s, toward_m_s2: self.between_m_s2, ..Look::EMPTY };
@@ -332,7 +395,7 @@ impl<'a> Two<'a> {
         }
         let way_m = near_m.max(self.smaller_m() * WAY);
         let way_s = way_m / closing.max(f64::MIN_POSITIVE);
-        Parted { safe_s: safe_s.min(way_s), others_s: others_s.min(way_s), touching, lingering }
+        Parted { least_m, safe_s: safe_s.min(way_s), others_s: others_s.min(way_s), touching, lingering }
     }
 
     /// The safe time of such a look, of a cap that is nearly flat: its lowest point rolls along the rim.

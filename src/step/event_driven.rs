@@ -18,6 +18,7 @@ use crate::event::forces::{Gathered, Held, NO_SLIP, Solved};
 use crate::event::impact;
 use crate::event::look::{Paths, Window};
 use crate::event::motion::Motion;
+use crate::event::patience::Patience;
 use crate::event::settle::{Forces, settle};
 use crate::event::slip::{self, Pace, Slow};
 use crate::event::touch::Touch;
@@ -68,8 +69,6 @@ pub struct EventDriven {
     slow: Slow,
     /// Of the integrator: a force that swings is not stepped over.
     longest_s: f64,
-    /// Of steps of equal length.
-    stretch_s: f64,
     law: Impact,
     contact: bool,
     pub(super) motions: Vec<Motion>,
@@ -96,9 +95,7 @@ pub struct EventDriven {
     /// How the next step of the integrator may be made.
     pace: Pace,
     scratch: State,
-    /// Events without any time between them; and when counting of events began, with how many.
-    at_once: u32,
-    counted_from: (f64, u64),
+    patience: Patience,
     /// Events lead no further from here.
     trouble: bool,
     /// Steps of equal length instead.
@@ -117,16 +114,8 @@ const LOCAL: f64 = 0.01;
 /// Change of a velocity by the projection, over the integrator's own error, that is none of it.
 const SLAP: f64 = 1e3;
 
-/// Events at one moment, of all contacts, before something is wrong; and a moment, over the length of a stretch.
-const AT_ONCE: u32 = 200;
-const AT_ONCE_S: f64 = 1e-9;
-
 /// Points of a rim that are tried, one after another: each is nearer to the one that bears.
 const POINTS: u32 = 40;
-
-/// More events than this in the time of a stretch are too many: those that cost an integration, and others.
-const MANY_DENSE: u64 = 2_000;
-const MANY: u64 = 100_000;
 
 impl EventDriven {
     pub fn new(settings: &Settings, plan: &Plan, model: &Model, start: &State) -> Self {
@@ -134,7 +123,6 @@ impl EventDriven {
             tolerance: settings.tolerance,
             slow: Slow::new(model, settings.tolerance),
             longest_s: slip::longest_s(model),
-            stretch_s: stretch::length_s(model),
             law: settings.impact,
             contact: plan.looks,
             motions: Vec::with_capacity(model.bodies.len()),
@@ -153,8 +141,7 @@ impl EventDriven {
             ending_s: None,
             pace: Pace::FREE,
             scratch: start.clone(),
-            at_once: 0,
-            counted_from: (start.time_s, 0),
+            patience: stretch::patience(model, start),
             trouble: false,
             stretch: None,
             span: Span::Motion,
@@ -234,25 +221,17 @@ impl EventDriven {
         } else if self.stalled.is_none() && !self.trouble && !matches!(self.next, Event::Jam) {
             blow = self.go_on(model, state, ending_s, end_s);
         }
-        self.at_once = if state.time_s - from_s > AT_ONCE_S * self.stretch_s { 0 } else { self.at_once + 1 };
-        if std::mem::take(&mut self.trouble) || self.at_once > AT_ONCE || self.accumulates(state) {
+        let is_over = self.patience.is_over([from_s, state.time_s], &self.work, !self.dense.is_empty());
+        if std::mem::take(&mut self.trouble) || is_over {
             self.begin_stretch(model, state);
         }
         blow || state.time_s > from_s
     }
 
-    /// Events come faster than steps of equal length would take.
-    fn accumulates(&mut self, state: &State) -> bool {
-        if state.time_s - self.counted_from.0 > self.stretch_s {
-            self.counted_from = (state.time_s, self.work.events);
-        }
-        let most = if self.dense.is_empty() { MANY } else { MANY_DENSE };
-        self.work.events - self.counted_from.1 > most
-    }
-
     fn begin_stretch(&mut self, model: &Model, state: &State) {
         self.work.fallbacks += 1;
-        let mut stretch = Stretch::new(self.law, model, state);
+        let level = self.patience.give_up(state.time_s);
+        let mut stretch = Stretch::new(self.law, model, state, level);
         stretch.hurry(self.deadline);
         self.stretch = Some(stretch);
         self.motions.clear();
@@ -263,15 +242,18 @@ impl EventDriven {
     /// One step of equal length by time-stepping; after the last one, back to events.
     fn step_of_stretch(&mut self, model: &Model, state: &mut State, end_s: f64) {
         let Some(stretch) = &mut self.stretch else { return };
+        self.kicked.copy_from(state);
         self.span = Span::Short { step_s: stretch.step(model, state, end_s) };
+        if let Some(kicked) = stretch.kicked() {
+            self.kicked.copy_from(kicked);
+        }
         self.solved.clear();
         self.solved.extend_from_slice(stretch.contacts());
         if stretch.is_over() {
             self.work.unsolved += stretch.unsolved();
             self.stretch = None;
             self.next = Event::Start;
-            self.counted_from = (state.time_s, self.work.events);
-            self.at_once = 0;
+            self.patience.begin(state.time_s, &self.work);
         }
     }
 
@@ -474,12 +456,17 @@ impl EventDriven {
         let fades = self.pace.ends_s.is_some();
         if !fades && self.held.iter().any(|held| !self.dense.is_empty() || held.touch.is_bounded()) {
             let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
+            let until = self.work.newton_steps + self.patience.left(&self.work);
             let (gathered, at, work) = (self.gathered.get_mut(), &mut self.scratch, &mut self.work);
-            let mut looking = Looking { paths, held: &self.held, gathered, at, work };
+            let mut looking = Looking { paths, held: &self.held, gathered, at, work, until };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
                 let turned = looking.has_turned();
                 (to_s, self.next) = (t_s, if turned { Event::Impact } else { Event::Change(change) });
             }
+        }
+        if self.patience.left(&self.work) == 0 {
+            self.trouble = true;
+            return;
         }
         // Last: beyond the border of a face others touch that are not held.
         if self.contact {
@@ -583,7 +570,7 @@ impl EventDriven {
     }
 
     /// What the contacts of the last step did.
-    pub(super) fn acted<'a>(&'a self, before: &'a State) -> Acted<'a> {
+    pub(super) fn acted(&self) -> Acted<'_> {
         match self.span {
             Span::Blow => Acted::Blow { contacts: &self.solved },
             Span::Motion => Acted::Motion(self),
@@ -592,8 +579,8 @@ impl EventDriven {
                 Acted::Kick { kicked, contacts, step_s, approach: Approach::Touching }
             }
             Span::Short { step_s } => {
-                let kicked = self.stretch.as_ref().and_then(Stretch::kicked).unwrap_or(before);
-                Acted::Kick { kicked, contacts: &self.solved, step_s, approach: Approach::Middle }
+                let (kicked, contacts) = (&self.kicked, &self.solved[..]);
+                Acted::Kick { kicked, contacts, step_s, approach: Approach::Middle }
             }
         }
     }

@@ -123,7 +123,7 @@ impl Stepper {
     /// What the contacts of the last step did, which began at `before`.
     pub fn acted<'a>(&'a self, before: &'a State, clock: &Clock) -> Acted<'a> {
         let kicked = match &self.method {
-            Method::EventDriven(method) => return method.acted(before),
+            Method::EventDriven(method) => return method.acted(),
             Method::Free(method) => match method.shown_way() {
                 Some(way) => return Acted::Motion(way),
                 None => None,

@@ -4,6 +4,7 @@ mod balls;
 mod borders;
 mod cans;
 mod closed_forms;
+mod crowds;
 mod cube;
 mod edges;
 mod never_hangs;

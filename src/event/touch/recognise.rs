@@ -68,6 +68,9 @@ const PARALLEL: f64 = 1e-6;
 /// Of the bounding radii: points of the contact test that are one.
 const BESIDE: f64 = 2e-9;
 
+/// The same of points that are known along a round side or an edge to the root of rounding only.
+const ASTRAY: f64 = 2e-7;
+
 fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Option<Parts> {
     let bodies = [found.body, other];
     let at = bodies.map(|i| &state.bodies[i]);
@@ -76,7 +79,8 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
         let out_B = at[side].q_WB.inverse_transform_vector(&out);
         let at = |off_m: f64| shown(&model.bodies[bodies[side]], &p_B[side], &out_B, off_m);
         // A point that the contact test has put to the end of something is beside it by as much.
-        at(found.gap_m).or_else(|| at(BESIDE * bodies.map(|i| model.bodies[i].bounding_radius_m).iter().sum::<f64>()))
+        let size_m: f64 = bodies.iter().map(|i| model.bodies[*i].bounding_radius_m).sum();
+        at(found.gap_m).or_else(|| at(BESIDE * size_m)).or_else(|| at(ASTRAY * size_m))
     };
     let on = |of: usize, face: &Face, base: usize, spot: Option<&Spot>| {
         let plane = Plane {

@@ -109,11 +109,11 @@ impl<'a> Seen<'a> {
             true => seen.missed_by_impact(impulse_W),
             false => seen.missed_by_mean(impulse_W),
         };
-        if self.motion.turning == 0.0 {
-            return missed(self);
+        let mut found = missed(self);
+        if self.motion.turning != 0.0 {
+            let motion = NormalMotion { turning: 0.0, ..self.motion };
+            found = found.min(missed(&Seen { motion, ..*self }));
         }
-        let motion = NormalMotion { turning: 0.0, ..self.motion };
-        let found = missed(self).min(missed(&Seen { motion, ..*self }));
         // A gap that stays open, as other impulses part the bodies first, has nothing to send back.
         let is_open = self.through.0 == Approach::Start && !is_closed_to_rounding(self.model, self.contact);
         if is_open && *impulse_W == Vector3::zeros() && self.strikes() {

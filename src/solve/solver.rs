@@ -56,7 +56,7 @@ impl ContactSolver {
 
     /// Whether impulses get nearer and nearer to the law from step to step, and need not obey it after any.
     pub fn is_iteration(&self) -> bool {
-        matches!(self, ContactSolver::Pgs(_) | ContactSolver::Nncg(_))
+        matches!(self.by, By::Pgs(_) | By::Nncg(_))
     }
 
     /// Improves `p`. Whether it is solved, or has settled.

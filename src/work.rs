@@ -29,7 +29,7 @@ columns! {
         #[serde(rename = "work_unsolved")]
         #[column(small = 0.0)]
         pub unsolved: u64,
-        /// Solves of the solver `auto`, of a step or of an island of it, for which the last step's impulses were taken
+        /// Solves of a step, or with the solver `auto` of an island of it, for which the last step's impulses were taken
         /// as they were.
         #[serde(rename = "work_kept_solves")]
         pub kept_solves: u64,

@@ -115,10 +115,10 @@ impl<'a> Seen<'a> {
             found = found.min(missed(&Seen { motion, ..*self }));
         }
         // A gap that stays open, as other impulses part the bodies first, has nothing to send back.
-        let is_open = self.through.0 == Approach::Start && !is_closed_to_rounding(self.model, self.contact);
-        if is_open && *impulse_W == Vector3::zeros() && self.strikes() {
+        let is_left = self.through.0 == Approach::Start && *impulse_W == Vector3::zeros();
+        if is_left && self.strikes() && !is_closed_to_rounding(self.model, self.contact) {
             let contact = &Contact { restitution: 0.0, tangential_restitution: 0.0, ..*self.contact };
-            return found.min(missed(&Seen { contact, ..*self }));
+            found = found.min(missed(&Seen { contact, ..*self }));
         }
         found
     }

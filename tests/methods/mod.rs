@@ -2,6 +2,7 @@
 
 mod assemblies;
 mod auto;
+mod blocks;
 mod cone;
 mod contact;
 mod cycles;

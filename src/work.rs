@@ -33,7 +33,7 @@ columns! {
         /// as they were.
         #[serde(rename = "work_kept_solves")]
         pub kept_solves: u64,
-        /// The same that it solved exactly.
+        /// Those of `auto` that were exact.
         #[serde(rename = "work_exact_solves")]
         pub exact_solves: u64,
         /// Islands that it left to an iteration.

@@ -1,9 +1,9 @@
 //! How long events are followed before steps of equal length take their place: by how many there are at one moment, and
 //! by how much work the time of a few such steps has taken.
 //!
-//! Whoever gives up again soon after has less patience, and steps become longer: first ones are so short that what they
-//! differ from the motion by is below the tolerance; where events go on to accumulate (a sliding mode, a rocking without
-//! end), they grow until a run of any length ends.
+//! Whoever gives up again soon after has less patience, and steps become longer: first ones are so short that what
+//! they differ from the motion by is below the tolerance; where events go on to accumulate (a sliding mode, a rocking
+//! without end), they grow until a run of any length ends.
 
 use crate::work::Work;
 

@@ -29,8 +29,8 @@ columns! {
         #[serde(rename = "work_unsolved")]
         #[column(small = 0.0)]
         pub unsolved: u64,
-        /// Solves of a step, or with the solver `auto` of an island of it, for which the last step's impulses were taken
-        /// as they were.
+        /// Solves of a step, or with the solver `auto` of an island of it, for which the last step's impulses were
+        /// taken as they were.
         #[serde(rename = "work_kept_solves")]
         pub kept_solves: u64,
         /// Those of `auto` that were exact.

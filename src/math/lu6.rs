@@ -83,8 +83,8 @@ impl Lu6 {
     #[inline(always)]
     fn forward<const K: usize>(&self, x: &mut [f64; 6]) {
         let own = x[K];
-        for i in K + 1..6 {
-            x[i] -= self.columns[K][i] * own;
+        for (x, left) in x[K + 1..].iter_mut().zip(&self.columns[K][K + 1..]) {
+            *x -= left * own;
         }
     }
 
@@ -93,8 +93,8 @@ impl Lu6 {
     fn back<const K: usize>(&self, x: &mut [f64; 6]) {
         x[K] *= self.inverse[K];
         let own = x[K];
-        for i in 0..K {
-            x[i] -= self.columns[K][i] * own;
+        for (x, above) in x[..K].iter_mut().zip(&self.columns[K][..K]) {
+            *x -= above * own;
         }
     }
 

@@ -36,11 +36,10 @@ pub(super) fn solve(
     problem: &ContactProblem,
     goal: &Sweeps,
     p: &mut [Impulse],
-    start: Start,
     scratch: &mut Scratch,
     work: &mut Work,
 ) -> bool {
-    if problem.is_dense() && !(start.is_shared && start.residual <= newton::NEAR) {
+    if problem.is_dense() {
         if let Some(alone) = alone(problem) {
             p[0] = exact_contact::solve(&alone.A, &alone.b, &Impulse::zeros(), alone.friction);
         } else {

@@ -26,8 +26,11 @@ const SWEEPS_OF_FEW: u32 = 100;
 const MORE_SWEEPS: u32 = 300;
 
 /// η of the first proximal problem and least, contacts having blocks of trace 1 (rounding of a velocity is felt as 1/η
-/// of it); what it is multiplied by when the problem was solved, and when it was not.
+/// of it); what it is multiplied by when the problem was solved, and when it was not. The first is smaller the nearer
+/// impulses are: so many times the residual, to a least first one.
 const FIRST_ETA: f64 = 0.1;
+const OF_RESIDUAL: f64 = 10.0;
+const LEAST_FIRST_ETA: f64 = 1e-6;
 const LEAST_ETA: f64 = 1e-8;
 const ON: f64 = 0.5;
 const BACK: f64 = 4.0;
@@ -183,7 +186,7 @@ pub(super) fn solve_island(
     {
         keep(&mut best, at, found, residual, work);
     }
-    let (mut centre, mut eta) = (at.p.clone(), FIRST_ETA);
+    let (mut centre, mut eta) = (at.p.clone(), (OF_RESIDUAL * best).clamp(LEAST_FIRST_ETA, FIRST_ETA));
     let (mut last, mut in_vain) = (best, 0);
     for _ in 0..goal.most {
         in_vain = if best < last { 0 } else { in_vain + 1 };

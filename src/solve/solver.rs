@@ -67,7 +67,7 @@ impl ContactSolver {
             return true;
         }
         match &mut self.by {
-            By::Auto(scratch) => auto::solve(problem, sweeps, p, start, scratch, work),
+            By::Auto(scratch) => auto::solve(problem, sweeps, p, scratch, work),
             By::Pgs(scratch) => gauss_seidel::iterate(problem, sweeps, p, scratch, work),
             By::Nncg(scratch) => nncg::iterate(problem, sweeps, p, scratch, work),
             By::Newton(scratch) => newton::solve(problem, sweeps, p, scratch, work),

@@ -33,7 +33,7 @@ columns! {
         /// taken as they were.
         #[serde(rename = "work_kept_solves")]
         pub kept_solves: u64,
-        /// Those of `auto` that were exact.
+        /// Those of `auto` that were exact, or that its first sweeps brought to a hundredth of the tolerance.
         #[serde(rename = "work_exact_solves")]
         pub exact_solves: u64,
         /// Islands that it left to an iteration.

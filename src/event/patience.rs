@@ -15,14 +15,12 @@ const AT_ONCE_S: f64 = 1e-9;
 const MANY_DENSE: u64 = 2_000;
 const MANY: u64 = 100_000;
 
-/// Linear systems, looks at gaps and evaluations of forces (25 µs each, measured in stacks of six bodies) that may be
-/// spent at once, of all bodies that move and of each of them; and the part of it that the time of a stretch gives.
+/// Linear systems of the law (25 µs each, measured in stacks of six bodies) that may be spent at once, of all bodies
+/// that move and of each of them; and the part of it that the time of a stretch gives. Looks at gaps and the integration
+/// of what moves smoothly do not count: how many there are is a matter of what is skipped, and of how fast bodies spin.
 const EFFORT: u64 = 40_000;
 const EFFORT_OF_EACH: u64 = 5_000;
 const GIVEN: f64 = 1.0 / 64.0;
-
-/// Pairs of bodies from which looks at gaps count less: most of them see that two are far from each other.
-const PAIRS: usize = 64;
 
 /// Of all of these: what is left after having given up often, halved so many times at most, and so many events at one
 /// moment.
@@ -39,8 +37,6 @@ const MOST_LEVEL: u32 = 11;
 pub struct Patience {
     /// Of a stretch of whole steps.
     stretch_s: f64,
-    /// Looks at gaps that are one.
-    looks: u64,
     /// Effort that may be spent at once, and what is left of it.
     effort: u64,
     left: u64,
@@ -58,12 +54,11 @@ pub struct Patience {
 }
 
 impl Patience {
-    /// `bodies`: all, and those that move.
-    pub fn new(stretch_s: f64, [bodies, moving]: [usize; 2], start_s: f64) -> Self {
+    /// With so many bodies that move.
+    pub fn new(stretch_s: f64, moving: usize, start_s: f64) -> Self {
         let effort = EFFORT + EFFORT_OF_EACH * moving as u64;
         Patience {
             stretch_s,
-            looks: (bodies * bodies / 2 / PAIRS).max(1) as u64,
             effort,
             left: effort,
             counted_s: start_s,
@@ -76,13 +71,9 @@ impl Patience {
         }
     }
 
-    fn effort(&self, work: &Work) -> u64 {
-        work.newton_steps + work.contact_tests / self.looks + work.gyroscopic
-    }
-
     /// Effort that may be spent; none: nothing is looked for any more.
     pub fn left(&self, work: &Work) -> u64 {
-        (self.spent + self.left).saturating_sub(self.effort(work))
+        (self.spent + self.left).saturating_sub(work.newton_steps)
     }
 
     /// Whether events come faster, or cost more, than steps of equal length would.
@@ -108,7 +99,7 @@ impl Patience {
         if given >= 1.0 {
             self.counted_s = to_s;
         }
-        self.spent = self.effort(work);
+        self.spent = work.newton_steps;
     }
 
     /// Events lead no further. The level of the steps that follow.

@@ -82,7 +82,7 @@ impl Stretch {
 /// For how long events are followed, in the time of a stretch of whole steps.
 pub fn patience(model: &Model, start: &State) -> Patience {
     let moving = model.bodies.iter().filter(|body| !body.driven).count();
-    Patience::new(f64::from(STEPS) * whole_s(model), [model.bodies.len(), moving], start.time_s)
+    Patience::new(f64::from(STEPS) * whole_s(model), moving, start.time_s)
 }
 
 /// A thousandth of a fall by the size of the bodies.

@@ -16,8 +16,9 @@ const MANY_DENSE: u64 = 2_000;
 const MANY: u64 = 100_000;
 
 /// Linear systems of the law (25 µs each, measured in stacks of six bodies) that may be spent at once, of all bodies
-/// that move and of each of them; and the part of it that the time of a stretch gives. Looks at gaps and the integration
-/// of what moves smoothly do not count: how many there are is a matter of what is skipped, and of how fast bodies spin.
+/// that move and of each of them; and the part of it that the time of a stretch gives. Looks at gaps and the
+/// integration of what moves smoothly do not count: how many there are is a matter of what is skipped, and of how fast
+/// bodies spin.
 const EFFORT: u64 = 40_000;
 const EFFORT_OF_EACH: u64 = 5_000;
 const GIVEN: f64 = 1.0 / 64.0;

@@ -138,13 +138,19 @@ impl Block {
         })
     }
 
+    /// Asks for another normal velocity at least.
+    pub fn ask_for(&mut self, least: f64) {
+        self.b.x += self.least - least;
+        self.least = least;
+    }
+
     /// Asks for what the bodies' free turning beyond their angular velocities after the step leaves of the gap.
     pub(super) fn turn(&mut self, contact: &Contact, model: &Model, turning: f64, (approach, step_s): (Approach, f64)) {
         let gained = self.b.x + self.least - self.before.x;
         let motion = NormalMotion { before: self.before.x, gained, turning };
         if let Some(least) = approach.least(model, contact, motion, step_s) {
-            self.b.x += self.least - least;
-            (self.least, self.turning) = (least, turning);
+            self.ask_for(least);
+            self.turning = turning;
         }
     }
 

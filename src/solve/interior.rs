@@ -193,7 +193,7 @@ impl<'a> Method<'a> {
     /// None: the systems are singular.
     fn step(&mut self, gap: f64) -> Option<()> {
         let linear = Linear::new(self)?;
-        let factors = self.island.system(&linear.D)?;
+        let factors = self.island.coupled(linear.D.iter(), 1.0).factors(self.island.deadline)?;
         let (_, predicted) = linear.direction(self, &factors, |_, lambda| -product(lambda, lambda))?;
         let part = self.longest(&predicted).min(1.0);
         let left = (self.gap_after(&predicted, part) / gap).clamp(0.0, 1.0);

@@ -12,7 +12,7 @@ use super::law::{self, Law};
 use super::problem::ContactProblem;
 use super::speeds::{Acted, Speeds, relative};
 use crate::deadline::Deadline;
-use crate::math::block_lu::{BlockMatrix, Factors, Pattern};
+use crate::math::block_lu::{BlockMatrix, Pattern};
 use crate::math::few::{BlockVector, Few, OneOrTwo};
 use crate::math::six::{self, Six};
 use nalgebra::{Matrix3, Vector3};
@@ -244,11 +244,6 @@ impl Island {
         let mut y = BlockVector::zeros(self.bodies());
         self.touches.iter().zip(p).for_each(|(touch, p)| touch.push(&p, &mut y));
         y
-    }
-
-    /// E + Gᵀ D G in factors, with the 3×3 blocks of D. None: it is singular, or out of time.
-    pub fn system(&self, D: &[Matrix3<f64>]) -> Option<Factors<'_>> {
-        self.coupled(D.iter(), 1.0).factors(self.deadline)
     }
 
     /// Gᵀ D G with so much more on the diagonal.

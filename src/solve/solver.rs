@@ -61,8 +61,7 @@ impl ContactSolver {
 
     /// Improves `p`. Whether it is solved, or has settled.
     pub fn solve(&mut self, problem: &ContactProblem, sweeps: &Sweeps, p: &mut [Impulse], work: &mut Work) -> bool {
-        let start = Start::new(problem, p, &mut self.u);
-        if self.keeps && start.lasts(sweeps.tolerance) {
+        if self.keeps && Start::new(problem, p, &mut self.u).lasts(sweeps.tolerance) {
             work.kept_solves += 1;
             return true;
         }

@@ -9,6 +9,7 @@
 
 use crate::collide::Contact;
 use crate::solve::Impulse;
+use crate::solve::block::Block;
 use crate::solve::problem::ContactProblem;
 use crate::solve::twist::Twist;
 use crate::state::State;
@@ -23,12 +24,9 @@ const DEPTH: f64 = 2.0;
 /// Lets gaps of contacts that pressed in the last step close by a part. `last`: its impulses.
 pub(super) fn close_slowly(problem: &mut ContactProblem, contacts: &[Contact], last: &[Impulse], step_s: f64) {
     let contacts = problem.blocks.iter_mut().zip(contacts).zip(last);
-    for ((block, contact), _) in contacts.filter(|((_, contact), p)| p.x > 0.0 && contact.gap_m > 0.0) {
-        if block.least < 0.0 {
-            let least = (block.least + contact.gap_m / step_s * (1.0 - PART)).min(0.0);
-            block.b.x += block.least - least;
-            block.least = least;
-        }
+    let closes = |block: &Block, contact: &Contact, p: &Impulse| p.x > 0.0 && contact.gap_m > 0.0 && block.least < 0.0;
+    for ((block, contact), _) in contacts.filter(|((block, contact), p)| closes(block, contact, p)) {
+        block.ask_for((block.least + contact.gap_m / step_s * (1.0 - PART)).min(0.0));
     }
 }
 

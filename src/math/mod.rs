@@ -8,6 +8,7 @@ pub mod few;
 pub mod full_pivot;
 pub mod interval;
 pub mod least_norm;
+pub mod lemke;
 pub mod lu6;
 pub mod newton;
 pub mod order;

@@ -30,13 +30,33 @@ pub fn combined(a: &[Six; 3], factors: [f64; 3]) -> Six {
     sum
 }
 
-/// `to += a₁ b₁ᵀ + a₂ b₂ᵀ + a₃ b₃ᵀ`.
+/// f₁ a₁ + f₂ a₂.
 #[inline(always)]
-pub fn add_products(to: &mut Matrix6<f64>, a: &[Six; 3], b: &[Six; 3]) {
+pub fn combined_two(a: &Six, b: &Six, factors: [f64; 2]) -> Six {
+    let mut sum = [0.0; 6];
+    for i in 0..6 {
+        sum[i] = a[i] * factors[0] + b[i] * factors[1];
+    }
+    sum
+}
+
+/// f a.
+#[inline(always)]
+pub fn scaled(a: &Six, factor: f64) -> Six {
+    a.map(|a| a * factor)
+}
+
+/// `to += a₁ b₁ᵀ + a₂ b₂ᵀ + …`.
+#[inline(always)]
+pub fn add_products<const N: usize>(to: &mut Matrix6<f64>, a: &[Six; N], b: &[Six; N]) {
     let columns: &mut [Six; 6] = &mut to.data.0;
     for (j, column) in columns.iter_mut().enumerate() {
         for i in 0..6 {
-            column[i] += a[0][i] * b[0][j] + a[1][i] * b[1][j] + a[2][i] * b[2][j];
+            let mut sum = a[0][i] * b[0][j];
+            for k in 1..N {
+                sum += a[k][i] * b[k][j];
+            }
+            column[i] += sum;
         }
     }
 }

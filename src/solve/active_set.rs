@@ -6,11 +6,13 @@
 //! against A's eigenvalues, redundant contacts are no trouble, and since the changes of p are worked out, not p, what
 //! rounding leaves shrinks from step to step.
 
-use super::Impulse;
 use super::island::{Island, Point, Share};
-use super::law::{self, Law, Place};
-use crate::math::few::Few;
-use nalgebra::{Matrix3, Vector3};
+use super::law::{self, Law};
+use super::modes::{Mode, onto_cone, turning};
+use super::slope::Slope;
+use super::{Impulse, complementary};
+use crate::math::few::{BlockVector, Few};
+use nalgebra::Vector3;
 
 const ETA: f64 = 1e-8;
 const LARGEST_ETA: f64 = 1e-2;
@@ -60,28 +62,50 @@ fn improve_with(
 ) -> f64 {
     let (mut best, mut worse) = (residual, 0);
     let mut tried: Option<Point> = None;
+    let mut by = By::NaturalMap;
     for _ in 0..MOST {
         let is_solved = best <= until.tolerance;
         if best <= until.enough || worse > PATIENCE || (worse > SOLVED_PATIENCE && is_solved) {
             break;
         }
         *steps += 1;
-        let Some(next) = step(island, tried.as_ref().unwrap_or(at), Some(eta(best))) else { break };
+        let from = tried.as_ref().unwrap_or(at);
+        let next = match by {
+            By::NaturalMap => step(island, from, eta(best)),
+            By::Complementarity => complementary::step(island, from),
+        };
+        let Some(next) = next else { break };
         let residual = island.residual_at(&next);
         if residual < best {
             (best, worse) = (residual, 0);
             *at = next;
             tried = None;
-        } else {
-            worse += 1;
-            tried = Some(next);
+            continue;
+        }
+        worse += 1;
+        tried = Some(next);
+        if by == By::NaturalMap && !is_solved && island.touches.len() <= complementary::MOST_TOUCHES {
+            // From the best point again.
+            (by, tried) = (By::Complementarity, None);
         }
     }
     best
 }
 
+/// What tells which contacts press after a step of Newton's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum By {
+    /// The natural map where the step begins.
+    NaturalMap,
+    /// The step itself (`complementary.rs`).
+    Complementarity,
+}
+
 /// η where redundant impulses are measured from zero: of |p| squared so much is added to what is least.
 const EVEN_ETA: f64 = 1e-5;
+
+/// Of the tolerance: a residual that is enough for contacts that slip, of which no body is at rest.
+const ENOUGH: f64 = 1e-2;
 
 /// Of the largest impulse: a change that is none.
 const SAME: f64 = 1e-10;
@@ -92,9 +116,10 @@ const SAME: f64 = 1e-10;
 pub fn even(island: &Island, at: &mut Point, mut residual: f64, rounds: usize, tolerance: f64, steps: &mut u64) -> f64 {
     for _ in 0..rounds {
         *steps += 1;
-        let Some(mut next) = step(island, at, None) else { break };
+        let Some(mut next) = step_even(island, at) else { break };
         let first = island.residual_at(&next);
-        let reached = improve(island, &mut next, first, tolerance, steps);
+        let until = Until { enough: ROUNDING.max(ENOUGH * tolerance), tolerance };
+        let reached = improve_with(|_| ETA, island, &mut next, first, until, steps);
         if reached > residual.max(tolerance).max(island.rounding(&next)) {
             break;
         }
@@ -125,25 +150,26 @@ fn slips(touch: &Share, p: &Impulse) -> bool {
     friction > 0.0 && p.x > 0.0 && p.yz().norm() >= friction * p.x * (1.0 - 1e-9)
 }
 
-/// What a contact's impulse does when velocities change: Δp = `jump` − K (u + Δu).
+/// What a contact's impulse does when velocities change: Δp = `jump` − D (u + Δu).
 struct Linear {
     jump: Impulse,
-    K: Matrix3<f64>,
+    D: Slope,
     slips: bool,
+    /// It is measured from zero.
+    is_even: bool,
 }
 
 impl Linear {
     fn new(touch: &Share, p: &Impulse, u: &Vector3<f64>, eta: f64) -> Self {
         let friction = touch.law.friction();
-        let stay = |K| Linear { jump: Impulse::zeros(), K, slips: false };
-        match law::place(&(p - law::dual(u, touch.law)), touch.law) {
-            Place::Tip => Linear { jump: -p, K: Matrix3::zeros(), slips: false },
-            _ if touch.law == Law::Pin => stay(Matrix3::from_diagonal_element(1.0 / eta)),
-            _ if friction == 0.0 => stay(Matrix3::from_partial_diagonal(&[1.0 / eta])),
-            Place::Inside => stay(Matrix3::from_diagonal_element(1.0 / eta)),
-            Place::Side { t, .. } => {
-                let K = along_edge(&t, friction, 1.0 / eta, turning(p, u, friction, eta));
-                Linear { jump: law::edge(&t, friction) * p.x.max(0.0) - p, K, slips: true }
+        let stay = |D| Linear { jump: Impulse::zeros(), D, slips: false, is_even: false };
+        match Mode::of(touch, p, u) {
+            Mode::Open => Linear { jump: -p, D: Slope::Nothing, slips: false, is_even: false },
+            Mode::Held if touch.law != Law::Pin && friction == 0.0 => stay(Slope::Diagonal(Vector3::x() / eta)),
+            Mode::Held => stay(Slope::alike(1.0 / eta)),
+            Mode::Slips(t) => {
+                let D = Slope::along_side(&t, friction, 1.0 / eta, turning(p, u, friction, eta));
+                Linear { jump: law::edge(&t, friction) * p.x.max(0.0) - p, D, slips: true, is_even: false }
             }
         }
     }
@@ -152,64 +178,70 @@ impl Linear {
     fn even(touch: &Share, p: &Impulse, u: &Vector3<f64>, eta: f64, small: f64) -> Self {
         let friction = touch.law.friction();
         let slip = (u.y * u.y + u.z * u.z).sqrt();
-        let t = match law::place(&(p - law::dual(u, touch.law)), touch.law) {
+        let t = match Mode::of(touch, p, u) {
             _ if touch.law == Law::Pin || friction == 0.0 => return Linear::new(touch, p, u, ETA),
             // It touches without a force: it may have one.
-            Place::Tip if u.x > small || slip <= small => return Linear::new(touch, p, u, ETA),
-            Place::Tip => Vector3::new(0.0, -u.y / slip, -u.z / slip),
-            Place::Inside => return Linear { jump: -p, K: Matrix3::from_diagonal_element(1.0 / eta), slips: false },
-            Place::Side { t, .. } => t,
+            Mode::Open if u.x > small || slip <= small => return Linear::new(touch, p, u, ETA),
+            Mode::Open => Vector3::new(0.0, -u.y / slip, -u.z / slip),
+            Mode::Held => {
+                return Linear { jump: -p, D: Slope::alike(1.0 / eta), slips: false, is_even: true };
+            }
+            Mode::Slips(t) => t,
         };
-        Linear { jump: -p, K: along_edge(&t, friction, 1.0 / eta, turning(p, u, friction, ETA)), slips: true }
+        let D = Slope::along_side(&t, friction, 1.0 / eta, turning(p, u, friction, ETA));
+        Linear { jump: -p, D, slips: true, is_even: true }
+    }
+
+    /// Of an impulse that is measured from zero, what η alone makes of a velocity.
+    fn made(&self, u: &Vector3<f64>) -> Impulse {
+        match self.D {
+            _ if !self.is_even => Impulse::zeros(),
+            Slope::Side { edge, normal, .. } => edge * (-normal * u.x),
+            D => -D.times(u),
+        }
     }
 }
 
-/// How fast p turns with what slips across.
-fn turning(p: &Impulse, u: &Vector3<f64>, friction: f64, eta: f64) -> f64 {
-    let slip = (u.y * u.y + u.z * u.z).sqrt();
-    let E = if p.x > 0.0 { slip / (friction * p.x) } else { f64::INFINITY };
-    1.0 / (E + eta)
+/// A step of Newton's method.
+fn step(island: &Island, at: &Point, eta: f64) -> Option<Point> {
+    let touches = island.touches.iter().zip(&at.p).zip(&at.u);
+    let linear: Few<Linear> = touches.map(|((touch, p), u)| Linear::new(touch, p, u, eta)).collect();
+    let H = island.coupled(linear.iter().map(|linear| &linear.D), 1.0);
+    Some(moved(island, at, &linear, &H.solve(&pulled(island, at, &linear), island.deadline)?))
 }
 
-/// `normal` (n + μ t) nᵀ + `across` s sᵀ, s the other tangent.
-fn along_edge(t: &Vector3<f64>, friction: f64, normal: f64, across: f64) -> Matrix3<f64> {
-    let s = law::across(t);
-    let (y, z) = (across * s.y, across * s.z);
-    Matrix3::new(normal, 0.0, 0.0, friction * t.y * normal, y * s.y, y * s.z, friction * t.z * normal, z * s.y, z * s.z)
-}
-
-/// `eta`: none, to even shares.
-fn step(island: &Island, at: &Point, eta: Option<f64>) -> Option<Point> {
-    let touches = || island.touches.iter().zip(&at.p).zip(&at.u);
-    let mut linear: Few<Linear> = Few::new();
-    if let Some(eta) = eta {
-        linear.extend(touches().map(|((touch, p), u)| Linear::new(touch, p, u, eta)));
-    } else {
-        let small = island.scales(at).into_iter().map(|scale| ROUNDING.sqrt() * scale);
-        let largest = island.touches.iter().map(|touch| touch.scale).fold(0.0, f64::max);
-        let eta = |touch: &Share| {
-            let part = touch.scale / largest;
-            EVEN_ETA * part * part
-        };
-        let even = |(((touch, p), u), small)| Linear::even(touch, p, u, eta(touch), small);
-        linear.extend(touches().zip(small).map(even));
+/// A step toward even shares. Measured from zero with η, normal velocities would be η p; so the impulses that this
+/// makes are taken for a centre to measure from once more (the method of multipliers), which leaves η² of it and changes
+/// no shares.
+fn step_even(island: &Island, at: &Point) -> Option<Point> {
+    let small = island.scales(at).into_iter().map(|scale| ROUNDING.sqrt() * scale);
+    let largest = island.touches.iter().map(|touch| touch.scale).fold(0.0, f64::max);
+    let eta = |touch: &Share| {
+        let part = touch.scale / largest;
+        EVEN_ETA * part * part
+    };
+    let even = |(((touch, p), u), small)| Linear::even(touch, p, u, eta(touch), small);
+    let mut linear: Few<Linear> = island.touches.iter().zip(&at.p).zip(&at.u).zip(small).map(even).collect();
+    let factors = island.coupled(linear.iter().map(|linear| &linear.D), 1.0).factors(island.deadline)?;
+    let first = factors.solve(&pulled(island, at, &linear))?;
+    for ((linear, touch), u) in linear.iter_mut().zip(&island.touches).zip(&at.u) {
+        linear.jump += linear.made(&(u + touch.motion(&first)));
     }
-    let at_rest = island.pushed(linear.iter().zip(&at.u).map(|(linear, u)| linear.jump - linear.K * u));
-    let change = island.coupled(linear.iter().map(|linear| &linear.K), 1.0).solve(&at_rest, island.deadline)?;
-    let mut next = Few::new();
-    next.extend(touches().zip(&linear).map(|(((touch, p), u), linear)| {
-        let new = p + linear.jump - linear.K * (u + touch.motion(&change));
+    let change = factors.solve(&pulled(island, at, &linear))?;
+    Some(moved(island, at, &linear, &change))
+}
+
+/// Gᵀ of what all impulses would change if no velocity did.
+fn pulled(island: &Island, at: &Point, linear: &[Linear]) -> BlockVector {
+    island.pushed(linear.iter().zip(&at.u).map(|(linear, u)| linear.jump - linear.D.times(u)))
+}
+
+/// The point after velocities have changed.
+fn moved(island: &Island, at: &Point, linear: &[Linear], change: &BlockVector) -> Point {
+    let touches = island.touches.iter().zip(&at.p).zip(&at.u).zip(linear);
+    let next = touches.map(|(((touch, p), u), linear)| {
+        let new = p + linear.jump - linear.D.times(&(u + touch.motion(change)));
         if linear.slips { onto_cone(&new, touch.law.friction()) } else { new }
-    }));
-    Some(island.at(next))
-}
-
-/// Along the tangent the cone is left to second order.
-fn onto_cone(p: &Impulse, friction: f64) -> Impulse {
-    let length = (p.y * p.y + p.z * p.z).sqrt();
-    if p.x <= 0.0 || length == 0.0 {
-        return Impulse::zeros();
-    }
-    let scale = friction * p.x / length;
-    Impulse::new(p.x, p.y * scale, p.z * scale)
+    });
+    island.at(next.collect())
 }

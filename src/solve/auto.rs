@@ -31,27 +31,26 @@ const MANY_SWEEPS: [u32; 8] = [50; 8];
 /// A residual of impulses that bodies at rest keep for thousands of steps.
 const LASTING: f64 = 1e-13;
 
-/// Improves `p` until the residual of every island is below the tolerance. Whether it is.
+/// Improves `p` until the residual of every island is below the tolerance. Whether it is. `u`: M⁻¹ Jᵀ p.
 pub(super) fn solve(
     problem: &ContactProblem,
     goal: &Sweeps,
     p: &mut [Impulse],
+    (start, u): (Start, &mut Vec<Twist>),
     scratch: &mut Scratch,
     work: &mut Work,
 ) -> bool {
-    if problem.is_dense() {
+    if problem.is_dense() && (start.residual > newton::NEAR || problem.blocks.len() == 1) {
         if let Some(alone) = alone(problem) {
             p[0] = exact_contact::solve(&alone.A, &alone.b, &Impulse::zeros(), alone.friction);
         } else {
             let sweeps = Sweeps { most: FIRST_SWEEPS, tolerance: LASTING, ..*goal };
             gauss_seidel::iterate(problem, &sweeps, p, &mut scratch.nncg.sweeps, work);
         }
-        if Start::new(problem, p, &mut scratch.u).lasts(goal.tolerance) {
+        if Start::new(problem, p, u).lasts(goal.tolerance) {
             work.exact_solves += 1;
             return true;
         }
-    } else {
-        problem.response(p, &mut scratch.u);
     }
     let mut islands = islands_without_pattern(problem, goal.deadline);
     let alone = islands.len() == 1 && islands[0].touches.len() == problem.blocks.len();
@@ -60,7 +59,7 @@ pub(super) fn solve(
         let mut own = island.at(island.impulses(p));
         let is_new = own.p.iter().all(|p| *p == Impulse::zeros());
         let contacts = island.touches.iter().map(|touch| touch.index);
-        let is_shared = is_new || shares_matter(problem, contacts, p, &scratch.u);
+        let is_shared = is_new || shares_matter(problem, contacts, p, u);
         if scratch.keeps && !is_shared && island.is_strictly_met(KEPT * goal.tolerance, &own) {
             work.kept_solves += 1;
             continue;
@@ -87,14 +86,13 @@ fn alone(problem: &ContactProblem) -> Option<&Block> {
 #[derive(Clone, Debug)]
 pub struct Scratch {
     nncg: nncg::Scratch,
-    u: Vec<Twist>,
     /// Whether impulses of the last step that still obey the law are taken as they are.
     keeps: bool,
 }
 
 impl Scratch {
     pub fn with_capacity(contacts: usize, bodies: usize, keeps: bool) -> Self {
-        Scratch { nncg: nncg::Scratch::with_capacity(contacts, bodies), u: Vec::with_capacity(bodies), keeps }
+        Scratch { nncg: nncg::Scratch::with_capacity(contacts, bodies), keeps }
     }
 }
 

@@ -4,6 +4,7 @@ use super::Impulse;
 use super::block::Block;
 use super::twist::Twist;
 use nalgebra::{Matrix3, Vector3};
+use std::cell::Ref;
 
 /// How contacts feel each other: c = b + A p.
 pub trait Coupling {
@@ -16,7 +17,7 @@ pub trait Coupling {
 /// Through A itself.
 pub struct Dense<'a> {
     /// Block (i, j) at i L + j.
-    pub(super) A_blocks: &'a [Matrix3<f64>],
+    pub(super) A_blocks: Ref<'a, Vec<Matrix3<f64>>>,
 }
 
 impl Coupling for Dense<'_> {

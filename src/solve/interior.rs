@@ -12,6 +12,7 @@
 use super::Impulse;
 use super::island::{Island, Point, Share};
 use super::law::{self, Law};
+use super::slope::Slope;
 use crate::math::block_lu::Factors;
 use crate::math::few::{BlockVector, Few};
 use nalgebra::{Matrix3, Vector3};
@@ -193,7 +194,8 @@ impl<'a> Method<'a> {
     /// None: the systems are singular.
     fn step(&mut self, gap: f64) -> Option<()> {
         let linear = Linear::new(self)?;
-        let factors = self.island.coupled(linear.D.iter(), 1.0).factors(self.island.deadline)?;
+        let factors =
+            self.island.coupled(linear.D.iter().map(|D| Slope::Any(*D)), 1.0).factors(self.island.deadline)?;
         let (_, predicted) = linear.direction(self, &factors, |_, lambda| -product(lambda, lambda))?;
         let part = self.longest(&predicted).min(1.0);
         let left = (self.gap_after(&predicted, part) / gap).clamp(0.0, 1.0);

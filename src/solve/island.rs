@@ -10,12 +10,14 @@ use super::block::Block;
 use super::end::{End, Inertia};
 use super::law::{self, Law};
 use super::problem::ContactProblem;
+use super::slope::Slope;
 use super::speeds::{Acted, Speeds, relative};
 use crate::deadline::Deadline;
 use crate::math::block_lu::{BlockMatrix, Pattern};
 use crate::math::few::{BlockVector, Few, OneOrTwo};
 use crate::math::six::{self, Six};
 use nalgebra::{Matrix3, Vector3};
+use std::borrow::Borrow;
 
 /// The rows of G of one of a contact's bodies.
 #[derive(Clone, Copy, Debug)]
@@ -207,6 +209,22 @@ impl Share {
         sides.map(of).fold(f64::INFINITY, f64::min)
     }
 
+    /// H += Σ left rightᵀ, of which every one of its bodies has its own.
+    #[inline(always)]
+    fn couple<const N: usize>(
+        &self,
+        H: &mut BlockMatrix,
+        left: impl Fn(&[Six; 3]) -> [Six; N],
+        right: impl Fn(&[Six; 3]) -> [Six; N],
+    ) {
+        for b in self.sides.iter().flatten() {
+            let right = right(&b.rows);
+            for a in self.sides.iter().flatten() {
+                six::add_products(H.block(a.body, b.body), &left(&a.rows), &right);
+            }
+        }
+    }
+
     /// y += Gᵀ p.
     fn push(&self, p: &Impulse, y: &mut BlockVector) {
         for side in self.sides.iter().flatten() {
@@ -246,14 +264,35 @@ impl Island {
         y
     }
 
+    /// Gᵀ p of one contact's impulse.
+    pub fn pushed_by(&self, touch: usize, p: &Impulse) -> BlockVector {
+        let mut y = BlockVector::zeros(self.bodies());
+        self.touches[touch].push(p, &mut y);
+        y
+    }
+
     /// Gᵀ D G with so much more on the diagonal.
-    pub fn coupled<'a>(&self, D: impl Iterator<Item = &'a Matrix3<f64>>, on_diagonal: f64) -> BlockMatrix<'_> {
+    pub fn coupled(&self, D: impl Iterator<Item = impl Borrow<Slope>>, on_diagonal: f64) -> BlockMatrix<'_> {
         let mut H = BlockMatrix::diagonal(&self.pattern, on_diagonal);
-        for (touch, D) in self.touches.iter().zip(D).filter(|(_, D)| **D != Matrix3::zeros()) {
-            for b in touch.sides.iter().flatten() {
-                let right = [0, 1, 2].map(|k| six::combined(&b.rows, [D[(k, 0)], D[(k, 1)], D[(k, 2)]]));
-                for a in touch.sides.iter().flatten() {
-                    six::add_products(H.block(a.body, b.body), &a.rows, &right);
+        for (touch, D) in self.touches.iter().zip(D) {
+            match D.borrow() {
+                Slope::Nothing => {}
+                Slope::Any(D) if *D == Matrix3::zeros() => {}
+                Slope::Any(D) => {
+                    let right = |rows: &_| [0, 1, 2].map(|k| six::combined(rows, [D[(k, 0)], D[(k, 1)], D[(k, 2)]]));
+                    touch.couple(&mut H, |rows| *rows, right);
+                }
+                Slope::Diagonal(d) if d.y == 0.0 && d.z == 0.0 => {
+                    touch.couple(&mut H, |rows| [rows[0]], |rows| [six::scaled(&rows[0], d.x)]);
+                }
+                Slope::Diagonal(d) => {
+                    touch.couple(&mut H, |rows| *rows, |rows| [0, 1, 2].map(|k| six::scaled(&rows[k], d[k])));
+                }
+                Slope::Side { edge, s, normal, across } => {
+                    let other = |rows: &[Six; 3]| six::combined_two(&rows[1], &rows[2], [s.y, s.z]);
+                    let left = |rows: &[Six; 3]| [six::combined(rows, [edge.x, edge.y, edge.z]), other(rows)];
+                    let right = |rows: &[Six; 3]| [six::scaled(&rows[0], *normal), six::scaled(&other(rows), *across)];
+                    touch.couple(&mut H, left, right);
                 }
             }
         }

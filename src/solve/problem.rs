@@ -19,6 +19,7 @@ use crate::collide::lasting::Hold;
 use crate::model::Model;
 use crate::state::State;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use std::cell::RefCell;
 
 /// All contacts of a step.
 #[derive(Clone, Debug, Default)]
@@ -30,11 +31,11 @@ pub struct ContactProblem {
     pub(super) speeds: Vec<Speeds>,
     /// Part of Σ|p|/m of a body that counts beside what it changes, though impulses cancel.
     pub(super) cancelling: f64,
-    /// Empty for many contacts.
-    A_blocks: Vec<Matrix3<f64>>,
+    /// Of few contacts, once somebody has asked for it; else empty.
+    A_blocks: RefCell<Vec<Matrix3<f64>>>,
 }
 
-/// Contacts up to which A is worked out. A sweep costs 9 L² products with A and 36 L (in long chains) without it.
+/// Contacts up to which A is worked out where it is swept over. A sweep costs 9 L² products with A and 36 L (in long chains) without it.
 const DENSE: usize = 32;
 
 /// Part of the impulses of a step that counts though they cancel: a light body under one that is up to 10⁴ times as
@@ -49,7 +50,7 @@ impl ContactProblem {
             inertias: Vec::with_capacity(bodies),
             speeds: Vec::with_capacity(bodies),
             cancelling: 0.0,
-            A_blocks: Vec::with_capacity(contacts.min(DENSE) * contacts.min(DENSE)),
+            A_blocks: RefCell::new(Vec::with_capacity(contacts.min(DENSE) * contacts.min(DENSE))),
         }
     }
 
@@ -77,6 +78,7 @@ impl ContactProblem {
         mut hold: impl FnMut(&Contact) -> Option<Hold>,
     ) {
         self.blocks.clear();
+        self.A_blocks.get_mut().clear();
         self.bodies = model.bodies.len();
         self.inertias.clear();
         if !contacts.is_empty() {
@@ -92,7 +94,6 @@ impl ContactProblem {
             self.blocks.extend(block);
             block.is_some()
         });
-        self.couple();
     }
 
     /// Asks for gaps to what nothing moves to close by the mean velocities of the step: `turning` is what every body's
@@ -113,32 +114,29 @@ impl ContactProblem {
             self.inertias.extend(model.bodies.iter().zip(&state.bodies).map(|(body, at)| Inertia::of(body, at)));
         }
         self.blocks.extend(pins.iter().map(|pin| Block::of_pin(pin, free, &self.inertias)));
-        self.couple();
+        self.A_blocks.get_mut().clear();
     }
 
-    fn couple(&mut self) {
-        self.A_blocks.clear();
-        if self.blocks.len() <= DENSE {
+    /// Whether sweeps go through A: for few contacts that costs less than going through the bodies in every sweep.
+    pub fn is_dense(&self) -> bool {
+        !self.blocks.is_empty() && self.blocks.len() <= DENSE
+    }
+
+    /// A p by A's 3×3 blocks, which are worked out here if they are not known. Only if `is_dense`.
+    pub fn dense(&self) -> Dense<'_> {
+        if self.A_blocks.borrow().is_empty() {
             let n = self.blocks.len();
-            self.A_blocks.resize(n * n, Matrix3::zeros());
+            let mut A_blocks = self.A_blocks.borrow_mut();
+            A_blocks.resize(n * n, Matrix3::zeros());
             for (i, row) in self.blocks.iter().enumerate() {
-                self.A_blocks[i * n + i] = row.A;
+                A_blocks[i * n + i] = row.A;
                 for (j, column) in self.blocks.iter().enumerate().skip(i + 1) {
                     let A = row.coupling(column);
-                    (self.A_blocks[i * n + j], self.A_blocks[j * n + i]) = (A, A.transpose());
+                    (A_blocks[i * n + j], A_blocks[j * n + i]) = (A, A.transpose());
                 }
             }
         }
-    }
-
-    /// A was worked out: for few contacts that costs less than going through the bodies in every sweep.
-    pub fn is_dense(&self) -> bool {
-        !self.blocks.is_empty() && self.A_blocks.len() == self.blocks.len() * self.blocks.len()
-    }
-
-    /// A p by A's 3×3 blocks. Only if `is_dense`.
-    pub fn dense(&self) -> Dense<'_> {
-        Dense { A_blocks: &self.A_blocks }
+        Dense { A_blocks: self.A_blocks.borrow() }
     }
 
     /// A p = J (M⁻¹ Jᵀ p), without A.
@@ -240,9 +238,7 @@ impl ContactProblem {
     /// Some of its contacts, for iterations alone.
     pub(super) fn part(&self, contacts: impl Iterator<Item = usize>) -> ContactProblem {
         let blocks = contacts.map(|i| self.blocks[i]).collect();
-        let mut part = ContactProblem { blocks, bodies: self.bodies, ..ContactProblem::default() };
-        part.couple();
-        part
+        ContactProblem { blocks, bodies: self.bodies, ..ContactProblem::default() }
     }
 
     /// The same contacts once their bodies' velocities have changed by `u`: b is now c.
@@ -264,11 +260,7 @@ impl ContactProblem {
 
     /// The 3×3 block of A between two contacts.
     pub fn coupling(&self, i: usize, j: usize) -> Matrix3<f64> {
-        if self.is_dense() {
-            self.A_blocks[i * self.blocks.len() + j]
-        } else {
-            self.blocks[i].coupling(&self.blocks[j])
-        }
+        self.blocks[i].coupling(&self.blocks[j])
     }
 
     /// A as a dense matrix, 3L × 3L.

@@ -8,6 +8,7 @@
 //! cone).
 
 use super::island::{Island, Share};
+use super::slope::Slope;
 use super::{Impulse, law};
 use crate::math::few::{BlockVector, Few};
 use nalgebra::{Matrix3, Vector3};
@@ -65,7 +66,9 @@ pub fn solve(island: &Island, centre: &[Impulse], from: &[Impulse], eta: f64, st
         }
         *steps += 1;
         let slopes = at.slopes(island, eta);
-        let change = island.coupled(slopes.iter(), 1.0).solve(&at.missing.negative(), island.deadline)?;
+        let change = island
+            .coupled(slopes.iter().map(|D| Slope::Any(*D)), 1.0)
+            .solve(&at.missing.negative(), island.deadline)?;
         at = descend(island, centre, eta, &at, &change)?;
     }
     at.is_found().then_some(at.p)

@@ -8,6 +8,7 @@
 use super::Impulse;
 use super::island::{Island, Point, Share};
 use super::law::{self, Law};
+use super::slope::Slope;
 use crate::math::few::{BlockVector, Few};
 use nalgebra::{Matrix3, Vector3};
 
@@ -134,7 +135,7 @@ impl<'a> Faces<'a> {
             slope * *weight
         };
         let slopes: Few<Matrix3<f64>> = touches().zip(&at.z).map(slope).collect();
-        let mut H = self.island.coupled(slopes.iter(), 0.0);
+        let mut H = self.island.coupled(slopes.iter().map(|D| Slope::Any(*D)), 0.0);
         H.add_on_diagonal(REGULAR * H.largest());
         let change = H.solve(&at.missing, self.island.deadline)?;
         let mut part = 1.0;

@@ -61,12 +61,13 @@ impl ContactSolver {
 
     /// Improves `p`. Whether it is solved, or has settled.
     pub fn solve(&mut self, problem: &ContactProblem, sweeps: &Sweeps, p: &mut [Impulse], work: &mut Work) -> bool {
-        if self.keeps && Start::new(problem, p, &mut self.u).lasts(sweeps.tolerance) {
+        let start = Start::new(problem, p, &mut self.u);
+        if self.keeps && start.lasts(sweeps.tolerance) {
             work.kept_solves += 1;
             return true;
         }
         match &mut self.by {
-            By::Auto(scratch) => auto::solve(problem, sweeps, p, scratch, work),
+            By::Auto(scratch) => auto::solve(problem, sweeps, p, (start, &mut self.u), scratch, work),
             By::Pgs(scratch) => gauss_seidel::iterate(problem, sweeps, p, scratch, work),
             By::Nncg(scratch) => nncg::iterate(problem, sweeps, p, scratch, work),
             By::Newton(scratch) => newton::solve(problem, sweeps, p, scratch, work),

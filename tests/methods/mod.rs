@@ -14,6 +14,7 @@ mod impact_energy;
 mod known_problems;
 mod laws;
 mod lecture;
+mod lemke;
 mod loads;
 mod newton;
 mod orders;

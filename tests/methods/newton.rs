@@ -103,6 +103,23 @@ fn runs_of_the_lectures_cube_are_solved_but_for_a_hair() {
     }
 }
 
+/// 25 contacts of a face press at once, all slip, and what the step before has left of their gaps does not go together:
+/// which of them open is found by complementary steps.
+#[test]
+fn faces_that_come_to_lie_flat_are_solved_in_some_steps() {
+    let (mut steps, mut solves, mut most) = (0, 0, 0.0_f64);
+    for (seed, friction) in (0..24).flat_map(|seed| ["0.1", "0.3", "1"].map(|friction| (seed, friction))) {
+        let sets = [format!("seed={seed}"), format!("scene.friction={friction}")];
+        let nodes = "scene.bodies.cube.mesh.nodes_per_edge=5";
+        let m = measured(CUBE_IN_BOX, &["method=time-stepping", nodes, &sets[0], &sets[1]]);
+        assert_eq!(m.work.unsolved, 0, "{sets:?}: {:?}", m.residual_max);
+        (steps, solves) = (steps + m.work.newton_steps, solves + m.work.exact_solves);
+        most = most.max(m.work.newton_steps as f64 / m.work.exact_solves as f64);
+    }
+    // measured:
+    assert!(steps < 40 * solves && most < 200.0, "{steps} in {solves}, {most} a solve");
+}
+
 #[test]
 fn redundant_contacts_share_a_weight_evenly() {
     for (mesh, n) in [("[2, 2, 2]", 4), ("[20, 2, 20]", 400)] {

@@ -145,6 +145,8 @@ fn streams_that_are_off_leave_no_entity() {
         entities(Streams { bodies: true, ..NONE }),
         with(&always, &["", "/edges", "/nodes"].map(|part| format!("/world/bodies/cube\\[0\\]{part}")))
     );
+    let moving = entities(Streams { bodies: true, velocities: true, ..NONE });
+    assert!(moving.iter().any(|path| path == "/world/velocities"), "{moving:?}");
     assert_eq!(entities(Streams { contacts: true, ..NONE }), with(&always, &["/contact/count", "/world/contacts"]));
     assert_eq!(
         entities(Streams { forces: true, ..NONE }),

@@ -2,7 +2,7 @@
 
 use super::camera::{Camera, camera_on, scale};
 use super::crowd::EDGED_BODIES;
-use super::head::{color, details, ground, line, surface, walls};
+use super::head::{Looks, axes, color, details, ground, in_view, line, walls};
 use super::headline::moment;
 use super::layout::{self, Opening, Plot};
 use super::names::{CONTACT_COUNT, ENERGY, HEADLINE, LOG, LOG_ENERGY, TRAILS, WORLD, application};
@@ -105,6 +105,7 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
         has_config: false,
         has_flight: false,
         stretch_s: stretch_s(cases),
+        end_s: cases.iter().filter_map(|case| case.recording.until_s()).reduce(f64::max),
     };
 
     stream.log("/", &ViewCoordinates::RIGHT_HAND_Y_UP())?;
@@ -115,12 +116,15 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
     }
     stream.log(HEADLINE, &TextDocument::from_markdown(page(differing, cases)))?;
     match camera {
-        Some(camera) => ground(&first.header, camera.middle, 1.6 * camera.half_m, &mut stream)?,
+        Some(camera) => {
+            ground(&first.header, camera.middle, 1.6 * camera.half_m, &mut stream)?;
+            axes(&first.header, camera, &mut stream)?;
+        }
         None => ground(&first.header, first.header.ground.0, first.header.ground.1, &mut stream)?,
     }
     walls(&first.header, &mut stream)?;
     for case in &drawn {
-        case.styles(&mut stream)?;
+        case.styles(camera, &mut stream)?;
     }
 
     let file = AheadFile::create(path)?;
@@ -160,19 +164,20 @@ impl<'a> Drawn<'a> {
         EntityPath::from(of).join(&EntityPath::from_single_string(self.case.label.as_str()))
     }
 
-    fn styles(&self, stream: &mut Statics) -> Appended {
+    fn styles(&self, camera: Option<Camera>, stream: &mut Statics) -> Appended {
         let GhostCase { header, label, recording } = self.case;
         if !recording.samples.bodies.is_empty() {
+            let mut looks = Looks::default();
             for body in &header.bodies {
-                let path = self.body(&body.name);
-                stream.log(path.clone(), &surface(body, self.colour, self.alpha))?;
+                let (path, look) = (self.body(&body.name), looks.of(body));
+                stream.log(path.clone(), &look.surface(self.colour, self.alpha))?;
                 if header.bodies.len() <= EDGED_BODIES {
-                    details(body, &path, stream)?;
+                    details(body, look, &path, stream)?;
                 }
             }
         }
         let [r, g, b] = self.colour;
-        let ways: Vec<_> = self.seen.ways().map(|(_, way)| way.to_vec()).collect();
+        let ways: Vec<_> = self.seen.ways().map(|(_, way)| in_view(way, camera)).collect();
         if !ways.is_empty() {
             let lines = LineStrips3D::new(ways).with_colors([Color::from_unmultiplied_rgba(r, g, b, 150)]);
             stream.log(self.below(TRAILS), &lines.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;

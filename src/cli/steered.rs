@@ -53,10 +53,7 @@ impl Steered {
         steered.send(&json!({ "jsonrpc": "2.0", "method": "notifications/initialized" }))?;
         steered.until("connect", &json!({ "endpoint": format!("http://127.0.0.1:{port}") }), |_| true)?;
         steered.until("viewer_state", &json!({}), |text| text.contains("gotai"))?;
-        let is_open: fn(&str) -> bool = match has_end {
-            true => |text| text.contains(schema::PAGE) && !text.contains(schema::NOT_FINISHED),
-            false => |text| text.contains(schema::PAGE),
-        };
+        let is_open: fn(&str) -> bool = if has_end { tells_the_end } else { |text| text.contains(schema::PAGE) };
         steered.until("query_tree", &json!({}), is_open)?;
         steered.call("wait_for", &json!({ "min_steps": 2 * SETTLING }))?;
         Ok(steered)
@@ -127,6 +124,12 @@ impl Steered {
     fn send(&mut self, message: &Value) -> Result<(), CliError> {
         writeln!(self.to, "{message}").and_then(|()| self.to.flush()).map_err(|error| lost(&error))
     }
+}
+
+/// Whether the page of a run that has ended is shown, by its title: `Finished at t = 2 s: …`.
+fn tells_the_end(text: &str) -> bool {
+    let word_before = |end: usize| text[..end].rsplit(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
+    text.match_indices(" at t = ").any(|(i, _)| word_before(i).starts_with(char::is_uppercase))
 }
 
 impl Drop for Steered {

@@ -93,7 +93,7 @@ fn what_is_being_filled_is_in_the_files_soon_and_leaves_no_trace() {
 #[test]
 fn a_large_batch_takes_the_place_of_what_stands_ahead() {
     // Encoded, more than 16 MB.
-    const CONTACTS: usize = 200_000;
+    const CONTACTS: usize = 300_000;
     let written = |is_looked_at: bool| {
         let folder = scratch::folder();
         let header = Header { most_bytes: 1 << 40, ..header(1) };

@@ -58,13 +58,21 @@ fn ends_at(file: &Path, dir: &Path) -> Option<f64> {
 #[test]
 fn what_was_read_before_a_kill_is_there_after_it() {
     let to = if cfg!(feature = "rerun") { "both" } else { "mcap" };
-    let sets = ["time.end_s=1e5", "record.every_s=0", "record.max_mb=1000", "plan={skip: []}"];
-    let sets = sets.iter().flat_map(|set| ["--set", *set]);
+    let sets = [
+        "--set",
+        "time.end_s=1e5",
+        "--set",
+        "record.every_s=0",
+        "--set",
+        "record.max_mb=1000",
+        "--set",
+        "plan={skip: []}",
+    ];
     for kill in 0..6 {
         let (folder, copies) = (scratch::folder(), scratch::folder());
         let out = folder.path().to_str().unwrap();
         let begun = ["run", "configs/lecture/demo.yaml", "--record", to, "--quiet", "--out", out];
-        let arguments: Vec<&str> = begun.into_iter().chain(sets.clone()).collect();
+        let arguments = [&begun[..], &sets[..]].concat();
         let mut child = gotai(&arguments).stdout(Stdio::null()).spawn().unwrap();
         let started = Instant::now();
         while partial(folder.path()).is_none() && started.elapsed() < Duration::from_secs(60) {

@@ -17,7 +17,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 const ROOM: u64 = 16 << 20;
 
 /// Bytes that let the readers of a format skip so many bytes behind them; as many, whatever they skip.
-pub type Skip = Box<dyn Fn(u64) -> Vec<u8> + Send>;
+pub type SkipBytes = Box<dyn Fn(u64) -> Vec<u8> + Send>;
 
 /// A file, for the encoder of its format and for who writes ahead of it.
 #[derive(Clone)]
@@ -30,7 +30,7 @@ struct Parts {
     /// Place of what stands ahead behind its room, and where it ends: both `whole` where nothing does.
     ahead: u64,
     end: u64,
-    skip: Option<Skip>,
+    skip: Option<SkipBytes>,
     /// What is due and not written, and the encoder's place in it.
     due: Vec<u8>,
     at: usize,
@@ -61,7 +61,7 @@ impl AheadFile {
     }
 
     /// Says how readers of its format are made to skip something. Without that, nothing is written ahead.
-    pub fn skip_by(&self, skip: Skip) {
+    pub fn skip_by(&self, skip: SkipBytes) {
         self.parts().skip = Some(skip);
     }
 

@@ -128,8 +128,8 @@ impl Header {
     }
 }
 
-/// Drawing of forces, or of velocities: in proportion, up to a length that stays in the picture. The force of an impact,
-/// its impulse over one step, can be thousands of weights; the numbers beside the picture are whole.
+/// Drawing of forces, or of velocities: in proportion, up to a length that stays in the picture. The force of an
+/// impact, its impulse over one step, can be thousands of weights; the numbers beside the picture are whole.
 #[derive(Clone, Copy, Debug)]
 pub struct Arrows {
     pub m_per_unit: f64,

@@ -3,7 +3,7 @@
 use super::headline::level;
 use super::live::Live;
 use super::names::{LOG, SIM_TIME, STEP};
-use crate::record::ahead_file::{AheadFile, Skip};
+use crate::record::ahead_file::{AheadFile, SkipBytes};
 use crate::record::sample::Event;
 use crate::record::schema;
 use ::rerun::external::re_log_encoding::Encoder;
@@ -71,7 +71,7 @@ fn without_head(encoder: Encoder<Vec<u8>>) -> Result<Vec<u8>, Box<dyn Error>> {
 ///
 /// # Errors
 /// Rerun's own.
-pub fn skip(first: &LogMsg) -> Result<Skip, Box<dyn Error>> {
+pub fn skip(first: &LogMsg) -> Result<SkipBytes, Box<dyn Error>> {
     /// Kind and length of a message, eight bytes each, and Protobuf's head of field 1000, of a length in five bytes.
     const HEAD: usize = 16;
     const FIELD: [u8; 2] = [0xc2, 0x3e];

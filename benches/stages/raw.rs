@@ -52,8 +52,9 @@ pub fn mcap(path: &Path, batches: &[Batch]) {
             friction_use: contact.friction_use,
             mode: contact.mode.name().to_owned(),
         };
-        let contacts = sample.contacts.iter().map(of_contact).collect();
-        let contacts = Contacts { time_s, step, contacts, acted_s: sample.acted_s, acted: Vec::new() };
+        let contacts: Vec<Contact> = sample.contacts.iter().map(of_contact).collect();
+        let count = contacts.len() as u64;
+        let contacts = Contacts { time_s, step, contacts, acted_s: sample.acted_s, acted: Vec::new(), count };
         send(channels[1], &sample, &|to| contacts.encode_raw(to));
         if let Some(e) = sample.energy {
             let (kinetic_j, potential_j, total_j) = (e.kinetic_j, e.potential_j, e.total_j);

@@ -54,7 +54,8 @@ impl FilmArgs {
         frames: Option<&Path>,
         quiet: bool,
     ) -> Result<(), CliError> {
-        let [from_s, to_s] = self.stretch_s(file)?;
+        let (known, has_end) = stretch_of(file)?;
+        let [from_s, to_s] = self.stretch_s(known)?;
         if self.pictures == 0 || self.fps == 0 || self.fps > 50 {
             return Err(CliError::Input("--pictures, --fps: expected at least 1, and at most 50 in a second".into()));
         }
@@ -63,7 +64,7 @@ impl FilmArgs {
             None => beside(gif.unwrap_or(file)),
         };
         make_folder(&folder)?;
-        let made = self.pictures(viewer, file, [from_s, to_s], &folder, quiet);
+        let made = self.pictures(Steered::open(viewer, file, self.size, has_end)?, [from_s, to_s], &folder, quiet);
         let written = made.and_then(|files| {
             gif.map_or(Ok(()), |gif| {
                 write_whole(gif, &self.film(&files)?)?;
@@ -92,8 +93,7 @@ impl FilmArgs {
         }
     }
 
-    fn stretch_s(&self, file: &Path) -> Result<[f64; 2], CliError> {
-        let known = stretch_of(file)?;
+    fn stretch_s(&self, known: [f64; 2]) -> Result<[f64; 2], CliError> {
         let [from_s, to_s] = [self.from.unwrap_or(known[0]), self.to.unwrap_or(known[1])];
         if from_s.is_finite() && to_s.is_finite() && 0.0 <= from_s && from_s <= to_s {
             return Ok([from_s, to_s]);
@@ -103,13 +103,11 @@ impl FilmArgs {
 
     fn pictures(
         &self,
-        viewer: &Viewer,
-        file: &Path,
+        mut steered: Steered,
         [from_s, to_s]: [f64; 2],
         folder: &Path,
         quiet: bool,
     ) -> Result<Vec<PathBuf>, CliError> {
-        let mut steered = Steered::open(viewer, file, self.size)?;
         let mut files = Vec::new();
         for i in 0..self.pictures {
             let part = if self.pictures > 1 { f64::from(i) / f64::from(self.pictures - 1) } else { 1.0 };
@@ -168,16 +166,20 @@ fn rgb(file: &Path) -> Result<([u32; 2], Vec<u8>), CliError> {
     Ok(([info.width, info.height], pixels))
 }
 
+/// The stretch that a recording plays, or all of it, and whether the end of its run is in it.
 #[cfg(feature = "rerun")]
-fn stretch_of(file: &Path) -> Result<[f64; 2], CliError> {
+fn stretch_of(file: &Path) -> Result<([f64; 2], bool), CliError> {
     use crate::record::rerun::mend::{stretch_of, whole_of};
     if let Some(stretch_s) = stretch_of(file)? {
-        return Ok(stretch_s);
+        return Ok((stretch_s, true));
     }
-    Ok([0.0, whole_of(file)?.and_then(|whole| whole.until_s).unwrap_or(0.0)])
+    let whole = whole_of(file)?.ok_or_else(|| {
+        CliError::Input(format!("{}: expected a recording with samples, found none that is whole", file.display()))
+    })?;
+    Ok(([0.0, whole.until_s.unwrap_or(0.0)], false))
 }
 
 #[cfg(not(feature = "rerun"))]
-fn stretch_of(_: &Path) -> Result<[f64; 2], CliError> {
-    Ok([0.0, 0.0])
+fn stretch_of(_: &Path) -> Result<([f64; 2], bool), CliError> {
+    Ok(([0.0, 0.0], false))
 }

@@ -2,6 +2,7 @@
 
 use super::cut::no_recording;
 use super::error::CliError;
+use super::output::say;
 use crate::digest::sha256;
 use crate::experiment::ExperimentFile;
 use crate::files::make_folder;
@@ -62,7 +63,8 @@ impl Ghosts {
             let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
             if values.is_empty() { name } else { values.join(", ") }
         };
-        let labels: Vec<String> = paths.iter().zip(&recordings).map(named).collect();
+        let labels = told_apart(paths.iter().zip(&recordings).map(named).collect(), paths);
+        warn_of_scenes(paths, &recordings);
         let differing = match differing.as_slice() {
             [] => "recordings".to_string(),
             axes => axes.iter().map(|axis| axis.as_str()).collect::<Vec<_>>().join(", "),
@@ -113,6 +115,31 @@ impl Ghosts {
         let path = Target::Rerun.path(dir, &RecordingName::new(&values, &sha256(ids.join(" "), 4)).begun());
         write_into(&path, self).inspect_err(|_| forget(&path))?;
         Ok(path)
+    }
+}
+
+/// Labels that are of one case each: what two recordings share gets the name of its folder, or a number.
+fn told_apart(labels: Vec<String>, paths: &[PathBuf]) -> Vec<String> {
+    let is_alone = |labels: &[String], i: usize| labels.iter().filter(|label| **label == labels[i]).count() == 1;
+    let folder = |path: &PathBuf| {
+        let whole = std::path::absolute(path).unwrap_or_else(|_| path.clone());
+        whole.parent().and_then(|dir| Some(dir.file_name()?.to_string_lossy().into_owned()))
+    };
+    let in_folder = |i: usize| match folder(&paths[i]).filter(|_| !is_alone(&labels, i)) {
+        Some(folder) => format!("{} in {folder}", labels[i]),
+        None => labels[i].clone(),
+    };
+    let placed: Vec<String> = (0..labels.len()).map(in_folder).collect();
+    let numbered =
+        |i: usize| if is_alone(&placed, i) { placed[i].clone() } else { format!("{} ({})", placed[i], i + 1) };
+    (0..placed.len()).map(numbered).collect()
+}
+
+/// Says which recordings are of other bodies than the first one: they are drawn together as they are.
+fn warn_of_scenes(paths: &[PathBuf], recordings: &[ReadBack]) {
+    let Some(first) = recordings.first() else { return };
+    for (path, _) in paths.iter().zip(recordings).filter(|(_, other)| other.bodies != first.bodies) {
+        say(format!("warning: {}: another scene than that of {}", path.display(), paths[0].display()));
     }
 }
 

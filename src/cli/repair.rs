@@ -1,11 +1,11 @@
 //! `gotai repair`: a recording that was cut, with all that is whole of it, as a file that every reader takes.
 
-use super::cut::{ends_at, half_written};
+use super::cut::{ends_at, half_written, no_recording};
 use super::error::CliError;
 use super::ghosts::forget;
 use super::output::print;
 use crate::record::mend::{Whole, mend_mcap};
-use crate::record::read::recording_of;
+use crate::record::read::{experiment_of, recording_of};
 use crate::record::writer::Target;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -39,6 +39,14 @@ impl Command {
         if out == *file {
             return Err(CliError::Input(format!("--out {}: expected another file than the torn one", out.display())));
         }
+        let is_ours = match Target::ALL.into_iter().find(|target| target.extension() == ending) {
+            Some(Target::Mcap) => experiment_of(file)?.is_some(),
+            Some(Target::Rerun) => is_recording(file)?,
+            None => true,
+        };
+        if !is_ours {
+            return Err(no_recording(file));
+        }
         let mended = match Target::ALL.into_iter().find(|target| target.extension() == ending) {
             Some(Target::Mcap) => mend_mcap(file, &out).inspect_err(|_| forget(&out))?,
             Some(Target::Rerun) => mend_rrd(file, &out).inspect_err(|_| forget(&out))?,
@@ -66,6 +74,16 @@ impl Command {
         print(format!("{}: {messages} messages; {}", out.display(), ends_at(until_s)));
         Ok(ExitCode::SUCCESS)
     }
+}
+
+#[cfg(feature = "rerun")]
+fn is_recording(file: &Path) -> Result<bool, CliError> {
+    Ok(crate::record::rerun::mend::is_recording(file)?)
+}
+
+#[cfg(not(feature = "rerun"))]
+fn is_recording(_: &Path) -> Result<bool, CliError> {
+    Ok(true)
 }
 
 #[cfg(feature = "rerun")]

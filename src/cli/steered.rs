@@ -3,6 +3,7 @@
 
 use super::error::CliError;
 use super::viewer::Viewer;
+use crate::record::schema;
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Write};
 use std::net::TcpListener;
@@ -25,11 +26,17 @@ pub(super) struct Steered {
 }
 
 impl Steered {
-    /// Shows a file in a window of this size that nobody sees.
+    /// Shows a file in a window of this size that nobody sees, once all of it is read: a large one takes seconds, and
+    /// its end, if it has one, comes last.
     ///
     /// # Errors
     /// There is no driver of Vulkan's, or another reason why the viewer does not come up.
-    pub(super) fn open(viewer: &Viewer, file: &Path, [width, height]: [u32; 2]) -> Result<Self, CliError> {
+    pub(super) fn open(
+        viewer: &Viewer,
+        file: &Path,
+        [width, height]: [u32; 2],
+        has_end: bool,
+    ) -> Result<Self, CliError> {
         let free = TcpListener::bind(("127.0.0.1", 0)).and_then(|socket| socket.local_addr());
         let port = free.map_err(|error| CliError::Machine(format!("no free port: {error}")))?.port();
         let child = viewer.headless(&[PathBuf::from(file)], port, &format!("{width}x{height}"))?;
@@ -46,6 +53,8 @@ impl Steered {
         steered.send(&json!({ "jsonrpc": "2.0", "method": "notifications/initialized" }))?;
         steered.until("connect", &json!({ "endpoint": format!("http://127.0.0.1:{port}") }), |_| true)?;
         steered.until("viewer_state", &json!({}), |text| text.contains("gotai"))?;
+        let is_open: fn(&str) -> bool = if has_end { tells_the_end } else { |text| text.contains(schema::PAGE) };
+        steered.until("query_tree", &json!({}), is_open)?;
         steered.call("wait_for", &json!({ "min_steps": 2 * SETTLING }))?;
         Ok(steered)
     }
@@ -115,6 +124,12 @@ impl Steered {
     fn send(&mut self, message: &Value) -> Result<(), CliError> {
         writeln!(self.to, "{message}").and_then(|()| self.to.flush()).map_err(|error| lost(&error))
     }
+}
+
+/// Whether the page of a run that has ended is shown, by its title: `Finished at t = 2 s: …`.
+fn tells_the_end(text: &str) -> bool {
+    let word_before = |end: usize| text[..end].rsplit(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
+    text.match_indices(" at t = ").any(|(i, _)| word_before(i).starts_with(char::is_uppercase))
 }
 
 impl Drop for Steered {

@@ -121,7 +121,7 @@ fn is_usual_size(max_mb: &f64) -> bool {
 impl Default for Record {
     /// A sampling rate of 100 Hz: above every display's rate, small beside the step count of an accurate run.
     fn default() -> Self {
-        Record { to: None, every_s: 0.01, cases: RecordCases::Few, streams: Stream::ALL.to_vec(), max_mb: USUAL_MB }
+        Record { to: None, every_s: 0.01, cases: RecordCases::Few, streams: Stream::USUAL.to_vec(), max_mb: USUAL_MB }
     }
 }
 
@@ -150,17 +150,20 @@ pub enum RecordCases {
     Sample(u32),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, VariantArray)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stream {
     Bodies,
     Contacts,
     Forces,
     Energy,
+    /// Arrows of the bodies' velocities, which are many.
+    Velocities,
 }
 
 impl Stream {
-    pub const ALL: &'static [Stream] = Stream::VARIANTS;
+    /// Those that are recorded where nothing is said.
+    pub const USUAL: [Stream; 4] = [Stream::Bodies, Stream::Contacts, Stream::Forces, Stream::Energy];
 }
 
 /// Closed forms, by name; what each is and of which scenes stands in its file, `exact/<name>.rs`.

@@ -34,7 +34,7 @@ impl Divergence {
 }
 
 /// The centre of mass is outside by more than the bounding radius. A body without a shape is held by nothing.
-fn escaped(model: &Model, body: &Body, at: &BodyState) -> bool {
+pub fn escaped(model: &Model, body: &Body, at: &BodyState) -> bool {
     let outside = |face: &crate::model::container::Face| face.gap_m(&at.p_WB) < -body.bounding_radius_m;
     body.feels_container() && model.container.as_ref().is_some_and(|container| container.faces.iter().any(outside))
 }

@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Foxglove's layout for recordings of these streams, as JSON.
-pub fn layout(streams: Streams) -> String {
+/// Foxglove's layout for recordings of these streams, and of scenes as large as this one, as JSON.
+pub fn layout(streams: Streams, header: &Header) -> String {
     let plot = |title: &str, lines: &[(String, Option<Rgb>)]| {
         let paths: Vec<Value> = lines
             .iter()
@@ -26,13 +26,19 @@ pub fn layout(streams: Streams) -> String {
         energies.map(|series| (format!("{}.{}_j", schema::ENERGY, series.name), Some(series.colour))).collect();
     let penetration = [(format!("{}.penetration_m", schema::ENERGY), Some(schema::FORCE_COLOUR))];
     let contacts = if streams.contacts { schema::CONTACTS } else { schema::FORCES };
-    let contacts = [(format!("{contacts}.contacts.length"), Some(schema::CONTAINER_COLOUR))];
+    let contacts = [(format!("{contacts}.count"), Some(schema::CONTAINER_COLOUR))];
     let mut panels = serde_json::Map::new();
+    let [x, y, z] = middle(header);
+    let floor_m = header.planes.first().filter(|([_, up, _], _)| *up == 1.0).map_or(z, |(_, offset_m)| *offset_m);
     let scene = json!({
         "foxglovePanelTitle": "scene", "followTf": schema::ROOT, "followMode": "follow-none",
+        "cameraState": camera(header),
         "scene": { "backgroundColor": "#1a1d22", "transforms": { "visible": false } },
         "topics": { schema::SCENE: { "visible": true }, schema::SCENE_CONTACTS: { "visible": true } },
-        "layers": { "grid": { "layerId": "foxglove.Grid", "visible": true, "frameId": schema::ROOT, "divisions": 10 } },
+        "layers": { "grid": {
+            "layerId": "foxglove.Grid", "visible": true, "frameId": schema::ROOT, "divisions": 10,
+            "size": header.scene_size_m(), "position": [x, y, floor_m],
+        } },
     });
     panels.insert("3D!scene".into(), scene);
     panels.insert("RosOut!events".into(), json!({ "topicToRender": schema::LOG, "minLogLevel": 1, "searchTerms": [] }));
@@ -67,6 +73,27 @@ pub fn layout(streams: Streams) -> String {
         "layout": whole,
     });
     format!("{layout:#}\n")
+}
+
+/// Middle of the scene in the frame whose z is up.
+fn middle(header: &Header) -> [f64; 3] {
+    let (low, high) = header.container_box_m().unwrap_or((header.ground.0, header.ground.0));
+    let [x, y, z] = std::array::from_fn(|i| 0.5 * (low[i] + high[i]));
+    [x, -z, y]
+}
+
+/// A camera that has all of a scene in view, whatever its size: Foxglove's own is for some metres.
+fn camera(header: &Header) -> Value {
+    /// Distance from the middle, and the nearest and the farthest that are drawn, in lengths of the scene.
+    const AWAY: f64 = 1.3;
+    const DRAWN: [f64; 2] = [1e-3, 1e3];
+    let size_m = header.scene_size_m();
+    let [near, far] = DRAWN.map(|part| part * size_m);
+    json!({
+        "perspective": true, "distance": AWAY * size_m, "phi": 65.0, "thetaOffset": 30.0, "fovy": 45.0,
+        "target": [0.0, 0.0, 0.0], "targetOffset": middle(header), "targetOrientation": [0.0, 0.0, 0.0, 1.0],
+        "near": near, "far": far,
+    })
 }
 
 /// An object with one key more.

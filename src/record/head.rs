@@ -41,6 +41,7 @@ pub fn header(case: &Case, name: &RecordingName, model: &Model, start: &State, c
         arrow_m_per_n,
         arrow_weight_n,
         arrow_longest_m,
+        arrow_m_per_m_s: arrow_m_per_m_s(model, start, arrow_longest_m),
         energy_unit: energy_unit(model, start),
         end_s: clock.end_s,
         most_bytes: (record.max_mb * 1e6) as u64,
@@ -48,7 +49,7 @@ pub fn header(case: &Case, name: &RecordingName, model: &Model, start: &State, c
     }
 }
 
-/// Unit in which energies are plotted: joules where their size is usual.
+/// Unit in which energies are plotted: joules, with the prefix of their size.
 fn energy_unit(model: &Model, start: &State) -> (&'static str, f64) {
     const UNITS: [(&str, f64); 12] = [
         ("fJ", 1e-15),
@@ -64,8 +65,9 @@ fn energy_unit(model: &Model, start: &State) -> (&'static str, f64) {
         ("PJ", 1e15),
         ("EJ", 1e18),
     ];
-    /// Sizes of an energy that an axis is labelled with in few characters.
-    const USUAL_J: std::ops::Range<f64> = 1e-3..1e6;
+    /// Sizes of an energy that an axis is labelled with in three characters, as plots of counts are: the axes of time
+    /// of plots that are one above the other then begin at one place.
+    const USUAL_J: std::ops::Range<f64> = 0.1..1e3;
     let energy = Energy::of(model, start);
     let size_j = energy.kinetic_j.abs().max(energy.potential_j.abs());
     if !(size_j > 0.0 && size_j.is_finite()) || USUAL_J.contains(&size_j) {
@@ -217,6 +219,14 @@ fn arrow(model: &Model, longest_m: f64) -> (f64, Option<f64>) {
         }
         _ => (1.0, None),
     }
+}
+
+/// Length of an arrow for 1 m/s: half of the longest for the fastest body at the start, or for what falls as far as the
+/// longest arrow reaches.
+fn arrow_m_per_m_s(model: &Model, start: &State, longest_m: f64) -> f64 {
+    let fall_m_s = (2.0 * model.gravity_m_s2.norm() * longest_m).sqrt();
+    let usual_m_s = start.bodies.iter().map(|body| body.v_WB.norm()).fold(fall_m_s, f64::max);
+    if usual_m_s > 0.0 && usual_m_s.is_finite() { 0.5 * longest_m / usual_m_s } else { 1.0 }
 }
 
 /// Line strips of a box's edges.

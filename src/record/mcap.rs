@@ -66,6 +66,8 @@ impl McapRecorder {
         let said = said(header, &of_bodies);
         let channels = out.head(header, &files, &said)?;
         out.send(channels.scene, 0, 0, &surfaces(header))?;
+        // What the file opens with does not wait for the heads of other files.
+        out.writer.flush()?;
         Ok(McapRecorder {
             path: path.to_path_buf(),
             streams: header.streams,
@@ -245,6 +247,12 @@ impl Chunk {
     }
 }
 
+/// The head of a record of so many bytes of a kind that applications may use, and that readers skip.
+fn room(bytes: u64) -> Vec<u8> {
+    const PRIVATE: u8 = 0x80;
+    std::iter::once(PRIVATE).chain(bytes.to_le_bytes()).collect()
+}
+
 /// Channel of each topic; None where its stream is off.
 struct Channels {
     bodies: Option<u16>,
@@ -258,6 +266,7 @@ struct Channels {
 
 impl Out {
     fn new(file: AheadFile, program: &str) -> McapResult<Self> {
+        file.skip_by(Box::new(room));
         let writer = WriteOptions::new()
             .library(program)
             .compression(Some(Compression::Zstd))
@@ -277,7 +286,7 @@ impl Out {
         said: &BTreeMap<String, String>,
     ) -> McapResult<Channels> {
         self.attach(schema::CONFIG_FILE, "application/yaml", header.config_yaml.as_bytes())?;
-        self.attach(schema::LAYOUT_FILE, "application/json", layout(header.streams).as_bytes())?;
+        self.attach(schema::LAYOUT_FILE, "application/json", layout(header.streams, header).as_bytes())?;
         for (name, surface) in surfaces {
             self.attach(name, "model/obj", surface.as_bytes())?;
         }
@@ -414,6 +423,7 @@ impl Messages {
         let name = |body: u32| bodies.get(body as usize).map_or("", |state| &state.name);
         (message.time_s, message.step) = (sample.time_s, sample.step);
         message.acted_s = sample.acted_s;
+        message.count = sample.contacts.len() as u64;
         message.acted.resize_with(sample.acted.len(), schema::BodyPose::default);
         for (to, from) in message.acted.iter_mut().zip(sample.acted) {
             set(&mut to.position_m, &from.position_m);

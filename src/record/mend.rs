@@ -1,6 +1,6 @@
 //! Mends recordings that were cut: all that is whole goes into a file that every reader takes.
 
-use super::RecordError;
+use super::{RecordError, schema};
 use mcap::read::{LinearReader, Options};
 use mcap::records::Record;
 use mcap::{Attachment, Compression, MessageStream, WriteOptions};
@@ -24,8 +24,10 @@ pub struct Whole {
 /// A file cannot be read or written.
 pub fn mend_mcap(torn: &Path, mended: &Path) -> Result<Option<Whole>, RecordError> {
     let bytes = std::fs::read(torn).map_err(|error| RecordError::unread(torn, &error))?;
+    // What the bodies look like stands in every head.
+    let happens = |message: mcap::Message<'_>| message.channel.topic != schema::SCENE;
     let has_message = MessageStream::new_with_options(&bytes, Options::IgnoreEndMagic.into())
-        .is_ok_and(|mut stream| stream.next().is_some_and(|message| message.is_ok()));
+        .is_ok_and(|stream| stream.map_while(Result::ok).any(happens));
     if !has_message {
         return Ok(None);
     }

@@ -24,13 +24,13 @@ mod statics;
 use self::crowd::{DrawnBodies, drawn_as};
 use self::live::Live;
 use self::names::{
-    CONTACT_COUNT, CONTACT_FORCE, CONTACTS, DECISIVE, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, energy_path,
+    CONTACT_COUNT, CONTACT_FORCE, CONTACTS, DECISIVE, FORCES, FRICTION_USE, LOG_ENERGY_TOTAL, VELOCITIES, energy_path,
 };
-use self::out::{Appended, Out, Sink, Times, times};
+use self::out::{Appended, Out, Sink, Times, skip, times};
 use self::seen::{Seen, log_part};
 use super::ahead_file::AheadFile;
 use super::pictures::{Pictured, Pictures};
-use super::sample::{Batch, ContactSample, Ending, Event, ForceArrows, Header, Sample, Severity, norm};
+use super::sample::{Arrows, Batch, ContactSample, Ending, Event, Header, Sample, Severity, norm};
 use super::schema::{self, MOST_CONTACTS};
 use super::story::{Decisive, Story, TurningPoint};
 use super::{RecordError, Recorder};
@@ -48,7 +48,7 @@ const LAID_OUT: usize = 2;
 pub struct RerunRecorder {
     path: PathBuf,
     header: Header,
-    arrows: ForceArrows,
+    arrows: Arrows,
     bodies: Vec<DrawnBodies>,
     seen: Seen,
     pictures: Pictures,
@@ -96,6 +96,9 @@ impl RerunRecorder {
         let bodies = drawn_as(header);
         let is_shown = matches!(sink, Sink::Viewer(_));
         let (store, messages) = head::messages(header, &bodies, is_shown)?;
+        if let (Sink::File(_, file), Some(first)) = (&sink, messages.first()) {
+            file.skip_by(skip(first)?);
+        }
         let mut out = Out { store, sink };
         for message in &messages {
             out.sink.append(message)?;
@@ -179,8 +182,12 @@ impl RerunRecorder {
             if streams.any_contact() {
                 self.contacts(batch, &times(&instants.contacts_step, &instants.contacts_s))?;
             }
+            let own = times(&batch.step, &batch.time_s);
+            if streams.velocities {
+                self.velocities(batch, &own)?;
+            }
             if streams.energy {
-                self.energies(batch, &times(&batch.step, &batch.time_s))?;
+                self.energies(batch, &own)?;
             }
         }
         self.out.events(&batch.events)
@@ -267,6 +274,15 @@ impl RerunRecorder {
             self.out.scalars(FRICTION_USE.into(), times, used)?;
         }
         Ok(())
+    }
+
+    fn velocities(&mut self, batch: &Batch, times: &Times) -> Appended {
+        let scale = self.header.velocity_arrows();
+        let arrows = Arrows3D::update_fields()
+            .with_vectors(batch.bodies.iter().map(|body| scale.vector_m(body.velocity_m_s)))
+            .with_origins(batch.bodies.iter().map(|body| body.position_m));
+        let lengths = std::iter::repeat_n(self.header.bodies.len(), batch.len());
+        self.out.columns(VELOCITIES.into(), times, arrows.columns(lengths)?)
     }
 
     fn energies(&mut self, batch: &Batch, times: &Times) -> Appended {

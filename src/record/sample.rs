@@ -19,6 +19,8 @@ pub struct Streams {
     pub contacts: bool,
     pub forces: bool,
     pub energy: bool,
+    /// Arrows of velocities, where bodies are on.
+    pub velocities: bool,
 }
 
 impl Streams {
@@ -67,6 +69,8 @@ pub struct Header {
     pub arrow_weight_n: Option<f64>,
     /// Longest arrow.
     pub arrow_longest_m: f64,
+    /// Length of an arrow of a velocity: metres for 1 m/s.
+    pub arrow_m_per_m_s: f64,
     /// Multiple of the energy at the start at which the run counts as diverged.
     pub energy_factor: Option<f64>,
     /// Unit in which energies are plotted, and its size in joules.
@@ -115,24 +119,28 @@ impl Header {
         }
     }
 
-    pub fn force_arrows(&self) -> ForceArrows {
-        ForceArrows { m_per_n: self.arrow_m_per_n, longest_m: self.arrow_longest_m }
+    pub fn force_arrows(&self) -> Arrows {
+        Arrows { m_per_unit: self.arrow_m_per_n, longest_m: self.arrow_longest_m }
+    }
+
+    pub fn velocity_arrows(&self) -> Arrows {
+        Arrows { m_per_unit: self.arrow_m_per_m_s, longest_m: self.arrow_longest_m }
     }
 }
 
-/// Drawing of forces: in proportion, up to a length that stays in the picture. The force of an impact, its impulse over
-/// one step, can be thousands of weights; the numbers beside the picture are whole.
+/// Drawing of forces, or of velocities: in proportion, up to a length that stays in the picture. The force of an
+/// impact, its impulse over one step, can be thousands of weights; the numbers beside the picture are whole.
 #[derive(Clone, Copy, Debug)]
-pub struct ForceArrows {
-    pub m_per_n: f64,
+pub struct Arrows {
+    pub m_per_unit: f64,
     pub longest_m: f64,
 }
 
-impl ForceArrows {
-    pub fn vector_m(self, force_n: [f64; 3]) -> [f64; 3] {
-        let length_m = norm(force_n) * self.m_per_n;
+impl Arrows {
+    pub fn vector_m(self, vector: [f64; 3]) -> [f64; 3] {
+        let length_m = norm(vector) * self.m_per_unit;
         let cut = if length_m > self.longest_m { self.longest_m / length_m } else { 1.0 };
-        force_n.map(|f| f * self.m_per_n * cut)
+        vector.map(|x| x * self.m_per_unit * cut)
     }
 }
 

@@ -15,10 +15,11 @@ use crate::clock::Clock;
 use crate::collide::SolvedContact;
 use crate::experiment::types::{Record, Stream};
 use crate::measure::Judge;
+use crate::measure::divergence::escaped;
 use crate::measure::energy::Energy;
 use crate::measure::geometry::GeometryLedger;
 use crate::model::Model;
-use crate::outcome::Outcome;
+use crate::outcome::{Criterion, Outcome};
 use crate::rows::doubts::doubt;
 use crate::rows::{BodyRow, Measured, cells};
 use crate::shown::{Acted, ContactForce, Shown};
@@ -225,7 +226,11 @@ impl Sampler {
         self.take_maxima(model);
         let (severity, text) = match (&measured.outcome, &measured.criterion) {
             (Outcome::Finished, _) => (Severity::Info, "finished".to_string()),
-            (Outcome::Diverged, Some(criterion)) => (Severity::Error, format!("diverged: {criterion}")),
+            (Outcome::Diverged, Some(criterion)) => {
+                let who =
+                    if criterion.as_str() == Criterion::Escape.name() { escaping(model, state) } else { String::new() };
+                (Severity::Error, format!("diverged: {criterion}{who}"))
+            }
             (outcome, Some(criterion)) => (Severity::Warning, format!("{}: {criterion}", outcome.name())),
             (_, None) => (Severity::Warning, "ended early".to_string()),
         };
@@ -351,12 +356,24 @@ pub fn streams(record: &Record) -> Streams {
         contacts: on(Stream::Contacts),
         forces: on(Stream::Forces),
         energy: on(Stream::Energy),
+        velocities: on(Stream::Velocities) && on(Stream::Bodies),
     }
 }
 
 /// Number of steps from one sample to the next: the whole number nearest to what is asked for, at least one.
 pub fn steps_between(record: &Record, clock: &Clock) -> u64 {
     ((record.every_s / clock.step_s).round() as u64).max(1)
+}
+
+/// The bodies outside of the container, in words.
+fn escaping(model: &Model, state: &State) -> String {
+    let outside = model.bodies.iter().zip(&state.bodies).filter(|(body, at)| escaped(model, body, at));
+    let names: Vec<&str> = outside.map(|(body, _)| body.name.as_str()).collect();
+    match names.as_slice() {
+        [] => String::new(),
+        [only] => format!(" of {only}"),
+        [first, others @ ..] => format!(" of {first} and {} more", others.len()),
+    }
 }
 
 /// A contact whose mode and use of friction are still to be worked out.

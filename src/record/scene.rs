@@ -1,6 +1,6 @@
 //! Foxglove's messages of a run: frames, surfaces, contact points and force arrows.
 
-use super::sample::{BodyHeader, ContactSample, Event, ForceArrows, Header, Sample, Severity, Streams, norm};
+use super::sample::{Arrows, BodyHeader, ContactSample, Event, Header, Sample, Severity, Streams, norm};
 use super::schema::{self, Rgb};
 use crate::rows::BodyRow;
 use foxglove::messages::line_primitive::Type::LineStrip;
@@ -21,7 +21,7 @@ const LINE_PIXELS: f64 = 2.0;
 pub struct Scene {
     streams: Streams,
     size_m: f64,
-    arrows: ForceArrows,
+    arrows: Arrows,
     transforms: FrameTransforms,
     contacts: SceneUpdate,
     /// Whether the last picture had no contacts; nothing needs to be cleared then.
@@ -159,7 +159,7 @@ fn sphere(contact: &ContactSample, size_m: f64) -> SpherePrimitive {
 }
 
 /// Arrow from the contact point along the force on the body, or along its reaction.
-fn arrow(contact: &ContactSample, sign: f64, size_m: f64, arrows: ForceArrows) -> ArrowPrimitive {
+fn arrow(contact: &ContactSample, sign: f64, size_m: f64, arrows: Arrows) -> ArrowPrimitive {
     let vector_m = arrows.vector_m(contact.force_n.map(|f| sign * f));
     let length_m = norm(vector_m);
     let direction = if length_m > 0.0 { vector_m.map(|x| x / length_m) } else { [1.0, 0.0, 0.0] };

@@ -27,7 +27,7 @@ pub const SCENE_CONTACTS: &str = "/scene/contacts";
 pub const LOG: &str = "/log";
 
 /// Version of what stands in a recording and what it is called; it rises when either changes.
-pub const VERSION: &str = "3";
+pub const VERSION: &str = "4";
 
 /// Version of Rerun that .rrd files are of; a viewer of the same or a later one shows them.
 pub const RERUN_VERSION: &str = "0.36.3";
@@ -35,6 +35,11 @@ pub const RERUN_VERSION: &str = "0.36.3";
 /// Most contacts of a sample that an .rrd draws, those with the largest forces: more make a file that no viewer opens
 /// at once. All are counted, and all are in an .mcap.
 pub const MOST_CONTACTS: usize = 1_000;
+
+/// Title of the page of a recording whose run has no end in it.
+pub const NOT_FINISHED: &str = "Not finished";
+/// Name of the view of the page that a recording opens with.
+pub const PAGE: &str = "what happened";
 
 /// Most cases that are shown together: as many as have colours apart from each other.
 pub const MOST_TOGETHER: usize = 12;
@@ -189,6 +194,9 @@ pub struct Contacts {
     /// Bodies at that instant, in the order of `/bodies`; empty where a sample of that time shows them.
     #[prost(message, repeated, tag = "5")]
     pub acted: Vec<BodyPose>,
+    /// Number of the contacts, which every reader can plot.
+    #[prost(uint64, required, tag = "6")]
+    pub count: u64,
 }
 
 /// Place of a body, without its name.
@@ -271,6 +279,7 @@ pub fn descriptor_set() -> Vec<u8> {
                         ("contacts", Kind::Messages(".gotai.Contact")),
                         ("acted_s", F64),
                         ("acted", Kind::Messages(".gotai.BodyPose")),
+                        ("count", U64),
                     ],
                 ]
                 .concat(),

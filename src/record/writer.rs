@@ -27,6 +27,8 @@ const QUEUE: usize = 16;
 /// Time after which samples of a batch that is still being filled are written ahead of it: a kill loses those of this
 /// time, and what the thread has not come to yet.
 const AHEAD: Duration = Duration::from_millis(150);
+/// The same of the first: what a file opens with. (A run that is shorter does not pay for it.)
+const AHEAD_FIRST: Duration = Duration::from_millis(20);
 
 enum Message {
     Aside(Box<Aside>),
@@ -201,7 +203,7 @@ fn record(
     }
     let mut aside: Option<Box<Aside>> = None;
     let mut ahead = Ahead::default();
-    let mut due = Instant::now() + AHEAD;
+    let mut due = Instant::now() + AHEAD_FIRST;
     loop {
         if due <= Instant::now() {
             ahead.look(filling, aside.as_deref_mut());
@@ -334,7 +336,10 @@ pub fn open(targets: &[Target], dir: &Path, live: Option<u16>, header: &Header) 
     let header = Arc::new(header.clone());
     let sums = Sums::default();
     let mut sinks: Vec<Begin> = Vec::new();
-    for &target in targets {
+    // The head of an .mcap is written sooner: it does not wait for that of an .rrd.
+    let mut targets = targets.to_vec();
+    targets.sort_by_key(|target| *target == Target::Rerun);
+    for target in targets {
         let partial = dir.join(format!("{}{PARTIAL}{}", header.case, target.extension()));
         if !Target::AVAILABLE.contains(&target) {
             return Err(RecordError::new(&partial, "this build has no Rerun (cargo feature `rerun`)"));
@@ -368,7 +373,7 @@ fn begun(target: Target, file: AheadFile, path: &Path, header: &Header) -> Resul
     match target {
         Target::Mcap => {
             let recorder = super::mcap::McapRecorder::begin(file, path, header)?;
-            lay_out(path)?;
+            lay_out(path, header)?;
             Ok(Box::new(Limited::new(Box::new(recorder), header)))
         }
         #[cfg(feature = "rerun")]
@@ -387,13 +392,13 @@ fn begun(target: Target, file: AheadFile, path: &Path, header: &Header) -> Resul
 const PLAN: &str = "plan.json";
 
 /// Foxglove's layout beside the recordings of a folder of results, once.
-fn lay_out(recording: &Path) -> Result<(), RecordError> {
+fn lay_out(recording: &Path, header: &Header) -> Result<(), RecordError> {
     let layout = recording.with_file_name(schema::LAYOUT_FILE);
-    let all = Streams { bodies: true, contacts: true, forces: true, energy: true };
+    let all = Streams { bodies: true, contacts: true, forces: true, energy: true, velocities: true };
     if layout.exists() || !recording.with_file_name(PLAN).exists() {
         return Ok(());
     }
-    std::fs::write(&layout, foxglove_layout::layout(all)).map_err(|error| RecordError::caused(&layout, &error))
+    std::fs::write(&layout, foxglove_layout::layout(all, header)).map_err(|error| RecordError::caused(&layout, &error))
 }
 
 /// Gives a file its name when it is complete and the outcome is known.

@@ -89,6 +89,47 @@ fn what_is_being_filled_is_in_the_files_soon_and_leaves_no_trace() {
     }
 }
 
+/// A batch that is larger than the room before what stands ahead.
+#[test]
+fn a_large_batch_takes_the_place_of_what_stands_ahead() {
+    // Encoded, more than 16 MB.
+    const CONTACTS: usize = 300_000;
+    let written = |is_looked_at: bool| {
+        let folder = scratch::folder();
+        let header = Header { most_bytes: 1 << 40, ..header(1) };
+        let mut writer = open(&[Target::Mcap], folder.path(), None, &header).unwrap();
+        let partial = folder.path().join(format!("{}.partial.mcap", header.case));
+        fill(&mut writer, 0..1, 1);
+        writer.flush();
+        fill(&mut writer, 1..2, 1);
+        if is_looked_at {
+            soon(&partial, s::time_s(1));
+            assert!(std::fs::metadata(&partial).unwrap().len() > 16 << 20, "behind room");
+        }
+        writer.fill(|batch| {
+            s::push(batch, 2, ALL);
+            let contact = s::contacts(0)[0];
+            let noise = |i: usize, k: usize| libm::sin((12 * i + k) as f64 * 12.9898) * 43758.5453;
+            batch.contacts.extend((0..CONTACTS).map(|i| gotai::record::sample::ContactSample {
+                point_m: [0, 1, 2].map(|k| noise(i, k)),
+                normal: [3, 4, 5].map(|k| noise(i, k)),
+                force_n: [6, 7, 8].map(|k| noise(i, k)),
+                ..contact
+            }));
+            if let Some(count) = batch.contacts_len.last_mut() {
+                *count += CONTACTS as u32;
+            }
+        });
+        if is_looked_at {
+            soon(&partial, s::time_s(2));
+        }
+        writer.finish(s::ending()).unwrap();
+        std::fs::read(Target::Mcap.path(folder.path(), s::NAME)).unwrap()
+    };
+    let (looked_at, alone) = (written(true), written(false));
+    assert!(looked_at.len() > 16 << 20 && looked_at == alone, "{}", looked_at.len());
+}
+
 /// An .rrd has its layout while its run goes on, and one of its own at the end.
 #[cfg(feature = "rerun")]
 #[test]

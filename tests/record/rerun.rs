@@ -143,8 +143,14 @@ fn streams_that_are_off_leave_no_entity() {
     }
     assert_eq!(
         entities(Streams { bodies: true, ..NONE }),
-        with(&always, &["", "/edges", "/nodes"].map(|part| format!("/world/bodies/cube\\[0\\]{part}")))
+        with(
+            &always,
+            &["axes", "axes/names", "bodies/cube\\[0\\]", "bodies/cube\\[0\\]/edges", "bodies/cube\\[0\\]/nodes"]
+                .map(|part| format!("/world/{part}"))
+        )
     );
+    let moving = entities(Streams { bodies: true, velocities: true, ..NONE });
+    assert!(moving.iter().any(|path| path == "/world/velocities"), "{moving:?}");
     assert_eq!(entities(Streams { contacts: true, ..NONE }), with(&always, &["/contact/count", "/world/contacts"]));
     assert_eq!(
         entities(Streams { forces: true, ..NONE }),

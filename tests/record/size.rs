@@ -103,3 +103,23 @@ fn an_mcap_opens_as_its_rrd_would() {
     assert_eq!(but_bodies(&made.0), but_bodies(&own.0));
     assert_eq!(made.1, own.1);
 }
+
+/// Recordings of one name, of two folders: a case of two builds, say.
+#[test]
+fn cases_of_one_name_are_told_apart_by_their_folders() {
+    let (_, first, a, _) = recorded(&super::story::EXPLODES);
+    let second = crate::scratch::folder();
+    let b = second.path().join(a.file_name().unwrap());
+    std::fs::copy(&a, &b).unwrap();
+    let view = crate::cli::gotai(&["view", a.to_str().unwrap(), b.to_str().unwrap()]).env("PATH", "").output().unwrap();
+    let err = String::from_utf8_lossy(&view.stderr);
+    assert!(view.status.code() == Some(3) && !err.contains("another scene"), "{err}");
+    let mut files = std::fs::read_dir(first.path()).unwrap().map(|entry| entry.unwrap().path());
+    let made = files.find(|path| path.extension().is_some_and(|ending| ending == "rrd")).unwrap();
+    let (rows, page) = super::rerun::whole(&made);
+    for folder in [first.path(), second.path()] {
+        let name = folder.file_name().unwrap().to_str().unwrap();
+        assert!(page.contains(&gotai::record::story::markdown(&format!(" in {name}"))), "{page}");
+        assert!(rows.keys().any(|entity| entity.starts_with("/energy/") && entity.contains(name)), "{:?}", rows.keys());
+    }
+}

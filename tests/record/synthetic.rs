@@ -7,8 +7,8 @@ use gotai::record::sample::{Batch, BodyHeader, ContactSample, Ending, EnergySamp
 use gotai::record::story::{Decisive, EnergyGain, Story, TurningPoint};
 use gotai::rows::{BodyRow, Measured, cells};
 
-pub const ALL: Streams = Streams { bodies: true, contacts: true, forces: true, energy: true };
-pub const NONE: Streams = Streams { bodies: false, contacts: false, forces: false, energy: false };
+pub const ALL: Streams = Streams { bodies: true, contacts: true, forces: true, energy: true, velocities: false };
+pub const NONE: Streams = Streams { bodies: false, contacts: false, forces: false, energy: false, velocities: false };
 
 pub const STEP_S: f64 = 0.001;
 pub const CONFIG: &str = "name: bouncing\nscene:\n  bodies:\n    - { name: cube, shape: { cube: { edge_m: 0.8 } } }\n";
@@ -47,6 +47,7 @@ pub fn header(streams: Streams) -> Header {
         arrow_m_per_n: 0.02,
         arrow_weight_n: Some(9.8),
         arrow_longest_m: 7.0,
+        arrow_m_per_m_s: 0.1,
         energy_unit: ("J", 1.0),
         end_s: 1e3,
         most_bytes: 1 << 30,

@@ -46,6 +46,52 @@ fn a_kill_of_a_slow_scene_loses_little() {
     }
 }
 
+/// Time at which a copy of a file ends; None of one without a sample.
+fn ends_at(file: &Path, dir: &Path) -> Option<f64> {
+    let copy = dir.join(file.file_name()?);
+    std::fs::copy(file, &copy).ok()?;
+    let (_, out, err) = run(&["repair", copy.to_str()?]);
+    format!("{out}{err}").split("ends at t = ").nth(1)?.split(' ').next()?.parse().ok()
+}
+
+/// At every step, so that batches take the place of what stands ahead many times a second.
+#[test]
+fn what_was_read_before_a_kill_is_there_after_it() {
+    let to = if cfg!(feature = "rerun") { "both" } else { "mcap" };
+    let sets = [
+        "--set",
+        "time.end_s=1e5",
+        "--set",
+        "record.every_s=0",
+        "--set",
+        "record.max_mb=1000",
+        "--set",
+        "plan={skip: []}",
+    ];
+    for kill in 0..6 {
+        let (folder, copies) = (scratch::folder(), scratch::folder());
+        let out = folder.path().to_str().unwrap();
+        let begun = ["run", "configs/lecture/demo.yaml", "--record", to, "--quiet", "--out", out];
+        let arguments = [&begun[..], &sets[..]].concat();
+        let mut child = gotai(&arguments).stdout(Stdio::null()).spawn().unwrap();
+        let started = Instant::now();
+        while partial(folder.path()).is_none() && started.elapsed() < Duration::from_secs(60) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        std::thread::sleep(Duration::from_millis(200 + 137 * kill));
+        let mcap = partial(folder.path()).unwrap();
+        let files: Vec<PathBuf> =
+            [mcap.clone(), mcap.with_extension("rrd")].into_iter().filter(|f| f.is_file()).collect();
+        let read: Vec<Option<f64>> = files.iter().map(|file| ends_at(file, copies.path())).collect();
+        child.kill().unwrap();
+        child.wait().unwrap();
+        for (file, before_s) in files.iter().zip(read) {
+            let after_s = ends_at(file, copies.path());
+            assert!(before_s.is_some() && after_s >= before_s, "{}: {before_s:?}, {after_s:?}", file.display());
+        }
+    }
+}
+
 /// The .rrd has samples too, if there is one.
 #[cfg(feature = "rerun")]
 fn shows(dir: &Path) -> bool {
@@ -121,6 +167,23 @@ fn nothing_is_mended_of_a_file_with_nothing_in_it() {
     }
     let made = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
     assert!(made.into_iter().all(|name| !name.to_string_lossy().contains("repaired")));
+}
+
+/// A file of the format that another program has written is not ours to mend.
+#[test]
+fn a_whole_file_of_another_program_is_refused() {
+    let folder = scratch::folder();
+    let path = folder.path().join("foreign.mcap");
+    let mut writer = ::mcap::Writer::new(std::io::BufWriter::new(std::fs::File::create(&path).unwrap())).unwrap();
+    let channel = writer.add_channel(0, "/chatter", "json", &Default::default()).unwrap();
+    let header = ::mcap::records::MessageHeader { channel_id: channel, sequence: 0, log_time: 0, publish_time: 0 };
+    writer.write_to_known_channel(&header, b"{}").unwrap();
+    writer.finish().unwrap();
+    drop(writer);
+    for command in ["view", "export", "repair"] {
+        let (code, out, err) = run(&[command, path.to_str().unwrap()]);
+        assert!(code == 2 && out.is_empty() && err.contains("expected a recording of gotai"), "{command}: {out}{err}");
+    }
 }
 
 #[test]

@@ -102,7 +102,7 @@ fn a_recording_opens_on_what_happened() {
     assert!((0.15..0.8).contains(&height), "{height}");
 }
 
-/// A cube of this edge that falls, in units in which the motion is the same.
+/// A cube of this edge that falls on its corner, in units in which the motion is the same.
 fn cube(edge_m: f64) -> String {
     let unit_s = edge_m.sqrt();
     format!(
@@ -119,16 +119,17 @@ fn cube(edge_m: f64) -> String {
 #[test]
 fn bodies_of_any_size_are_in_view() {
     let Some(rerun) = tools::viewer() else { return };
-    // Nearer than the viewer's near plane as it is.
-    let edge_m = 1e-3;
-    let folder = scratch::folder();
-    let config = folder.path().join("cube.yaml");
-    std::fs::write(&config, cube(edge_m)).unwrap();
-    let (_folder, file) = of_run(&[config.to_str().unwrap()]);
-    let picture = shown(&rerun, &file, "0");
-    let height = picture.height(SCENE, is_body);
-    assert!((0.15..0.8).contains(&height), "{height}");
-    assert!(picture.bright(HEADLINE) > 400);
+    // Nearer than the viewer's near plane as it is, and farther away than it looks.
+    for edge_m in [1e-3, 1e3] {
+        let folder = scratch::folder();
+        let config = folder.path().join("cube.yaml");
+        std::fs::write(&config, cube(edge_m)).unwrap();
+        let (_folder, file) = of_run(&[config.to_str().unwrap()]);
+        let picture = shown(&rerun, &file, "0");
+        let height = picture.height(SCENE, is_body);
+        assert!((0.15..0.8).contains(&height), "{edge_m} m: {height}");
+        assert!(picture.bright(HEADLINE) > 400);
+    }
 }
 
 /// A body, an arrow or a way: neither the ground nor the container, which are grey.
@@ -139,7 +140,13 @@ fn is_vivid(pixel: [u8; 3]) -> bool {
 }
 
 /// Scenes of one kind each: what is set, or a file of its own, and the time at which it is looked at.
-const KINDS: [(&str, &str, &[&str], &str); 8] = [
+const KINDS: [(&str, &str, &[&str], &str); 9] = [
+    (
+        "the experiment to start from",
+        "",
+        &["configs/start.yaml", "--set", "time.step_s=0.005", "--set", "seed=1"],
+        "0.8",
+    ),
     (
         "a stack of ten",
         "",

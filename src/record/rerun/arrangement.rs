@@ -3,7 +3,7 @@
 use super::statics::Statics;
 use ::rerun::external::re_log_types::BlueprintActivationCommand;
 use ::rerun::external::re_sdk_types::blueprint::archetypes::{
-    ContainerBlueprint, PanelBlueprint, TimePanelBlueprint, ViewBlueprint, ViewContents, ViewportBlueprint,
+    ContainerBlueprint, PanelBlueprint, TimeAxis, TimePanelBlueprint, ViewBlueprint, ViewContents, ViewportBlueprint,
 };
 use ::rerun::external::re_sdk_types::blueprint::components::{
     AutoLayout, AutoViews, ColumnShare, ContainerKind, IncludedContent, PanelState, QueryExpression, RootContainer,
@@ -145,8 +145,12 @@ impl Several {
     }
 }
 
-/// The layout of an application's recordings: a new store, all that is in it, and the word to show it. The panels of
-/// the viewer itself are folded away.
+/// Number of the piece under which the viewer keeps what views with linked axes share: one of its constants.
+const LINKED: [u8; 16] =
+    [0x5c, 0x0d, 0xca, 0x6a, 0xe6, 0x3f, 0x9c, 0xf7, 0xf6, 0x57, 0x26, 0x02, 0x59, 0x04, 0x74, 0xcc];
+
+/// The layout of an application's recordings: a new store, all that is in it, and the word to show it; `linked` is the
+/// axis of all plots whose axes are linked. The panels of the viewer itself are folded away.
 ///
 /// # Errors
 /// Rerun's own.
@@ -154,6 +158,7 @@ pub fn messages(
     application: ApplicationId,
     root: &Several,
     time: &TimePanelBlueprint,
+    linked: Option<&TimeAxis>,
 ) -> Result<Vec<LogMsg>, Box<dyn Error>> {
     let store = StoreId::random(StoreKind::Blueprint, application);
     let mut stream = Statics::of_layout(store.clone());
@@ -166,6 +171,9 @@ pub fn messages(
         stream.log(panel, &PanelBlueprint::new().with_state(PanelState::Hidden))?;
     }
     stream.log("time_panel", time)?;
+    if let Some(axis) = linked {
+        stream.log(format!("{}/TimeAxis", path("view", LINKED)), axis)?;
+    }
     let mut messages = stream.messages();
     messages.push(LogMsg::BlueprintActivationCommand(BlueprintActivationCommand::make_active(store)));
     Ok(messages)

@@ -28,9 +28,19 @@ pub struct Camera {
     pub follows: bool,
     /// Length of the motion that is in view.
     pub size_m: f64,
-    /// Middle and half of the longest side of the room that is in view.
+    /// Middle, lowest corner and half of the longest side of the room that is in view.
     pub middle: [f64; 3],
+    pub low: [f64; 3],
     pub half_m: f64,
+}
+
+impl Camera {
+    /// Whether a place is in the picture, or near it.
+    pub fn is_near(&self, p: [f32; 3]) -> bool {
+        /// Half sides of the room.
+        const NEAR: f64 = 2.5;
+        (0..3).all(|i| (f64::from(p[i]) - self.middle[i]).abs() <= NEAR * self.half_m)
+    }
 }
 
 /// Lengths that the viewer shows as they are; smaller and larger scenes are drawn to this scale, as its near plane
@@ -79,6 +89,7 @@ pub fn camera_on(header: &Header, room: Room) -> Option<Camera> {
         follows,
         size_m: if follows { 6.0 * radius_m } else { size_m },
         middle,
+        low,
         half_m,
     })
 }

@@ -2,7 +2,7 @@
 
 use super::camera::{Camera, camera_on, scale};
 use super::crowd::EDGED_BODIES;
-use super::head::{color, details, ground, line, surface, walls};
+use super::head::{Looks, axes, color, details, ground, in_view, line, walls};
 use super::headline::moment;
 use super::layout::{self, Opening, Plot};
 use super::names::{CONTACT_COUNT, ENERGY, HEADLINE, LOG, LOG_ENERGY, TRAILS, WORLD, application};
@@ -65,6 +65,8 @@ struct Drawn<'a> {
     alpha: u8,
     seen: Seen,
     start_j: Option<f64>,
+    /// Unit in which energies are plotted, that of the first case.
+    unit_j: f64,
 }
 
 /// Writes cases, at most as many as there are colours, into one .rrd.
@@ -76,8 +78,10 @@ pub fn write_ghosts(path: &Path, differing: &str, cases: &[GhostCase]) -> Result
 }
 
 fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
-    let drawn: Vec<Drawn<'_>> = cases.iter().zip(COLOURS).enumerate().map(|(i, of)| Drawn::new(i, of)).collect();
     let Some(first) = cases.first() else { return Ok(()) };
+    let unit_j = first.header.energy_unit.1;
+    let drawn = cases.iter().zip(COLOURS).enumerate().map(|(i, of)| Drawn::new(i, of, unit_j));
+    let drawn: Vec<Drawn<'_>> = drawn.collect();
     let labels: Vec<&str> = cases.iter().map(|case| case.label.as_str()).collect();
     let application = application(&format!("{differing} {}", labels.join(" ")))?;
     let ids: Vec<&str> = cases.iter().map(|case| case.header.case.as_str()).collect();
@@ -95,7 +99,7 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
         application,
         eye: layout::eye(&first.header, camera),
         grid: layout::grid(&first.header, camera),
-        energy: energy_plot(&drawn, first.header.energy_factor),
+        energy: energy_plot(&drawn, &first.header),
         contacts: vec![Plot {
             name: "contacts at once".to_string(),
             path: CONTACT_COUNT,
@@ -105,6 +109,7 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
         has_config: false,
         has_flight: false,
         stretch_s: stretch_s(cases),
+        end_s: cases.iter().filter_map(|case| case.recording.until_s()).reduce(f64::max),
     };
 
     stream.log("/", &ViewCoordinates::RIGHT_HAND_Y_UP())?;
@@ -115,12 +120,15 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
     }
     stream.log(HEADLINE, &TextDocument::from_markdown(page(differing, cases)))?;
     match camera {
-        Some(camera) => ground(&first.header, camera.middle, 1.6 * camera.half_m, &mut stream)?,
+        Some(camera) => {
+            ground(&first.header, camera.middle, 1.6 * camera.half_m, &mut stream)?;
+            axes(&first.header, camera, &mut stream)?;
+        }
         None => ground(&first.header, first.header.ground.0, first.header.ground.1, &mut stream)?,
     }
     walls(&first.header, &mut stream)?;
     for case in &drawn {
-        case.styles(&mut stream)?;
+        case.styles(camera, &mut stream)?;
     }
 
     let file = AheadFile::create(path)?;
@@ -136,14 +144,14 @@ fn write(path: &Path, differing: &str, cases: &[GhostCase]) -> Appended {
 }
 
 impl<'a> Drawn<'a> {
-    fn new(i: usize, (case, colour): (&'a GhostCase, Rgb)) -> Self {
+    fn new(i: usize, (case, colour): (&'a GhostCase, Rgb), unit_j: f64) -> Self {
         let mut seen = Seen::new(&case.header);
         let start_j =
             case.recording.samples.energy.first().map(|energy| energy.total_j).filter(|start_j| *start_j > 0.0);
         for sample in case.recording.samples.samples() {
             seen.look(&sample, sample.energy.and_then(|energy| log_part(energy.total_j, start_j)));
         }
-        Drawn { case, colour, alpha: if i == 0 { u8::MAX } else { GHOST_ALPHA }, seen, start_j }
+        Drawn { case, colour, alpha: if i == 0 { u8::MAX } else { GHOST_ALPHA }, seen, start_j, unit_j }
     }
 
     fn room(&self) -> Option<Room> {
@@ -160,19 +168,20 @@ impl<'a> Drawn<'a> {
         EntityPath::from(of).join(&EntityPath::from_single_string(self.case.label.as_str()))
     }
 
-    fn styles(&self, stream: &mut Statics) -> Appended {
+    fn styles(&self, camera: Option<Camera>, stream: &mut Statics) -> Appended {
         let GhostCase { header, label, recording } = self.case;
         if !recording.samples.bodies.is_empty() {
+            let mut looks = Looks::default();
             for body in &header.bodies {
-                let path = self.body(&body.name);
-                stream.log(path.clone(), &surface(body, self.colour, self.alpha))?;
+                let (path, look) = (self.body(&body.name), looks.of(body));
+                stream.log(path.clone(), &look.surface(self.colour, self.alpha))?;
                 if header.bodies.len() <= EDGED_BODIES {
-                    details(body, &path, stream)?;
+                    details(body, look, &path, stream)?;
                 }
             }
         }
         let [r, g, b] = self.colour;
-        let ways: Vec<_> = self.seen.ways().map(|(_, way)| way.to_vec()).collect();
+        let ways: Vec<_> = self.seen.ways().map(|(_, way)| in_view(way, camera)).collect();
         if !ways.is_empty() {
             let lines = LineStrips3D::new(ways).with_colors([Color::from_unmultiplied_rgba(r, g, b, 150)]);
             stream.log(self.below(TRAILS), &lines.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
@@ -213,7 +222,8 @@ impl<'a> Drawn<'a> {
             out.scalars(self.below(CONTACT_COUNT), &clock, counts)?;
         }
         if !batch.energy.is_empty() {
-            out.scalars(self.below(ENERGY), &clock, batch.energy.iter().map(|energy| energy.total_j))?;
+            let totals = batch.energy.iter().map(|energy| energy.total_j / self.unit_j);
+            out.scalars(self.below(ENERGY), &clock, totals)?;
             if self.start_j.is_some() {
                 let part = |total_j: f64| log_part(total_j, self.start_j).unwrap_or(f64::NAN);
                 out.scalars(self.below(LOG_ENERGY), &clock, batch.energy.iter().map(|energy| part(energy.total_j)))?;
@@ -237,7 +247,7 @@ fn stretch_s(cases: &[GhostCase]) -> Option<[f64; 2]> {
     all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
 }
 
-fn energy_plot(drawn: &[Drawn<'_>], factor: Option<f64>) -> Option<Plot> {
+fn energy_plot(drawn: &[Drawn<'_>], header: &Header) -> Option<Plot> {
     let all = |pick: fn(&Seen) -> Between| {
         drawn
             .iter()
@@ -245,12 +255,14 @@ fn energy_plot(drawn: &[Drawn<'_>], factor: Option<f64>) -> Option<Plot> {
             .filter(|seen| !seen.is_empty())
             .reduce(|a, b| Between { least: a.least.min(b.least), most: a.most.max(b.most) })
     };
-    if let Some(range) = all(|seen| seen.log_energy).and_then(|log| layout::log_range(log, factor)) {
+    if let Some(range) = all(|seen| seen.log_energy).and_then(|log| layout::log_range(log, header.energy_factor)) {
         return Some(Plot { range: Some(range), ..layout::log_energy_plot() });
     }
     let totals_j = all(|seen| seen.total_j)?;
+    let (unit, unit_j) = header.energy_unit;
     let range = layout::with_legend(layout::widened(totals_j, 1e-3 * totals_j.most.abs()));
-    Some(Plot { name: "energy [J]".to_string(), path: ENERGY, range: Some(range), legend: Some(Corner2D::RightTop) })
+    let range = range.map(|end_j| end_j / unit_j);
+    Some(Plot { name: format!("energy [{unit}]"), path: ENERGY, range: Some(range), legend: Some(Corner2D::RightTop) })
 }
 
 /// A table of the instants that decide, of all cases, in the order of time.
@@ -284,7 +296,7 @@ fn page(differing: &str, cases: &[GhostCase]) -> String {
     if let Some(question) = cases.first().map(|case| markdown(&case.header.question)).filter(|text| !text.is_empty()) {
         page += &format!("**{question}**\n\n");
     }
-    page += "| case | colour | outcome | at | E / E₀ ≤ | gain ≤ | residual ≤ |\n";
+    page += "| case | colour | outcome | at | max E / E₀ | max gain | max residual |\n";
     page += "|---|---|---|---|---|---|---|\n";
     for ((case, word), i) in cases.iter().zip(COLOUR_WORDS).zip(0..) {
         let said = |key: &str| case.recording.said.get(key).cloned();

@@ -3,8 +3,8 @@
 use super::camera::{Camera, camera, followed_half_m, scale};
 use super::crowd::{DrawnBodies, EDGED_BODIES};
 use super::names::{
-    CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, ENERGY_UNIT, FLIGHT, FORCES, FRICTION_USE, GAINS,
-    GROUND, HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, STRETCH, TRAILS, WORLD, application, energy_path,
+    AXES, CONFIG, CONTACT_COUNT, CONTACT_FORCE, CONTACTS, CONTAINER, ENERGY_UNIT, FLIGHT, FORCES, FRICTION_USE, GAINS,
+    GROUND, HEADLINE, LIMIT, LOG_ENERGY_TOTAL, LOG_GAINS, STRETCH, TRAILS, VELOCITIES, WORLD, application, energy_path,
     followed_path,
 };
 use super::out::{Appended, times};
@@ -49,8 +49,11 @@ const SHARP: f64 = 0.94;
 const GROUND_COLOUR: Rgb = [110, 120, 140];
 const EDGE_COLOUR: Rgb = [24, 28, 36];
 const LIGHT_EDGE_COLOUR: Rgb = [190, 205, 225];
+const VELOCITY_COLOUR: Rgb = [235, 238, 245];
 const LIMIT_COLOUR: Rgb = [225, 87, 89];
 const AXES_COLOURS: [Rgb; 3] = [[235, 80, 80], [100, 210, 90], [90, 140, 250]];
+/// Paler, for the world's: they are no part of what moves.
+const WORLD_COLOURS: [Rgb; 3] = [[205, 165, 165], [165, 205, 165], [165, 175, 205]];
 
 /// Name and first messages of the recording. `bodies` are the bodies' entities; one that is shown live has no end yet.
 ///
@@ -66,11 +69,13 @@ pub fn messages(
     stream.begin(&header.name.begun())?;
     describe(header, &mut stream, is_live)?;
     if header.streams.bodies {
+        let mut looks = Looks::default();
         for DrawnBodies { path, bodies, colour } in bodies {
             let body = &header.bodies[bodies[0]];
-            stream.log(path.clone(), &surface(body, *colour, u8::MAX))?;
+            let look = looks.of(body);
+            stream.log(path.clone(), &look.surface(*colour, u8::MAX))?;
             if header.bodies.len() <= EDGED_BODIES {
-                details(body, path, &mut stream)?;
+                details(body, look, path, &mut stream)?;
             }
         }
     }
@@ -115,8 +120,9 @@ pub fn ending(header: &Header, ending: &Ending, seen: &Seen) -> Result<Vec<LogMs
         stream.log(FLIGHT, &TextDocument::from_markdown(headline::flight_page(flight)))?;
     }
     let camera = camera(header, seen, ending.story.calm_until_s);
-    if let Some(Camera { middle, half_m, .. }) = camera {
-        ground(header, middle, 1.6 * half_m, &mut stream)?;
+    if let Some(camera) = camera {
+        ground(header, camera.middle, 1.6 * camera.half_m, &mut stream)?;
+        axes(header, camera, &mut stream)?;
     }
     if camera.is_some_and(|camera| camera.follows) {
         followed(header, &mut stream)?;
@@ -124,7 +130,7 @@ pub fn ending(header: &Header, ending: &Ending, seen: &Seen) -> Result<Vec<LogMs
     // A long one that the camera goes along with would be a bar through the picture.
     let radius_m = header.bodies.first().map_or(0.0, |body| body.bounding_radius_m);
     if !camera.is_some_and(|camera| camera.follows && camera.half_m > BAR * radius_m) {
-        trails(header, seen, &mut stream)?;
+        trails(header, seen, camera, &mut stream)?;
     }
     marks(header, ending, seen, &mut stream)?;
     let mut messages = layout::messages(header, Some((ending, seen, camera)))?;
@@ -173,11 +179,43 @@ fn describe(header: &Header, stream: &mut Statics, is_live: bool) -> Appended {
     Ok(())
 }
 
-/// A body's surface in a colour of this opacity.
-pub fn surface(body: &BodyHeader, [r, g, b]: Rgb, alpha: u8) -> Mesh3D {
-    let is_faceted = body.triangles.len() <= FACETED_TRIANGLES && !is_round(body);
-    let mesh = if is_faceted { faceted(body) } else { smooth(body) };
-    mesh.with_albedo_factor(*Color::from_unmultiplied_rgba(r, g, b, alpha))
+/// What a body looks like: its surface, and lines on it.
+pub struct Look {
+    mesh: Mesh3D,
+    lines: Vec<Vec<[f32; 3]>>,
+}
+
+impl Look {
+    fn of(body: &BodyHeader) -> Self {
+        let is_faceted = body.triangles.len() <= FACETED_TRIANGLES && !is_round(body);
+        let strips = if body.triangles.len() <= EDGED_TRIANGLES { edges(body) } else { Vec::new() };
+        Look {
+            mesh: if is_faceted { faceted(body) } else { smooth(body) },
+            lines: strips.iter().map(|strip| strip.iter().map(|p| p.map(|x| x as f32)).collect()).collect(),
+        }
+    }
+
+    /// The surface in a colour of this opacity.
+    pub fn surface(&self, [r, g, b]: Rgb, alpha: u8) -> Mesh3D {
+        self.mesh.clone().with_albedo_factor(*Color::from_unmultiplied_rgba(r, g, b, alpha))
+    }
+}
+
+/// Looks of bodies one after the other, worked out once for those that look like the one before.
+#[derive(Default)]
+pub struct Looks<'a>(Option<(&'a BodyHeader, Look)>);
+
+impl<'a> Looks<'a> {
+    pub fn of(&mut self, body: &'a BodyHeader) -> &Look {
+        let is_alike = |other: &BodyHeader| {
+            other.touches_with_nodes == body.touches_with_nodes
+                && other.has_no_shape == body.has_no_shape
+                && other.vertices_m == body.vertices_m
+                && other.triangles == body.triangles
+        };
+        let known = self.0.take().filter(|(other, _)| is_alike(other));
+        &self.0.insert(known.unwrap_or_else(|| (body, Look::of(body)))).1
+    }
 }
 
 /// Whether no edge of it is sharp.
@@ -222,14 +260,12 @@ fn corners_and_normal(body: &BodyHeader, triangle: &[u32; 3]) -> Option<([[f64; 
 }
 
 /// What makes a turn visible: edges, nodes that touch, places on pins, and of a body without a shape its axes.
-pub fn details(body: &BodyHeader, path: &EntityPath, stream: &mut Statics) -> Appended {
+pub fn details(body: &BodyHeader, look: &Look, path: &EntityPath, stream: &mut Statics) -> Appended {
     let below = |name: &str| path.join(&EntityPath::from_single_string(name));
-    let strips = if body.triangles.len() <= EDGED_TRIANGLES { edges(body) } else { Vec::new() };
-    if !strips.is_empty() {
+    if !look.lines.is_empty() {
         // What has no shape is seen by its lines.
         let edge_colour = if body.has_no_shape { LIGHT_EDGE_COLOUR } else { EDGE_COLOUR };
-        let lines =
-            LineStrips3D::new(strips.iter().map(|strip| strip.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>()));
+        let lines = LineStrips3D::new(look.lines.iter().cloned());
         let lines = lines.with_colors([color(edge_colour)]).with_radii([Radius::new_ui_points(EDGE_RADIUS)]);
         stream.log(below("edges"), &lines)?;
     }
@@ -389,15 +425,45 @@ fn followed(header: &Header, stream: &mut Statics) -> Appended {
     stream.log(followed_path(&body.name), &Mesh3D::new(corners))
 }
 
-/// The ways of the bodies, each in its body's colour.
-fn trails(header: &Header, seen: &Seen, stream: &mut Statics) -> Appended {
+/// Axes of the world's frame, at the foot of what is in view; none where the camera goes along and leaves them behind.
+pub fn axes(header: &Header, camera: Camera, stream: &mut Statics) -> Appended {
+    /// Parts of the longest side that is in view: their length, and how far outside they stand.
+    const LENGTH: f64 = 0.16;
+    const OUTSIDE: f64 = 0.1;
+    if camera.follows {
+        return Ok(());
+    }
+    let side_m = 2.0 * camera.half_m;
+    let [x, y, z] = camera.low;
+    let high_z = 2.0 * camera.middle[2] - z;
+    let foot = [x - OUTSIDE * side_m, y, high_z + OUTSIDE * side_m];
+    // On the ground, where that is level.
+    let level = header.planes.first().filter(|(normal, _)| normal[1] > 0.999_999);
+    let foot = level.map_or(foot, |(_, offset_m)| [foot[0], *offset_m, foot[2]]).map(|x| x as f32);
+    let axis = |i: usize| std::array::from_fn::<f32, 3, _>(|k| if i == k { (LENGTH * side_m) as f32 } else { 0.0 });
+    let arrows = Arrows3D::from_vectors([0, 1, 2].map(axis)).with_origins([foot; 3]);
+    let arrows = arrows.with_colors(WORLD_COLOURS.map(color)).with_radii([Radius::new_ui_points(LINE_RADIUS)]);
+    stream.log(AXES, &arrows)?;
+    let tip = |i: usize| std::array::from_fn::<f32, 3, _>(|k| foot[k] + axis(i)[k]);
+    let names = Points3D::new([0, 1, 2].map(tip)).with_labels(["x", "y", "z"]).with_show_labels(true);
+    let names = names.with_colors(WORLD_COLOURS.map(color)).with_radii([Radius::new_ui_points(LINE_RADIUS)]);
+    stream.log(format!("{AXES}/names"), &names)
+}
+
+/// The ways of the bodies as far as they are in view, each in its body's colour.
+fn trails(header: &Header, seen: &Seen, camera: Option<Camera>, stream: &mut Statics) -> Appended {
     for (i, way) in seen.ways().filter(|_| header.streams.bodies) {
         let [r, g, b] = schema::BODY_COLOURS[i % schema::BODY_COLOURS.len()];
-        let line = LineStrips3D::new([way.to_vec()]).with_colors([Color::from_unmultiplied_rgba(r, g, b, 140)]);
+        let line = LineStrips3D::new([in_view(way, camera)]).with_colors([Color::from_unmultiplied_rgba(r, g, b, 140)]);
         let path = EntityPath::from(TRAILS).join(&EntityPath::from_single_string(&*header.bodies[i].name));
         stream.log(path, &line.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
     }
     Ok(())
+}
+
+/// A way up to where a body is thrown out of the picture.
+pub fn in_view(way: &[[f32; 3]], camera: Option<Camera>) -> Vec<[f32; 3]> {
+    way.iter().copied().take_while(|p| camera.is_none_or(|camera| camera.follows || camera.is_near(*p))).collect()
 }
 
 /// Marks on the plots of energy: the limit of divergence, the steps that gained energy.
@@ -445,6 +511,10 @@ fn styles(header: &Header, stream: &mut Statics) -> Appended {
         stream.log(CONTACT_FORCE, &line("sum of |force| [N]", schema::FORCE_COLOUR))?;
         let sliding = schema::mode_colour(crate::record::sample::ContactMode::Sliding);
         stream.log(FRICTION_USE, &line("largest |f_t| / μ f_n", sliding))?;
+    }
+    if streams.velocities {
+        let style = Arrows3D::update_fields().with_colors([color(VELOCITY_COLOUR)]);
+        stream.log(VELOCITIES, &style.with_radii([Radius::new_ui_points(LINE_RADIUS)]))?;
     }
     if streams.energy {
         for series in &schema::ENERGY_SERIES {

@@ -34,9 +34,9 @@ const MOST_ROWS: usize = 12;
 /// Page of a recording before its end: one that was cut, or one that is shown while its run goes on.
 pub fn begun(header: &Header, is_live: bool) -> String {
     let (title, said) = if is_live {
-        ("Not finished yet", "The run goes on; this page says how it ended when it has.")
+        (format!("{} yet", schema::NOT_FINISHED), "The run goes on; this page says how it ended when it has.")
     } else {
-        ("Not finished", "The run, or its recording, was cut: nothing is known about its end here.")
+        (schema::NOT_FINISHED.to_string(), "The run, or its recording, was cut: nothing is known about its end here.")
     };
     format!("# {title}\n\n{said}\n\n{}", asked(header, None))
 }
@@ -223,6 +223,13 @@ fn legend(header: &Header, ending: &Ending) -> String {
                 brief(header.arrow_longest_m)
             ),
         });
+    }
+    if header.streams.velocities {
+        lines.push(format!(
+            "Velocity arrows, white: 1 m/s is {} m; none is longer than {} m.",
+            brief(header.arrow_m_per_m_s),
+            brief(header.arrow_longest_m)
+        ));
     }
     if ending.left_out > 0 {
         lines.push(format!(

@@ -15,12 +15,16 @@ use crate::record::schema;
 use ::rerun::ApplicationId;
 use ::rerun::components::{Color, Plane3D, Range1D};
 use ::rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, EyeControls3D, LineGrid3D, PlotLegend, ScalarAxis, TimeAxis, TimePanelBlueprint,
+    Background, EyeControls3D, LineGrid3D, PlotLegend, ScalarAxis, TextLogColumns, TimeAxis, TimePanelBlueprint,
 };
 use ::rerun::external::re_sdk_types::blueprint::components::{
-    BackgroundKind, Corner2D, LinkAxis, LoopMode, PanelState, PlayState, PlaybackSpeed, TimelineName,
+    BackgroundKind, Corner2D, LinkAxis, LoopMode, PanelState, PlayState, PlaybackSpeed, TimeRange as ShownRange,
+    TimelineName,
 };
-use ::rerun::external::re_sdk_types::datatypes::{AbsoluteTimeRange, Float64};
+use ::rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
+use ::rerun::external::re_sdk_types::datatypes::{
+    AbsoluteTimeRange, Bool, Float64, TimeInt, TimeRange, TimeRangeBoundary,
+};
 use ::rerun::log::LogMsg;
 use std::error::Error;
 
@@ -36,8 +40,11 @@ const LENGTH_FLOOR: f64 = 1e-6;
 const LEGEND: f64 = 0.55;
 /// Part of a plot's height that is left below zero.
 const BELOW: f64 = 0.06;
-/// Powers of ten above the limit of divergence that are plotted: what comes after it is no more news.
-const ABOVE: f64 = 3.0;
+/// Powers of ten above the limit of divergence that are plotted: what comes after it is no more news. (With more than
+/// seven in all, the viewer has no room to label each.)
+const ABOVE: f64 = 1.0;
+/// Parts of a run's length that plots show before its beginning and after its end, so that neither is cut.
+const MARGINS: [f64; 2] = [0.015, 0.05];
 /// Seconds in which the decisive stretch is played.
 const PLAYED_S: f64 = 5.0;
 
@@ -65,6 +72,8 @@ pub struct Opening {
     pub has_flight: bool,
     /// Part of the run that is played.
     pub stretch_s: Option<[f64; 2]>,
+    /// End of the run, if it is known.
+    pub end_s: Option<f64>,
 }
 
 /// The layout of a recording, before its end or with it, as messages of a blueprint store, complete with its
@@ -83,6 +92,7 @@ pub fn messages(header: &Header, known: Option<Known<'_>>) -> Result<Vec<LogMsg>
         has_config: true,
         has_flight: known.is_some_and(|(ending, ..)| ending.flight.is_some()),
         stretch_s: known.map(|(ending, ..)| ending.story.stretch_s),
+        end_s: known.map(|(ending, ..)| ending.end_time_s),
     };
     opening.messages()
 }
@@ -93,7 +103,7 @@ impl Opening {
     /// # Errors
     /// Rerun's own.
     pub fn messages(self) -> Result<Vec<LogMsg>, Box<dyn Error>> {
-        let Opening { application, eye, grid, energy, contacts, has_config, has_flight, stretch_s } = self;
+        let Opening { application, eye, grid, energy, contacts, has_config, has_flight, stretch_s, end_s } = self;
         let mut scene = View::new(Shows::Scene, "scene", "/").of("+ /world/**");
         let [r, g, b] = BACKGROUND;
         let background = Background::new(BackgroundKind::SolidColor).with_color(Color::from_rgb(r, g, b));
@@ -111,8 +121,17 @@ impl Opening {
             Some(stretch_s) => played(time, stretch_s),
             None => time,
         };
-        arrangement::messages(application, &root, &time)
+        arrangement::messages(application, &root, &time, end_s.and_then(all_of_it).as_ref())
     }
+}
+
+/// The axis of time of all plots: the whole run, with margins. None of a run without a length.
+fn all_of_it(end_s: f64) -> Option<TimeAxis> {
+    let whole_ns = end_s * 1e9;
+    let at = |part: f64| TimeRangeBoundary::Absolute(TimeInt((part * whole_ns) as i64));
+    let [before, after] = MARGINS;
+    let shown = TimeRange { start: at(-before), end: at(1.0 + after) };
+    (whole_ns > 0.0 && whole_ns.is_finite()).then(|| TimeAxis::new().with_view_range(ShownRange(shown)))
 }
 
 fn plot_view(plot: Plot) -> Piece {
@@ -127,7 +146,12 @@ fn plot_view(plot: Plot) -> Piece {
 }
 
 fn arranged(scene: Piece, energy: Option<Piece>, contacts: Vec<Piece>, [has_config, has_flight]: [bool; 2]) -> Several {
-    let mut notes: Vec<Piece> = vec![View::new(Shows::Log, "events", LOG).into()];
+    // Where in the recording an event stands says nothing.
+    let column = |kind| TextLogColumn { visible: Bool(kind != TextLogColumnKind::EntityPath), kind };
+    let columns = [TextLogColumnKind::EntityPath, TextLogColumnKind::LogLevel, TextLogColumnKind::Body].map(column);
+    let mut events = View::new(Shows::Log, "events", LOG);
+    events.add("TextLogColumns", TextLogColumns::new().with_text_log_columns(columns));
+    let mut notes: Vec<Piece> = vec![events.into()];
     if has_flight {
         notes.push(View::new(Shows::Document, "largest gain", FLIGHT).into());
     }
@@ -135,7 +159,7 @@ fn arranged(scene: Piece, energy: Option<Piece>, contacts: Vec<Piece>, [has_conf
         notes.push(View::new(Shows::Document, "configuration", CONFIG).into());
     }
     let left = Several::above(vec![scene, Several::tabs(notes).into()], vec![3.2, 1.0]);
-    let mut right: Vec<Piece> = vec![View::new(Shows::Document, "what happened", HEADLINE).into()];
+    let mut right: Vec<Piece> = vec![View::new(Shows::Document, schema::PAGE, HEADLINE).into()];
     let mut shares = vec![2.4];
     if let Some(energy) = energy {
         right.push(energy);
@@ -203,9 +227,12 @@ pub fn log_energy_plot() -> Plot {
 }
 
 /// Range of the logarithms, with the limit of divergence in it; None where they say less than the energies themselves.
+/// A run that ends when it diverges is low where its legend stands.
 pub fn log_range(log: Between, factor: Option<f64>) -> Option<[f64; 2]> {
     let limit = factor.map_or(log.most, |factor| libm::log10(factor).max(log.most.min(libm::log10(factor) + ABOVE)));
-    (log.most > libm::log10(GROWTH)).then(|| with_legend([log.least.min(0.0) - 0.15, limit + 0.15]))
+    let range = [log.least.min(0.0) - 0.15, limit + 0.15];
+    let ends_there = factor.is_some_and(|factor| log.most >= libm::log10(factor));
+    (log.most > libm::log10(GROWTH)).then(|| if ends_there { range } else { with_legend(range) })
 }
 
 fn contact_plots(header: &Header, known: Option<Known<'_>>) -> Vec<Plot> {
@@ -277,16 +304,19 @@ pub fn eye(header: &Header, camera: Option<Camera>) -> Option<EyeControls3D> {
     Some(eye.with_eye_up([0.0, 1.0, 0.0]))
 }
 
-/// A grid on the ground, to the scale of the motion; without ground there is none.
+/// A grid on the ground, to the scale of the motion; without ground it lies below all that is seen.
 pub fn grid(header: &Header, camera: Option<Camera>) -> LineGrid3D {
     let scale = scale(header);
-    let Some((normal, offset_m)) = header.planes.first() else { return LineGrid3D::new().with_visible(false) };
+    let below = camera.map(|camera| ([0.0, 1.0, 0.0], camera.low[1]));
+    let Some((normal, offset_m)) = header.planes.first().copied().or(below) else {
+        return LineGrid3D::new().with_visible(false);
+    };
     let [r, g, b, a] = GRID;
     let size_m = camera.map_or(header.scene_size_m(), |camera| camera.size_m);
     let normal = normal.map(|x| x as f32);
     LineGrid3D::new()
         .with_visible(true)
-        .with_plane(Plane3D::new(normal, (*offset_m * scale) as f32))
+        .with_plane(Plane3D::new(normal, (offset_m * scale) as f32))
         .with_spacing((spacing_m(size_m) * scale) as f32)
         .with_color(Color::from_unmultiplied_rgba(r, g, b, a))
 }

@@ -3,7 +3,7 @@
 use super::headline::level;
 use super::live::Live;
 use super::names::{LOG, SIM_TIME, STEP};
-use crate::record::ahead_file::AheadFile;
+use crate::record::ahead_file::{AheadFile, SkipBytes};
 use crate::record::sample::Event;
 use crate::record::schema;
 use ::rerun::external::re_log_encoding::Encoder;
@@ -58,6 +58,41 @@ impl Sink {
     }
 }
 
+/// What has been encoded, without the head of a file.
+fn without_head(encoder: Encoder<Vec<u8>>) -> Result<Vec<u8>, Box<dyn Error>> {
+    let mut bytes = encoder.into_inner()?;
+    let head = Encoder::local()?.into_inner()?.len();
+    bytes.drain(..head.min(bytes.len()));
+    Ok(bytes)
+}
+
+/// How readers of a file are made to skip something: by a message that says again what the first one says of the
+/// recording, and after that, in a field that no reader knows, what is to be skipped.
+///
+/// # Errors
+/// Rerun's own.
+pub fn skip(first: &LogMsg) -> Result<SkipBytes, Box<dyn Error>> {
+    /// Kind and length of a message, eight bytes each, and Protobuf's head of field 1000, of a length in five bytes.
+    const HEAD: usize = 16;
+    const FIELD: [u8; 2] = [0xc2, 0x3e];
+    const LENGTH: u64 = 5;
+    let mut encoder = Encoder::local()?;
+    encoder.do_not_emit_footer();
+    encoder.append(first)?;
+    let said = without_head(encoder)?;
+    let (Some(kind), Some(said)) = (said.get(..HEAD / 2).map(<[u8]>::to_vec), said.get(HEAD..).map(<[u8]>::to_vec))
+    else {
+        return Err("a message without a head".into());
+    };
+    Ok(Box::new(move |bytes| {
+        let length = said.len() as u64 + FIELD.len() as u64 + LENGTH + bytes;
+        // Seven bits each, the lowest first, and in all but the last the mark that more follow.
+        let digits = (0..LENGTH).map(|i| (bytes >> (7 * i)) as u8 & 0x7f | if i + 1 < LENGTH { 0x80 } else { 0 });
+        let head = kind.iter().copied().chain(length.to_le_bytes()).chain(said.iter().copied());
+        head.chain(FIELD).chain(digits).collect()
+    }))
+}
+
 /// The sink, and the name of the recording in it.
 pub struct Out {
     pub store: StoreId,
@@ -79,9 +114,7 @@ impl Out {
     pub fn end_ahead(&mut self, due: Sink) -> Appended {
         let ahead = std::mem::replace(&mut self.sink, due);
         if let (Sink::Ahead(encoder), Sink::File(_, file)) = (ahead, &self.sink) {
-            let bytes = encoder.into_inner()?;
-            let head = Encoder::local()?.into_inner()?.len();
-            file.ahead(bytes.get(head..).unwrap_or_default())?;
+            file.ahead(&without_head(encoder)?)?;
         }
         Ok(())
     }

@@ -33,6 +33,17 @@ pub(super) struct Held {
 }
 
 impl Held {
+    /// With room for so many bodies and contacts, so that no step allocates.
+    pub(super) fn with_capacity(bodies: usize, contacts: usize) -> Self {
+        Held {
+            earlier: Vec::with_capacity(bodies),
+            made_s: 0.0,
+            is_let_go: Vec::with_capacity(bodies),
+            moves: Vec::with_capacity(bodies),
+            strikes: Vec::with_capacity(contacts),
+        }
+    }
+
     /// Keeps where a step begins. `made_s`: the length of the one before it.
     pub(super) fn begin(&mut self, earlier: &[BodyState], made_s: f64) {
         self.earlier.clear();
@@ -57,11 +68,14 @@ impl Held {
         let Held { earlier, made_s, is_let_go, moves, strikes } = self;
         moves.clear();
         strikes.clear();
+        if *made_s != step_s || contacts.iter().all(|contact| contact.restitution == 0.0) {
+            return;
+        }
         strikes.extend(contacts.iter().map(|contact| {
             let motion = normal_motion(contact, state, free);
             contact.restitution > 0.0 && Approach::Start.strikes(model, contact, motion, step_s)
         }));
-        if *made_s != step_s || !strikes.contains(&true) {
+        if !strikes.contains(&true) {
             return;
         }
         moves.resize(model.bodies.len(), None);

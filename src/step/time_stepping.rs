@@ -162,7 +162,7 @@ impl TimeStepping {
             flight: 0,
             turning: Turning::with_capacity(scratch.free.capacity()),
             rebounds: Rebounds::default(),
-            held: Held::default(),
+            held: Held::with_capacity(scratch.free.capacity(), scratch.contacts()),
             is_far: false,
             was_far: false,
             is_cut: false,

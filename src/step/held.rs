@@ -85,8 +85,11 @@ impl Held {
             for (i, ..) in contact.ends().filter(|(i, ..)| !is_let_go[*i]) {
                 let (now, before, radius_m) = (&state.bodies[i], &earlier[i], model.bodies[i].bounding_radius_m);
                 let speed = |u: &Twist| u.v.norm() + u.w.norm() * radius_m;
-                let moved = Twist { v: now.v_WB - before.v_WB, w: now.w_WB - before.w_WB };
-                let forced = speed(&Twist { v: free[i].v - now.v_WB, w: free[i].w - now.w_WB });
+                let change = Twist { v: free[i].v - now.v_WB, w: free[i].w - now.w_WB };
+                let forced = speed(&change);
+                // What holds a body holds it against the forces; what has sent it aside may have been an impact.
+                let along = change.v.try_normalize(0.0).unwrap_or_default();
+                let moved = Twist { v: along * along.dot(&(now.v_WB - before.v_WB)), w: now.w_WB - before.w_WB };
                 // Bodies on each other fall alike: their gap need not close by the forces.
                 if opens < forced && contact.gap_m < step_s * forced && speed(&moved) <= MOST * forced {
                     moves[i] = Some(moved);

@@ -163,8 +163,9 @@ def main():
                     if "--show" in sys.argv:
                         print(json.dumps(given))
     print(f"{wrong} wrong; largest rise: " + ", ".join(f"{' '.join(of)} {rise:.1e}" for of, rise in worst.items()))
-    # Measured with 500: 1 of 1,350, a solve that is missed by 2e-11 and said to be; the largest rise is 7.2e-12.
-    sys.exit(wrong > 0.01 * 2.5 * count)
+    # Measured with 500: 1 of 1,350, with 40: 1 of 108, each a solve that is missed by a hair and said to be; the
+    # largest rise is 7.2e-12.
+    sys.exit(wrong > 0.03 * 2.5 * count)
 
 
 main()

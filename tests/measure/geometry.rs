@@ -276,8 +276,8 @@ time: { end_s: 2 }
     }
 }
 
-/// A corner comes down fast beside a body's own turning: along its tangent it would be inside by the end of the step, on
-/// its arc it is not quite, and another corner comes as near by what sends this one back.
+/// A corner comes down fast beside a body's own turning: along its tangent it would be inside by the end of the step,
+/// on its arc it is not quite, and another corner comes as near by what sends this one back.
 #[test]
 fn a_corner_that_turns_away_before_the_floor_is_no_ghost() {
     let text = "

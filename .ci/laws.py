@@ -6,10 +6,8 @@ usage: laws.py GOTAI COUNT [SEED]
 
 COUNT random plastic scenes with friction, COUNT elastic ones without (e from 0 to 1, one for all) and COUNT/2 without
 gravity and container, by every scheme and law of impact in turn: `energy_rise_max_rel` ≤ 1e-9, momenta of isolated
-bodies ≤ 1e-12, nothing unsolved but sequences without end; Newton's law in semi-implicit steps may gain 1e-2, where
-bodies rest beside what is struck: it knows their forces, not what holds them (measured: 3e-3; 7e-5 in 150 scenes of
-seed 7). COUNT/5 scenes with friction and restitution are run again with lengths × 4^±5 and masses × 2^±30: the same
-rows but for the units.
+bodies ≤ 1e-12, nothing unsolved but sequences without end. COUNT/5 scenes with friction and restitution are run again
+with lengths × 4^±5 and masses × 2^±30: the same rows but for the units.
 """
 import json
 import math
@@ -22,7 +20,7 @@ from pathlib import Path
 LAWS = ["newton", "poisson", "sequential"]
 SCHEMES = ["semi-implicit", "moreau"]
 STEPS_S = [1 / 1024, 1 / 512, 1 / 256, 1 / 128]
-RISE, LAWFUL, MOMENTUM = 1e-9, 1e-2, 1e-12
+RISE, MOMENTUM = 1e-9, 1e-12
 
 
 def number(low, high):
@@ -112,11 +110,10 @@ def row(gotai, given, folder):
     return printed.get("row", printed)
 
 
-def is_right(found, isolated, law, scheme, restitution):
+def is_right(found, isolated, law):
     kept = not isolated or max(found["linear_momentum_drift_rel"], found["angular_momentum_drift_rel"]) <= MOMENTUM
     fine = found["outcome"] == "finished" and (found["work_unsolved"] == 0 or law == "sequential")
-    may_rise = not isolated and law == "newton" and scheme == "semi-implicit" and restitution > 0
-    return fine and kept and found["energy_rise_max_rel"] <= (LAWFUL if may_rise else RISE)
+    return fine and kept and found["energy_rise_max_rel"] <= RISE
 
 
 def units_apart(found, other, length, time):
@@ -147,7 +144,7 @@ def main():
             found = row(gotai, given, folder)
             rise = found["energy_rise_max_rel"]
             worst[kind, scheme] = max(worst.get((kind, scheme), 0), rise)
-            if not is_right(found, isolated, law, scheme, restitution):
+            if not is_right(found, isolated, law):
                 wrong += 1
                 momenta = [found[f"{kind}_momentum_drift_rel"] for kind in ("linear", "angular")]
                 print(i, kind, law, scheme, f"rise {rise:.2g}, momenta {momenta}", found["outcome"], end=" ")
@@ -166,7 +163,8 @@ def main():
                     if "--show" in sys.argv:
                         print(json.dumps(given))
     print(f"{wrong} wrong; largest rise: " + ", ".join(f"{' '.join(of)} {rise:.1e}" for of, rise in worst.items()))
-    # Measured with 500: 21 of 1350, of which newton misses one or two solves by up to 1e-9, and says so; no rise.
+    # Measured with 500: 1 of 1,350, with 40: 1 of 108, each a solve that is missed by a hair and said to be; the
+    # largest rise is 7.2e-12.
     sys.exit(wrong > 0.03 * 2.5 * count)
 
 

@@ -17,18 +17,25 @@ const STUCK: f64 = 1.0 - 1e-9;
 const NO_SPEED: f64 = 1e-9;
 
 /// What friction did in the last step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hold {
     Stuck,
-    Slid,
+    /// With this slip after the kick, in m/s, world axes.
+    Slid(Vector3<f64>),
 }
 
 impl Hold {
-    /// Of a normal impulse and the size of the tangential one; none: it does not press.
-    pub fn of(normal: f64, tangential: f64, friction: f64) -> Option<Hold> {
-        let slid = friction > 0.0 && tangential >= STUCK * friction * normal;
-        (normal > 0.0).then_some(if slid { Hold::Slid } else { Hold::Stuck })
+    /// Of a normal impulse, the size of the tangential one, and the velocity of the body's point against the other's
+    /// after them; none: it does not press.
+    pub fn of(contact: &Contact, normal: f64, tangential: f64, after_W: &Vector3<f64>) -> Option<Hold> {
+        let slid = contact.friction > 0.0 && tangential >= STUCK * contact.friction * normal;
+        (normal > 0.0).then(|| if slid { Hold::Slid(along(contact, after_W)) } else { Hold::Stuck })
     }
+}
+
+/// The part of a vector along the surface.
+fn along(contact: &Contact, v: &Vector3<f64>) -> Vector3<f64> {
+    v - contact.normal * contact.normal.dot(v)
 }
 
 /// Contacts that last, by their names.
@@ -50,7 +57,8 @@ impl Lasting {
             let speed = |(i, r_W, _): (usize, Vector3<f64>, f64)| of(i)[0].norm() + of(i)[1].norm() * r_W.norm();
             let small = NO_SPEED * contact.ends().map(speed).sum::<f64>();
             let normal = contact.normal.dot(&u);
-            let hold = if (u - contact.normal * normal).norm() > small { Hold::Slid } else { Hold::Stuck };
+            let slip_W = along(contact, &u);
+            let hold = if slip_W.norm() > small { Hold::Slid(slip_W) } else { Hold::Stuck };
             let lasts = is_closed_to_rounding(model, contact) && normal.abs() <= small;
             lasts.then(|| (contact.key(), hold))
         };

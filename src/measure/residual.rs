@@ -7,7 +7,8 @@
 //!
 //! A contact that lasts through steps whose kick is half-way (`collide::lasting`: by what the steps before it showed)
 //! obeys the law in the mean of the velocities before and after: u is u⁻ + u⁺. Friction of one that slid may be against
-//! u⁺ instead, as of one that is new: it comes to rest then, where the mean would turn its slip over for ever.
+//! the velocity at the end of the step instead, as of one that is new: it comes to rest then, where the mean would turn
+//! its slip over for ever. That is u⁺ and half of what its slip changed by from the last kick to this one.
 //!
 //! In an impact with tangential restitution u_t stands for u_t⁺ + ε_t u_t⁻, from the velocities before and after.
 //!
@@ -29,6 +30,9 @@ use nalgebra::Vector3;
 /// last digit. The rounding of velocities, 1e-15, is then 1e-10 of them.
 const SMALL: f64 = 1e-5;
 
+/// Of what forces do to a body in a step: what they do to one that is held, at most, as one that pivots.
+const HELD: f64 = 3.0;
+
 /// A contact as the law sees it, in a step that goes so through contacts and is so long.
 struct Seen<'a> {
     model: &'a Model,
@@ -38,6 +42,8 @@ struct Seen<'a> {
     /// What friction did before, where the contact lasts.
     hold: Option<Hold>,
     motion: NormalMotion,
+    /// What the step's forces may do here to bodies one of which others hold, in m/s; 0: none does.
+    held_m_s: f64,
     /// ρ: one over the trace of its own block of A.
     step_length: f64,
     /// What the residual is compared with: the least impulse that would do to one of its bodies, at the contact, what
@@ -49,12 +55,15 @@ impl<'a> Seen<'a> {
     fn new(
         model: &'a Model,
         (contact, met): (&'a Contact, &'a Met),
-        moved: &[Moved],
+        (moved, pressing): (&[Moved], &[u32]),
         through: (Approach, f64),
         hold: Option<Hold>,
     ) -> Self {
         let (mut trace, mut scale) = (0.0, f64::INFINITY);
+        let (mut forced_m_s, mut is_held) = (0.0, false);
         for (i, r, _) in contact.ends() {
+            forced_m_s += HELD * moved[i].gained.reach(r.norm());
+            is_held |= pressing[i] > 1;
             let (of, r_m, compliance) = (&moved[i], r.norm(), moved[i].compliance(&r));
             trace += compliance;
             // What is driven has no compliance: nothing moves it.
@@ -67,7 +76,8 @@ impl<'a> Seen<'a> {
         }
         let [before, free, turning] = [met.before, met.free, met.turning].map(|u| contact.normal.dot(&u));
         let motion = NormalMotion { before, gained: free - before, turning };
-        Seen { model, contact, met, through, hold, motion, step_length: 1.0 / trace, scale }
+        let held_m_s = if is_held { forced_m_s } else { 0.0 };
+        Seen { model, contact, met, through, hold, motion, held_m_s, step_length: 1.0 / trace, scale }
     }
 
     /// The normal velocity that the law asks for at least, u_n ≥ least. None: the contact is not there in this step.
@@ -85,9 +95,9 @@ impl<'a> Seen<'a> {
     /// What friction does where the contact lasts on.
     fn holds_on(&self, impulse_W: &Vector3<f64>) -> Option<Hold> {
         let (approach, step_s) = self.through;
-        let Contact { normal, friction, .. } = self.contact;
+        let normal = &self.contact.normal;
         let pressed = normal.dot(impulse_W);
-        let hold = Hold::of(pressed, (impulse_W - normal * pressed).norm(), *friction)?;
+        let hold = Hold::of(self.contact, pressed, (impulse_W - normal * pressed).norm(), &self.met.after)?;
         approach.lasts(self.model, self.contact, self.motion, step_s, self.hold).then_some(hold)
     }
 
@@ -114,6 +124,14 @@ impl<'a> Seen<'a> {
             let motion = NormalMotion { turning: 0.0, ..self.motion };
             found = found.min(missed(&Seen { motion, ..*self }));
         }
+        // What others hold the forces do not move: how much is left of that is the steps' affair.
+        if self.through.0 == Approach::Start && self.held_m_s > 0.0 && self.contact.restitution > 0.0 && self.strikes()
+        {
+            let rebound = -self.contact.restitution * self.motion.before;
+            let gained = (self.contact.normal.dot(&self.met.after) - rebound).clamp(-self.held_m_s, 0.0);
+            let motion = NormalMotion { gained, ..self.motion };
+            found = found.min(missed(&Seen { motion, ..*self }));
+        }
         // A gap that stays open, as other impulses part the bodies first, has nothing to send back.
         let is_left = self.through.0 == Approach::Start && *impulse_W == Vector3::zeros();
         if is_left && self.strikes() && !is_closed_to_rounding(self.model, self.contact) {
@@ -135,7 +153,10 @@ impl<'a> Seen<'a> {
         let missed = |u: &Vector3<f64>| self.missed_at(u, least, impulse_W);
         match self.hold {
             Some(Hold::Stuck) => missed(&(after + tangent)),
-            Some(Hold::Slid) => missed(&(after + tangent)).min(missed(after)),
+            Some(Hold::Slid(last)) => {
+                let drift = (tangent - (last - normal * normal.dot(&last))) / 2.0;
+                missed(&(after + tangent)).min(missed(&(after + drift)))
+            }
             None if self.through.0 == Approach::Middle && !self.strikes() => {
                 missed(&(after + tangent)).min(missed(after))
             }
@@ -174,6 +195,8 @@ pub struct ResidualLedger {
     newton: bool,
     /// Of every island by its first body: some contact strikes.
     struck: Vec<bool>,
+    /// Of every body: contacts that press it.
+    pressing: Vec<u32>,
     /// What lasts into the next step, and what the step shows of that.
     /// None: no contact does, whatever a step shows.
     lasting: Option<Lasting>,
@@ -184,8 +207,8 @@ pub struct ResidualLedger {
 impl ResidualLedger {
     /// `lasting`: what is closed and at rest at the start, of a method whose steps kick half-way.
     pub fn new(judged: bool, newton: bool, bodies: usize, lasting: Option<Lasting>) -> Self {
-        let (struck, last_on) = (Vec::with_capacity(bodies), Vec::new());
-        ResidualLedger { judged, newton, struck, lasting, last_on, max: None }
+        let (struck, pressing) = (Vec::with_capacity(bodies), Vec::with_capacity(bodies));
+        ResidualLedger { judged, newton, struck, pressing, lasting, last_on: Vec::new(), max: None }
     }
 
     /// Contacts with their impulses; how the step went through them, and its length.
@@ -200,10 +223,16 @@ impl ResidualLedger {
             return;
         }
         let is_half_way = through.0 == Approach::Middle;
-        let ResidualLedger { newton, struck, lasting, last_on, max, .. } = self;
+        let ResidualLedger { newton, struck, pressing, lasting, last_on, max, .. } = self;
+        pressing.clear();
+        pressing.resize(exchange.moved.len(), 0);
+        for SolvedContact { contact, .. } in contacts.iter().filter(|solved| solved.impulse_W != Vector3::zeros()) {
+            contact.ends().for_each(|(i, ..)| pressing[i] += 1);
+        }
+        let pressing = &*pressing;
         let seen = |contact, met| {
             let hold = lasting.as_ref().and_then(|lasting| lasting.of(contact)).filter(|_| is_half_way);
-            Seen::new(model, (contact, met), &exchange.moved, through, hold)
+            Seen::new(model, (contact, met), (&exchange.moved, pressing), through, hold)
         };
         last_on.clear();
         struck.clear();

@@ -35,8 +35,10 @@ pub struct Block {
     pub tangential_restitution: f64,
     /// The contact lasts: b's normal row is relative to the velocity before sent back.
     pub hold: Option<Hold>,
-    /// The same of the tangents' rows alone: friction is against the mean of the velocities before and after.
+    /// Friction is against the mean of the velocities before and after.
     pub meant: bool,
+    /// What friction is against beside the velocity after: the tangents' rows of b have it.
+    pub(super) against: Vector3<f64>,
     /// Normal and two tangents, world axes.
     pub frame: [Vector3<f64>; 3],
     /// A⁻¹ of a pin, which takes any impulse; none: a contact.
@@ -115,8 +117,9 @@ impl Block {
         let tangential_restitution = if strikes { contact.tangential_restitution } else { 0.0 };
         b.x -= least;
         let sent_back = if hold.is_some() { 1.0 } else { tangential_restitution };
+        let against = Vector3::new(0.0, before.y, before.z) * sent_back;
         if sent_back > 0.0 {
-            b += Vector3::new(0.0, before.y, before.z) * sent_back;
+            b += against;
         }
         let A = ends().map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
         Some(Block {
@@ -133,6 +136,7 @@ impl Block {
             tangential_restitution,
             hold,
             meant: hold.is_some(),
+            against,
             frame,
             pin: None,
         })
@@ -157,16 +161,37 @@ impl Block {
     /// Puts friction against the velocity after the step, or against the mean of those before and after.
     pub(super) fn mean(&mut self, meant: bool) {
         if meant != self.meant {
-            self.b += Vector3::new(0.0, self.before.y, self.before.z) * if meant { 1.0 } else { -1.0 };
+            self.put_against(if meant { Vector3::new(0.0, self.before.y, self.before.z) } else { Vector3::zeros() });
             self.meant = meant;
         }
     }
 
+    fn put_against(&mut self, against: Vector3<f64>) {
+        self.b += against - self.against;
+        self.against = against;
+    }
+
+    /// Lets a contact that slid come to rest, if that is what it would turn its slip over for. The kick is half-way:
+    /// what the slip has changed by since the last one, as bodies and what they slide on moved on, half of it belongs
+    /// to this step, and as much comes after the kick. Whether it does. `small`: a slip that is none.
+    pub(super) fn stop(&mut self, u: &[Twist], small: f64) -> bool {
+        let Some(Hold::Slid(last_W)) = self.hold else { return false };
+        let changed = self.before - self.in_frame(&last_W);
+        let drift = Vector3::new(0.0, changed.y, changed.z) / 2.0;
+        let (began, ends) = (self.before - drift, self.after(u) + drift);
+        let is_some = |slip: &Vector3<f64>| slip.yz().norm() > small;
+        let turns = began.yz().dot(&ends.yz()) < 0.0 && is_some(&began) && is_some(&ends);
+        if turns {
+            self.hold = Some(Hold::Stuck);
+            self.meant = false;
+            self.put_against(drift);
+        }
+        turns
+    }
+
     /// Normal velocity after the step and what of it is along the surface.
     pub(super) fn after(&self, u: &[Twist]) -> Vector3<f64> {
-        let sent_back = if self.meant { 1.0 } else { self.tangential_restitution };
-        let since = Vector3::new(-self.least, self.before.y * sent_back, self.before.z * sent_back);
-        self.velocity(u) - since
+        self.velocity(u) + Vector3::new(self.least, 0.0, 0.0) - self.against
     }
 
     /// Twice the energy that an impulse gives the bodies, from their velocities with the step's forces on, and the size

@@ -10,7 +10,7 @@ use super::twist::Twist;
 pub(super) const KEPT: f64 = 1e-2;
 
 /// A residual that is rounding to bodies that rest: no method need do better, if its tolerance does not say so.
-const AT_REST: f64 = 1e-12;
+const AT_REST: f64 = 1e-13;
 
 /// Impulses that are to be improved.
 #[derive(Clone, Copy, Debug)]

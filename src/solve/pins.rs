@@ -73,6 +73,7 @@ impl Block {
             tangential_restitution: 0.0,
             hold: None,
             meant: false,
+            against: Vector3::zeros(),
         }
     }
 }

@@ -38,6 +38,9 @@ pub struct ContactProblem {
 /// Contacts up to which A is worked out where it is swept over. A sweep costs 9 L² products with A and 36 L (in long chains) without it.
 const DENSE: usize = 32;
 
+/// Of the speed of a body there: a slip below it is none, and has no sign to change.
+const NO_SLIP: f64 = 1e-9;
+
 /// Part of the impulses of a step that counts though they cancel: a light body under one that is up to 10⁴ times as
 /// heavy is solved by its own weight (as the judge has it, `measure::exchange`).
 const CANCELLING: f64 = 1e-4;
@@ -160,18 +163,15 @@ impl ContactProblem {
         self.blocks.iter().zip(impulses).map(|(block, p)| half(block, p)).sum()
     }
 
-    /// Contacts that last, slid, and would now turn their slip over come to rest instead: their slip after the step is
-    /// to be none, else it would change its sign for ever. Whether there is any.
+    /// Contacts that last, slid, and would now turn their slip over come to rest instead: their slip at the end of the
+    /// step is to be none, else it would change its sign for ever. Whether there is any.
     pub fn stop(&mut self, impulses: &[Impulse], u: &[Twist]) -> bool {
+        let ContactProblem { blocks, speeds, .. } = self;
         let mut any = false;
-        for (block, p) in self.blocks.iter_mut().zip(impulses) {
-            let after = block.after(u);
-            let turns = after.y * block.before.y + after.z * block.before.z < 0.0;
-            if block.hold == Some(Hold::Slid) && p.x > 0.0 && turns {
-                block.hold = Some(Hold::Stuck);
-                block.mean(false);
-                any = true;
-            }
+        for (block, _) in blocks.iter_mut().zip(impulses).filter(|(_, p)| p.x > 0.0) {
+            let speed = block.ends().map(|end| speeds[end.body].at(end.arm_m())).fold(0.0, f64::max);
+            let stops = block.stop(u, NO_SLIP * speed);
+            any |= stops;
         }
         any
     }

@@ -10,6 +10,7 @@ mod event_driven;
 mod event_passage;
 mod foreseen;
 mod free;
+mod held;
 mod lecture;
 mod moments;
 mod penalty;

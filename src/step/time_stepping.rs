@@ -13,6 +13,7 @@ use super::blow::{Blow, normal_motion};
 use super::closing::{close_slowly, left_m};
 use super::drift::drift;
 use super::foreseen::Foreseen;
+use super::held::Held;
 use super::push_out::push_out;
 use super::rebounds::Rebounds;
 use super::scratch::Scratch;
@@ -104,6 +105,7 @@ pub struct TimeStepping {
     flight: u64,
     turning: Turning,
     rebounds: Rebounds,
+    held: Held,
     /// Sweeps have ended far from a solution, of this step as far as it is solved and of the last one.
     is_far: bool,
     was_far: bool,
@@ -160,6 +162,7 @@ impl TimeStepping {
             flight: 0,
             turning: Turning::with_capacity(scratch.free.capacity()),
             rebounds: Rebounds::default(),
+            held: Held::with_capacity(scratch.free.capacity(), scratch.contacts()),
             is_far: false,
             was_far: false,
             is_cut: false,
@@ -184,6 +187,7 @@ impl TimeStepping {
             return;
         }
         let unsolved = self.scratch.work.unsolved;
+        self.held.begin(&self.began, self.made_s);
         self.began.clear();
         self.began.extend_from_slice(&state.bodies);
         if state.step == 0 {
@@ -339,6 +343,9 @@ impl TimeStepping {
         if self.foreseen.revise(model, state, &mut self.scratch, (self.approach, ahead_s)) {
             return true;
         }
+        if self.blow.is_none() && self.approach == Approach::Start && self.held.revise(model, &self.scratch) {
+            return true;
+        }
         let struck = self.blow.as_ref().map(|blow| &blow.impulses[..]).filter(|struck| !struck.is_empty());
         self.approach == Approach::Start && self.rebounds.revise(model, &self.scratch, struck, step_s)
     }
@@ -354,7 +361,8 @@ impl TimeStepping {
         let lasts = |(i, (contact, p)): (usize, (&Contact, &Impulse))| {
             let motion = normal_motion(contact, state, &s.free);
             let lasts = approach.lasts(model, contact, motion, *made_s, known.of(contact)) && !is_struck(i);
-            let hold = Hold::of(p.x, p.yz().norm(), contact.friction).filter(|_| lasts)?;
+            let after = |i: usize| [s.free[i].v + s.response[i].v, s.free[i].w + s.response[i].w];
+            let hold = Hold::of(contact, p.x, p.yz().norm(), &contact.velocity(after)).filter(|_| lasts)?;
             Some((contact.key(), hold))
         };
         last_on.clear();
@@ -390,6 +398,7 @@ impl TimeStepping {
             pins::at(model, state, closing, &mut self.pins);
             s.problem.pin(model, state, &s.free, &self.pins);
         }
+        let is_newton = self.blow.is_none();
         let struck = self.blow.as_mut().filter(|_| !s.found.is_empty()).and_then(|blow| {
             let (solver, work) = (&mut self.solver, &mut s.work);
             let mut plastic =
@@ -408,6 +417,9 @@ impl TimeStepping {
         let through = (self.approach, step_s);
         self.turning.ask(model, after, s, through);
         warm_start(&s.found, &s.problem, &self.last, &mut s.impulses);
+        if is_newton && !is_half_way {
+            self.held.ask(model, state, s, asked.as_deref(), step_s);
+        }
         if self.was_far && !is_half_way {
             close_slowly(&mut s.problem, &s.found, &s.impulses, step_s);
         }

@@ -36,6 +36,12 @@ const CRATE_ON_TURNTABLE: &str = "
         kinematic: { angular_velocity_rad_s: [0, 2, 0] } }
     - { name: b, shape: { box: { size_m: [0.3, 0.2, 0.4] } }, mass_kg: 1, position_m: [1, 0.1, 0.2],
         velocity_m_s: [0.4, 0, -2], angular_velocity_rad_s: [0, 2, 0] }";
+/// Friction holds it at first, and is not enough.
+const CRATE_THAT_BEGINS_TO_SLIDE: &str = "
+    - { name: table, mass_kg: 1, shape: { cylinder: { radius_m: 2, height_m: 0.2 } }, position_m: [0, -0.1, 0],
+        kinematic: { angular_velocity_rad_s: [0, 2, 0] } }
+    - { name: b, shape: { box: { size_m: [0.3, 0.2, 0.4] } }, mass_kg: 1, position_m: [-1.6, 0.1, -0.3],
+        velocity_m_s: [-0.6, 0, 3.2], angular_velocity_rad_s: [0, 2, 0] }";
 const BALL_ON_TURNTABLE: &str = "
     - { name: table, mass_kg: 1, shape: { box: { size_m: [6, 0.2, 6] } }, position_m: [0, -0.1, 0],
         kinematic: { angular_velocity_rad_s: [0, 2, 0] } }
@@ -46,7 +52,7 @@ const BALL_ON_EGG: &str = "
     - { name: b, shape: { sphere: { radius_m: 0.2 } }, mass_kg: 1, position_m: [0, 1.2, 0],
         velocity_m_s: [0.5, 0, 0.1], angular_velocity_rad_s: [0.5, 0, -2.5] }";
 
-fn kinds() -> [(&'static str, String, f64, f64); 8] {
+fn kinds() -> [(&'static str, String, f64, f64); 9] {
     let on_floor = |body: &str| format!("{FLOOR}{body}");
     [
         ("an egg that rocks", on_floor(EGG), 0.0, 0.5),
@@ -55,6 +61,7 @@ fn kinds() -> [(&'static str, String, f64, f64); 8] {
         ("a rim", on_floor(RIM), 1.0, 0.5),
         ("a ball on a ball", BALL_ON_BALL.into(), 1.0, 0.5),
         ("a crate on a turntable", CRATE_ON_TURNTABLE.into(), 0.9, 0.5),
+        ("a crate that begins to slide", CRATE_THAT_BEGINS_TO_SLIDE.into(), 0.5, 0.3),
         ("a ball on a turntable", BALL_ON_TURNTABLE.into(), 1.0, 0.5),
         ("a ball on an egg that rolls", on_floor(BALL_ON_EGG), 1.0, 0.4),
     ]
@@ -83,6 +90,43 @@ fn moreau_has_order_2_wherever_a_normal_or_an_arm_turns() {
         for errors in [place, speed] {
             let order = order(&steps, &errors);
             assert!(order > 1.9 && order < 2.2, "{name}: {order} {errors:?}");
+        }
+    }
+}
+
+/// What a ball comes back from does not fall with it: by how much forces move one against the other is not what they do
+/// to both.
+#[test]
+fn a_ball_that_comes_back_from_what_others_hold_gains_nothing() {
+    let held = [
+        ("a ball", "[{ name: a, shape: { sphere: { radius_m: 0.3 } }, mass_kg: 1, position_m: [0, 0.3, 0] }"),
+        ("a box", "[{ name: a, shape: { box: { size_m: [0.6, 0.4, 0.6] } }, mass_kg: 10, position_m: [0, 0.2, 0] }"),
+        (
+            "two boxes",
+            "[{ name: a, shape: { box: { size_m: [0.6, 0.2, 0.6] } }, mass_kg: 1, position_m: [0, 0.1, 0],
+                copies: { count: 2, step_m: [0, 0.2, 0] } }",
+        ),
+    ];
+    for (below, bodies) in held {
+        for aside_m in [0.0, 0.05] {
+            let text = format!(
+                "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  container: {{ plane: {{ normal: [0, 1, 0] }} }}
+  bodies: {bodies},
+    {{ name: b, shape: {{ sphere: {{ radius_m: 0.2 }} }}, mass_kg: 1, position_m: [{aside_m}, 1, 0] }}]
+time: {{ step_s: 0.01, end_s: 1 }}
+"
+            );
+            for (restitution, step_s) in [("0.5", "0.01"), ("1", "0.01"), ("1", "0.003"), ("0.9", "0.02")] {
+                let sets = [format!("scene.restitution={restitution}"), format!("time.step_s={step_s}")];
+                let m = run(&experiment(&text, &[&sets[0], &sets[1]])).measured;
+                // measured: 0; up to 0.1 where the ball was let off its fall
+                let rise = m.energy_rise_max_rel.unwrap();
+                assert!(rise < 1e-9, "{below} {aside_m} {sets:?}: {rise}");
+                assert!(m.residual_max.unwrap() < 1e-9, "{below} {aside_m} {sets:?}: {:?}", m.residual_max);
+            }
         }
     }
 }
@@ -156,7 +200,7 @@ time: { step_s: 0.01, end_s: 3 }
             let m = run(&experiment(text, &[&sets[0], &sets[1]])).measured;
             // measured: 0; ghosts were 0.71, 0.92, 0.48, 0.93, 0.34 and 9.1e-4
             assert_eq!(m.ghost_impulse_max_rel, Some(0.0), "{impact} {seed}");
-            // measured: 1.5e-11, as those that are left out are judged by the law
+            // measured: 1.7e-11, 1.6e-12, 1.0e-11, 3.0e-14, 3.7e-13 and 7.1e-13
             assert!(m.residual_max.unwrap() < 1e-9, "{impact} {seed}: {:?}", m.residual_max);
             assert!(m.energy_rise_max_rel.unwrap() < 1e-12, "{impact} {seed}: {:?}", m.energy_rise_max_rel);
         }
@@ -170,6 +214,36 @@ fn a_solve_that_is_missed_by_a_hair_gains_nothing() {
     let m = run(&experiment(text, &[])).measured;
     // measured: 0; 2.8e-7 before, at a residual of 2.0e-10
     assert!(m.energy_rise_max_rel.unwrap() < 1e-12, "{:?}", m.energy_rise_max_rel);
+}
+
+/// Contacts of a face of which only some can press: which, is found, however little that is.
+#[test]
+fn gaps_that_differ_by_rounding_are_solved() {
+    let m = run(&experiment(include_str!("rounded.yaml"), &[])).measured;
+    // measured: 1.7e-13; 1.3e-10 at one step, which was not solved
+    assert!(m.residual_max.unwrap() <= 1e-10, "{:?}", m.residual_max);
+    assert_eq!(m.work.unsolved, 0);
+}
+
+/// Cubes side by side: of those that are in the middle none slides, and what rounding lets them slip has no sign.
+#[test]
+fn cubes_flush_with_each_other_rest_by_moreau() {
+    let text = "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  friction: 0.3
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies:
+    - { name: c, shape: { box: { size_m: [0.5, 0.5, 0.5] } }, mass_kg: 1, position_m: [-0.5, 0.25, -0.5],
+        copies: { grid: [3, 3, 3], step_m: [0.5, 0.5, 0.5] } }
+method: { time-stepping: { solver: newton, scheme: moreau } }
+time: { step_s: 0.01, end_s: 0.3 }
+exact: rest
+";
+    let m = run(&experiment(text, &[])).measured;
+    // measured: 2.6e-13 within a second; 3 of these 30 steps were not solved
+    assert!(m.error_position_m.unwrap() < 1e-11, "{:?}", m.error_position_m);
+    assert_eq!(m.work.unsolved, 0);
 }
 
 /// Fifty sweeps are not enough for a stack of twenty cubes, and what they leave may not swing up.
@@ -263,7 +337,7 @@ time: {{ step_s: {:e}, end_s: {:e} }}
 }
 
 #[test]
-fn poisson_takes_no_more_work_for_a_bouncy_stack_than_newton() {
+fn a_bouncy_stack_takes_little_work_by_every_law() {
     let text = "
 scene:
   gravity_m_s2: [0, -9.81, 0]
@@ -281,6 +355,6 @@ time: { step_s: 0.002, end_s: 1.5 }
         m.work.newton_steps
     };
     let (newton, poisson, sequential) = (work("newton"), work("poisson"), work("sequential"));
-    // measured: 3,500, 5,500 and 5,400 (in 10 s of the motion 1.2 s, 1.0 s and 1.1 s, where Poisson had 23 s)
-    assert!(poisson < 5 * newton && sequential < 5 * newton, "{newton} {poisson} {sequential}");
+    // measured: 364, 3,777 and 434 (in 10 s of the motion 0.02 s, 0.9 s and 0.005 s, where Poisson had 23 s)
+    assert!(newton < 600 && poisson < 6000 && sequential < 700, "{newton} {poisson} {sequential}");
 }

@@ -50,6 +50,8 @@ pub struct Group {
     impulse_W: Vector3<f64>,
     /// About the bodies' centres of mass.
     angular_W: [Vector3<f64>; 2],
+    /// From the first body's centre of mass to the middle of what pushes along the normal.
+    arm_W: Vector3<f64>,
 }
 
 impl Group {
@@ -63,11 +65,19 @@ impl Group {
             return None;
         }
         let zero = Vector3::zeros();
-        let mut group = Group { bodies: (of.body, of.other), normal: of.normal, impulse_W: zero, angular_W: [zero; 2] };
+        let (bodies, normal) = ((of.body, of.other), of.normal);
+        let mut group = Group { bodies, normal, impulse_W: zero, angular_W: [zero; 2], arm_W: zero };
+        let mut pushed = 0.0;
         for SolvedContact { contact, impulse_W } in solved[first..].iter().filter(|s| is_along(&s.contact.normal)) {
+            let pushes = impulse_W.dot(&of.normal).max(0.0);
+            pushed += pushes;
+            group.arm_W += contact.r_BC_W * pushes;
             group.impulse_W += impulse_W;
             group.angular_W[0] += contact.r_BC_W.cross(impulse_W);
             group.angular_W[1] -= contact.r_OC_W.cross(impulse_W);
+        }
+        if pushed > 0.0 {
+            group.arm_W /= pushed;
         }
         Some(group)
     }
@@ -142,8 +152,20 @@ impl GhostJudge<'_> {
             |gain: &Gain, sign: f64, angular: &Vector3<f64>| group.impulse_W.dot(&gain.v) * sign + angular.dot(&gain.w);
         let kept_m = over_s * (work(&gains[0], 1.0, &group.angular_W[0]) + work(&gains[1], -1.0, &group.angular_W[1]))
             / group.impulse_W.norm();
-        let [gap_m, left_m] = [with, without].map(|legs| self.end_gap_m(group, legs));
-        left_m <= unseen_m && gap_m - left_m >= NEARER * kept_m
+        let comes_nearer = |[gap_m, left_m]: [f64; 2]| left_m <= unseen_m && gap_m - left_m >= NEARER * kept_m;
+        // Another corner may be as near to a face with the impulse as this one is without it.
+        let legs = [with, without];
+        comes_nearer(legs.map(|legs| self.end_gap_m(group, legs)))
+            || (group.bodies.1.is_none() && comes_nearer(legs.map(|legs| self.pushed_gap_m(group, &legs[0]))))
+    }
+
+    /// Gap of what was pushed, a point of the body, to the faces of the container that have the group's normal.
+    fn pushed_gap_m(&self, group: &Group, leg: &Leg) -> f64 {
+        let at = leg.at(1.0);
+        let point = at.p_WB + at.q_WB * (leg.from.q_WB.inverse() * group.arm_W);
+        let faces = self.model.container.iter().flat_map(|container| &container.faces);
+        let along = faces.filter(|face| face.normal.dot(&group.normal) > 1.0 - PARALLEL);
+        along.map(|face| face.gap_m(&point)).fold(f64::INFINITY, f64::min)
     }
 
     fn end_gap_m(&mut self, group: &Group, legs: &[Leg; 2]) -> f64 {

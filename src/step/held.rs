@@ -1,0 +1,133 @@
+//! What holds a body that something strikes.
+//!
+//! The step's forces act in an impact's step as in any other (`Approach::least`): a ball that comes back from a floor
+//! has fallen for that step. Of two bodies what counts is by how much forces move one against the other, and one that
+//! others hold up they do not move: if a ball that comes back from it had not fallen for the step either, it would gain
+//! m g Δt v. So a body that a contact without an impact holds, as it did in the last step, is moved as it was then. If
+//! that contact opens by the impact, nothing has held the body, and the step is solved again.
+
+use super::blow::normal_motion;
+use super::scratch::Scratch;
+use crate::collide::Contact;
+use crate::collide::approach::{Approach, NormalMotion};
+use crate::model::Model;
+use crate::solve::twist::Twist;
+use crate::state::{BodyState, State};
+
+/// Of what forces do in a step: what they do to a body that is held, at most, as one that pivots does. More is an
+/// impact of the last step.
+const MOST: f64 = 3.0;
+
+/// Bodies that are held, in a step as far as it is solved.
+#[derive(Debug, Default)]
+pub(super) struct Held {
+    /// The bodies before the last step, and its length; 0: it was none of the clock's.
+    earlier: Vec<BodyState>,
+    made_s: f64,
+    /// Of every body: what holds it has opened.
+    is_let_go: Vec<bool>,
+    /// Of every body: what the forces of the step and what holds it do to it, where that is asked for.
+    moves: Vec<Option<Twist>>,
+    /// Of every contact: it has an impact.
+    strikes: Vec<bool>,
+}
+
+impl Held {
+    /// With room for so many bodies and contacts, so that no step allocates.
+    pub(super) fn with_capacity(bodies: usize, contacts: usize) -> Self {
+        Held {
+            earlier: Vec::with_capacity(bodies),
+            made_s: 0.0,
+            is_let_go: Vec::with_capacity(bodies),
+            moves: Vec::with_capacity(bodies),
+            strikes: Vec::with_capacity(contacts),
+        }
+    }
+
+    /// Keeps where a step begins. `made_s`: the length of the one before it.
+    pub(super) fn begin(&mut self, earlier: &[BodyState], made_s: f64) {
+        self.earlier.clear();
+        self.earlier.extend_from_slice(earlier);
+        self.made_s = made_s;
+        self.is_let_go.clear();
+        self.is_let_go.resize(earlier.len(), false);
+    }
+
+    /// Asks contacts that rebound for what the bodies do that others hold. `contacts`: as they are asked for; the
+    /// impulses in `scratch` are those of the last step.
+    pub(super) fn ask(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scratch: &mut Scratch,
+        contacts: Option<&[Contact]>,
+        step_s: f64,
+    ) {
+        let Scratch { found, problem, free, impulses, .. } = scratch;
+        let contacts = contacts.unwrap_or(found);
+        let Held { earlier, made_s, is_let_go, moves, strikes } = self;
+        moves.clear();
+        strikes.clear();
+        if *made_s != step_s || contacts.iter().all(|contact| contact.restitution == 0.0) {
+            return;
+        }
+        strikes.extend(contacts.iter().map(|contact| {
+            let motion = normal_motion(contact, state, free);
+            contact.restitution > 0.0 && Approach::Start.strikes(model, contact, motion, step_s)
+        }));
+        if !strikes.contains(&true) {
+            return;
+        }
+        moves.resize(model.bodies.len(), None);
+        let lasts = contacts.iter().zip(&*strikes).zip(&*impulses).filter(|((_, strikes), p)| !**strikes && p.x > 0.0);
+        for ((contact, _), _) in lasts {
+            let opens = normal_motion(contact, state, free).before;
+            for (i, ..) in contact.ends().filter(|(i, ..)| !is_let_go[*i]) {
+                let (now, before, radius_m) = (&state.bodies[i], &earlier[i], model.bodies[i].bounding_radius_m);
+                let speed = |u: &Twist| u.v.norm() + u.w.norm() * radius_m;
+                let change = Twist { v: free[i].v - now.v_WB, w: free[i].w - now.w_WB };
+                let forced = speed(&change);
+                // What holds a body holds it against the forces; what has sent it aside may have been an impact.
+                let along = change.v.try_normalize(0.0).unwrap_or_default();
+                let moved = Twist { v: along * along.dot(&(now.v_WB - before.v_WB)), w: now.w_WB - before.w_WB };
+                // Bodies on each other fall alike: their gap need not close by the forces.
+                if opens < forced && contact.gap_m < step_s * forced && speed(&moved) <= MOST * forced {
+                    moves[i] = Some(moved);
+                }
+            }
+        }
+        for ((contact, block), _) in contacts.iter().zip(&mut problem.blocks).zip(&*strikes).filter(|(_, is)| **is) {
+            if contact.ends().all(|(i, ..)| moves[i].is_none()) {
+                continue;
+            }
+            let gained = contact.normal.dot(&contact.velocity(|i| {
+                let at = &state.bodies[i];
+                moves[i].map_or([free[i].v - at.v_WB, free[i].w - at.w_WB], |moved| [moved.v, moved.w])
+            }));
+            let before = normal_motion(contact, state, free).before;
+            let motion = NormalMotion { before, gained, turning: block.turning };
+            if let Some(least) = Approach::Start.least(model, contact, motion, step_s) {
+                block.ask_for(least);
+            }
+        }
+    }
+
+    /// Whether something has opened that held a body: the impulses in `scratch` are to be found again.
+    pub(super) fn revise(&mut self, model: &Model, scratch: &Scratch) -> bool {
+        let Held { is_let_go, moves, strikes, .. } = self;
+        let mut any = false;
+        let is_struck = |i: usize| {
+            let contacts = scratch.found.iter().zip(&*strikes).filter(|(_, strikes)| **strikes);
+            contacts.map(|(contact, _)| contact).any(|contact| contact.ends().any(|(end, ..)| end == i))
+        };
+        for i in (0..moves.len()).filter(|i| moves[*i].is_some() && !model.bodies[*i].driven && is_struck(*i)) {
+            let contacts = scratch.found.iter().zip(&scratch.impulses).zip(&*strikes);
+            let mut holds = contacts.filter(|(_, strikes)| !**strikes).map(|(solved, _)| solved);
+            if !holds.any(|(contact, p)| p.x > 0.0 && contact.ends().any(|(end, ..)| end == i)) {
+                is_let_go[i] = true;
+                any = true;
+            }
+        }
+        any
+    }
+}

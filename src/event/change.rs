@@ -38,9 +38,9 @@ const STEEP: f64 = 8.0;
 /// Looks at forces that are remembered.
 const REMEMBERED: usize = 4;
 
-/// What forces leave at one time: the least margin, and the least grip.
+/// Margins of the forces at one time: the least of all, and the least grip.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen {
+pub struct Margins {
     t_s: f64,
     least: f64,
     grip: f64,
@@ -57,7 +57,7 @@ pub struct Looking<'a> {
     /// Linear systems beyond which nothing is looked for.
     pub until: u64,
     /// The last looks at forces.
-    pub seen: Vec<Seen>,
+    pub seen: Vec<Margins>,
 }
 
 impl Looking<'_> {
@@ -122,13 +122,13 @@ impl Looking<'_> {
         self.seen(t_s).grip
     }
 
-    fn seen(&mut self, t_s: f64) -> Seen {
+    fn seen(&mut self, t_s: f64) -> Margins {
         if let Some(seen) = self.seen.iter().find(|seen| seen.t_s == t_s) {
             return *seen;
         }
         self.look(t_s);
         let Margin { least, solved } = self.forces();
-        let seen = Seen { t_s, least, grip: self.grip_of(&solved) };
+        let seen = Margins { t_s, least, grip: self.grip_of(&solved) };
         if self.seen.len() == REMEMBERED {
             self.seen.remove(0);
         }

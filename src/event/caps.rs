@@ -7,16 +7,17 @@
 //! whichever else would sink: a cap that tips does so over one point, in the direction of its tilt. A rim that falls
 //! flat goes on about its last point, up to the moment when the cap is flat; then all of it strikes.
 
+use super::descent::Descent;
 use super::flush::{is_one_base, seat};
 use super::forces::{Held, NO_SLIP, meeting_m_s};
-use super::shown::{ROLLS, face_toward, shown};
+use super::shown::{ROLLS, shown};
 use super::touch::{Standing, Touch};
 use crate::collide::Contact;
 use crate::collide::closed::{SOME, delta_m};
 use crate::integrate::rotation::exponential;
 use crate::model::{Body, Geometry, Model};
 use crate::shape::cylinder::{FLAT, RIM, rim_directions};
-use crate::shape::solid::{Meeting, Solid};
+use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -47,9 +48,9 @@ const POINTS: u32 = 8;
 /// The cap of a cylinder that faces a plane.
 pub struct Cap {
     first: u32,
-    centre_B: Vector3<f64>,
+    pub(super) centre_B: Vector3<f64>,
     out_B: Vector3<f64>,
-    radius_m: f64,
+    pub(super) radius_m: f64,
 }
 
 impl Cap {
@@ -64,7 +65,7 @@ impl Cap {
     }
 
     /// Toward the lowest point of the rim, as long as the sine of the tilt.
-    fn lean_W(&self, at: &BodyState, normal: &Vector3<f64>) -> Vector3<f64> {
+    pub(super) fn lean_W(&self, at: &BodyState, normal: &Vector3<f64>) -> Vector3<f64> {
         let out = at.q_WB * self.out_B;
         out * out.dot(normal) - normal
     }
@@ -108,7 +109,7 @@ impl Cap {
     }
 
     /// How its rim comes down to a plane of the other body.
-    fn descent(&self, [at, other]: [&BodyState; 2], normal: &Vector3<f64>) -> Descent {
+    pub(super) fn descent(&self, [at, other]: [&BodyState; 2], normal: &Vector3<f64>) -> Descent {
         let centre_W = at.p_WB + at.q_WB * self.centre_B;
         let velocity = |of: &BodyState| of.v_WB + of.w_WB.cross(&(centre_W - of.p_WB));
         Descent {
@@ -423,97 +424,6 @@ impl Sinking {
             self.of.len() - 1
         });
         &mut self.of[k]
-    }
-}
-
-/// How the lowest point of a rim that is nearly flat may move toward what it faces.
-pub struct Rolling {
-    /// Beside what its points are accelerated, for a time; none: it is flat.
-    pub along: Option<(f64, f64)>,
-    /// How much faster than this point any other may come nearer.
-    pub faster_m_s: f64,
-    /// All points of the rims, if none of them is lower than what touches.
-    pub down: Option<Vec<Descent>>,
-}
-
-/// The tilt (rad) up to which that is more than the points of contact of other parts may do.
-const NEARLY: f64 = 0.2;
-
-/// Part of a tilt that is sure to be left while the bound of the curvature is used.
-const KEPT: f64 = 0.5;
-
-/// Whether a body may have a face across a direction from it, on which a rim could come down.
-fn is_flat_toward(body: &Body, at: &BodyState, out: &Vector3<f64>) -> bool {
-    match body.solid() {
-        Some((Solid::Box { .. } | Solid::Convex(_), _)) => {
-            face_toward(body, &at.q_WB.inverse_transform_vector(out)).is_some()
-        }
-        Some((Solid::Cylinder { .. }, _)) => true,
-        Some((Solid::Sphere { .. } | Solid::Capsule { .. } | Solid::Ellipsoid { .. }, _)) | None => false,
-    }
-}
-
-/// Of two bodies that touch so, and turn no faster than this against each other. None: no cap does.
-pub fn rolling(
-    bodies: [&Body; 2],
-    at: &[BodyState; 2],
-    (touch, delta_m): (&Meeting, f64),
-    w_rad_s: f64,
-) -> Option<Rolling> {
-    let of = |k: usize| {
-        let normal = if k == 0 { touch.normal } else { -touch.normal };
-        let cap = Cap::facing(bodies[k], &at[k], &normal)?;
-        let tilt = cap.lean_W(&at[k], &normal).norm();
-        // A cap along its own normal has all its points among those of the contact test.
-        let may_roll = tilt > FLAT || is_flat_toward(bodies[1 - k], &at[1 - k], &normal);
-        (tilt <= NEARLY && may_roll).then_some((cap, normal, tilt))
-    };
-    let caps = [0, 1].map(of);
-    let there = || caps.iter().enumerate().filter_map(|(k, of)| Some((k, of.as_ref()?)));
-    let radius_m = there().map(|(_, (cap, ..))| cap.radius_m).reduce(f64::max)?;
-    let tilt = there().map(|(_, (.., tilt))| *tilt).reduce(f64::min)?;
-    let faster_m_s = 2.0 * radius_m * touch.normal.cross(&(at[0].w_WB - at[1].w_WB)).norm();
-    let kept = KEPT * tilt;
-    let along = (tilt > FLAT).then(|| (w_rad_s * w_rad_s * radius_m / kept, kept / w_rad_s.max(f64::MIN_POSITIVE)));
-    let down = there().map(|(k, (cap, normal, tilt))| {
-        let centre_m = (at[k].p_WB + at[k].q_WB * cap.centre_B - touch.p_W).dot(normal) + touch.gap_m / 2.0;
-        let lower_m = touch.gap_m - (centre_m - cap.radius_m * tilt);
-        (lower_m <= delta_m).then(|| cap.descent([&at[k], &at[1 - k]], normal))
-    });
-    Some(Rolling { along, faster_m_s, down: down.collect() })
-}
-
-/// All points of a rim on their way down to a plane: to first order, its lowest one is
-/// g + r|λ| + ċ t − r|λ + λ̇ t| above it, c the height of its centre and λ its lean.
-pub struct Descent {
-    radius_m: f64,
-    centre_m_s: f64,
-    lean: Vector3<f64>,
-    leaning_rad_s: Vector3<f64>,
-}
-
-/// Halvings of the time in which a rim may come down.
-const HALVINGS: u32 = 48;
-
-impl Descent {
-    /// The time in which no point of it comes down, the lowest being so high, and none accelerated more toward the
-    /// plane. What is left of the height is concave, and has one root.
-    pub fn safe_s(&self, gap_m: f64, toward_m_s2: f64) -> f64 {
-        let (r, m) = (self.radius_m, toward_m_s2);
-        let left_m = |t_s: f64| {
-            let sags_m = r * ((self.lean + self.leaning_rad_s * t_s).norm() - self.lean.norm());
-            gap_m + self.centre_m_s * t_s - sags_m - 0.5 * m * t_s * t_s
-        };
-        let most_m_s = self.centre_m_s.abs() + r * self.leaning_rad_s.norm();
-        let (mut safe_s, mut late_s) = (0.0, (most_m_s + (most_m_s * most_m_s + 2.0 * m * gap_m).sqrt()) / m);
-        if !late_s.is_finite() {
-            return 0.0;
-        }
-        for _ in 0..HALVINGS {
-            let middle_s = 0.5 * (safe_s + late_s);
-            *(if left_m(middle_s) >= 0.0 { &mut safe_s } else { &mut late_s }) = middle_s;
-        }
-        safe_s
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::caps;
 use super::decide::{Change, Margin, PULL, margin};
-use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, meeting_m_s};
+use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, Solved, meeting_m_s};
 use super::look::Paths;
 use crate::collide::Key;
 use crate::state::State;
@@ -32,6 +32,20 @@ const FIRM: f64 = 0.1;
 /// Times that the interval of a least grip is made smaller.
 const NARROWER: u32 = 12;
 
+/// Of the first difference between two looks over the time between them: a steeper one is a step and no slope.
+const STEEP: f64 = 8.0;
+
+/// Looks at forces that are remembered.
+const REMEMBERED: usize = 4;
+
+/// Margins of the forces at one time: the least of all, and the least grip.
+#[derive(Clone, Copy, Debug)]
+pub struct Margins {
+    t_s: f64,
+    least: f64,
+    grip: f64,
+}
+
 /// A step of the integrator, looked at.
 pub struct Looking<'a> {
     pub paths: Paths<'a>,
@@ -42,6 +56,8 @@ pub struct Looking<'a> {
     pub work: &'a mut Work,
     /// Linear systems beyond which nothing is looked for.
     pub until: u64,
+    /// The last looks at forces.
+    pub seen: Vec<Margins>,
 }
 
 impl Looking<'_> {
@@ -102,11 +118,27 @@ impl Looking<'_> {
         None
     }
 
+    fn grip(&mut self, t_s: f64) -> f64 {
+        self.seen(t_s).grip
+    }
+
+    fn seen(&mut self, t_s: f64) -> Margins {
+        if let Some(seen) = self.seen.iter().find(|seen| seen.t_s == t_s) {
+            return *seen;
+        }
+        self.look(t_s);
+        let Margin { least, solved } = self.forces();
+        let seen = Margins { t_s, least, grip: self.grip_of(&solved) };
+        if self.seen.len() == REMEMBERED {
+            self.seen.remove(0);
+        }
+        self.seen.push(seen);
+        seen
+    }
+
     /// What is left of the friction of contacts that stick side by side, over the most that there could be; the least
     /// of all. It changes smoothly however they share it.
-    fn grip(&mut self, t_s: f64) -> f64 {
-        self.look(t_s);
-        let solved = self.forces().solved;
+    fn grip_of(&self, solved: &Solved) -> f64 {
         let Gathered { here, problem, .. } = &*self.gathered;
         let beside = |i: usize, j: usize| {
             let [(of, other, _), with] = [i, j].map(|k| self.held[k].touch.key());
@@ -130,13 +162,22 @@ impl Looking<'_> {
     }
 
     fn has_changed(&mut self, t_s: f64) -> bool {
-        self.look(t_s);
-        self.has_left() || (!self.paths.dense.is_empty() && (self.slip_left() < 0.0 || self.forces().least < PULL))
+        self.left(t_s) < 0.0
     }
 
-    /// A face or an edge, at its border.
-    fn has_left(&self) -> bool {
-        self.held.iter().any(|held| held.touch.left_m(self.at) < 0.0) || self.has_turned()
+    /// What is left before something changes, of borders in metres, of slips and forces relative to the largest:
+    /// negative, it has.
+    fn left(&mut self, t_s: f64) -> f64 {
+        self.look(t_s);
+        let border_m = self.held.iter().map(|held| held.touch.left_m(self.at)).fold(f64::INFINITY, f64::min);
+        if border_m < 0.0 || self.paths.dense.is_empty() {
+            return border_m;
+        }
+        if self.has_turned() {
+            return -1.0;
+        }
+        let slip = self.slip_left();
+        if slip < 0.0 { slip } else { border_m.min(slip).min(self.seen(t_s).least - PULL) }
     }
 
     /// A cap falls flat, or tips.
@@ -160,15 +201,32 @@ impl Looking<'_> {
         margin(self.paths.model, self.at, self.held, self.gathered, self.work)
     }
 
-    /// Bisection: the first moment after the change, to the last bit but some.
+    /// The first moment after the change, to the last bit but some: by the secant of what is left, where that has a
+    /// slope (M. Dowell & P. Jarratt, BIT 11 (1971) 168), else by bisection.
     fn when(&mut self, mut low_s: f64, mut high_s: f64) -> f64 {
-        let width_s = (high_s - low_s) * WIDTH;
-        while high_s - low_s > width_s.max(f64::EPSILON * high_s) && !self.is_over() {
+        let width_s = ((high_s - low_s) * WIDTH).max(f64::EPSILON * high_s);
+        let [mut low, mut high] = [self.left(low_s), self.left(high_s)];
+        let steep = STEEP * (low - high) / (high_s - low_s);
+        // What the last look has left in its place may hold the secant back.
+        let mut weights = [1.0, 1.0];
+        while high_s - low_s > width_s && !self.is_over() {
             let middle_s = 0.5 * (low_s + high_s);
-            if self.has_changed(middle_s) {
-                high_s = middle_s;
+            let is_slope = low.is_finite() && low > 0.0 && low - high <= steep * (high_s - low_s);
+            let (a, b) = (low * weights[0], high * weights[1]);
+            // Beyond the change by less than what it is known to, so that it is between two looks.
+            let secant_s =
+                (low_s + (high_s - low_s) * (a / (a - b))).clamp(low_s + 0.5 * width_s, high_s - 0.5 * width_s);
+            let t_s = if is_slope { secant_s } else { middle_s };
+            if t_s <= low_s || t_s >= high_s {
+                break;
+            }
+            let left = self.left(t_s);
+            if left < 0.0 {
+                (high_s, high) = (t_s, left);
+                weights = [0.5 * weights[0], 1.0];
             } else {
-                low_s = middle_s;
+                (low_s, low) = (t_s, left);
+                weights = [1.0, 0.5 * weights[1]];
             }
         }
         high_s

@@ -356,7 +356,7 @@ pub fn margin(model: &Model, state: &State, held: &[Held], gathered: &mut Gather
         let own: Vec<usize> = island.iter().copied().filter(|i| *i < held.len()).collect();
         let of_own = least_of(&own);
         let law = if of_own < PULL && own.len() > 1 { law_of(model, state, held, &own, gathered, work) } else { None };
-        least = least.min(law.as_ref().map_or(of_own, |(_, goes_on)| if *goes_on { NOT_KNOWN } else { of_own }));
+        least = least.min(law.as_ref().map_or(of_own, |(_, left)| *left));
         law.iter().for_each(|(of, _)| own.iter().zip(of).for_each(|(i, of)| p[*i] = *of));
     }
     if p == solved.p {
@@ -365,7 +365,9 @@ pub fn margin(model: &Model, state: &State, held: &[Held], gathered: &mut Gather
     Margin { least, solved: gathered.solved(p, true) }
 }
 
-/// Forces by the law of contacts that share bodies, and whether they go on. None: it is not solved.
+/// Forces by the law of contacts that share bodies, and how far they are from a change: the least force that presses
+/// and has not come to the edge of its cone, over the largest; where some do not go on, the largest acceleration of
+/// those, over the largest without contact, and negative. None: it is not solved.
 fn law_of(
     model: &Model,
     state: &State,
@@ -373,15 +375,38 @@ fn law_of(
     island: &[usize],
     gathered: &Gathered,
     work: &mut Work,
-) -> Option<(Vec<Impulse>, bool)> {
+) -> Option<(Vec<Impulse>, f64)> {
     let part: Vec<Held> = island.iter().map(|i| held[*i].clone()).collect();
     let mut own = Gathered::until(gathered.deadline);
     own.gather(model, state, part.iter().map(|held| &held.touch));
     let modes: Vec<Mode> = own.modes(&part).collect();
-    match by_law(&own, &modes, work) {
-        Law::Holds(now, solved) => Some((solved.p, goes_on(&now, &modes))),
-        Law::Jams | Law::Unsolved => None,
-    }
+    let Law::Holds(now, solved) = by_law(&own, &modes, work) else { return None };
+    let left = if goes_on(&now, &modes) { least_left(&part, &solved) } else { -leaves(&own, &modes, &now, &solved) };
+    Some((solved.p, left))
+}
+
+/// Of contacts that go on; not negative.
+fn least_left(held: &[Held], solved: &Solved) -> f64 {
+    let of = |(held, p): (&Held, &Impulse)| match held.mode {
+        Mode::Stick => p.x.min(held.touch.friction() * p.x - p.yz().norm()),
+        Mode::Slide(_) => p.x,
+    };
+    let least = held.iter().zip(&solved.p).map(of).fold(f64::INFINITY, f64::min);
+    (least / solved.largest().max(f64::MIN_POSITIVE)).clamp(0.0, NOT_KNOWN)
+}
+
+/// Of contacts that do not go on: how fast they open or begin to slip. At least what is no rounding.
+fn leaves(gathered: &Gathered, modes: &[Mode], now: &[(usize, Mode)], solved: &Solved) -> f64 {
+    let of = |(i, (mode, block)): (usize, (&Mode, &Block))| {
+        let a = block.velocity(&solved.added);
+        match now.iter().find(|(k, _)| *k == i) {
+            None => a.x,
+            Some((_, after)) if after != mode => a.yz().norm(),
+            Some(_) => 0.0,
+        }
+    };
+    let largest = modes.iter().zip(&gathered.problem.blocks).enumerate().map(of).fold(0.0, f64::max);
+    (largest / gathered.scale().max(f64::MIN_POSITIVE)).max(ROUNDING)
 }
 
 /// Of many contacts only whether they go on.

@@ -6,7 +6,7 @@
 //! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once
 //! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion, `field`: its equations;
 //!   `slip`: where that is stiff; `stiff`: its steps there
-//! - `caps`: of cylinders, that lie flat, fall flat and tip
+//! - `caps`: of cylinders, that lie flat, fall flat and tip; `descent`, `rolling`: how a rim comes nearer
 //! - `change`: when a contact that holds stops doing so
 //! - `watch`: when the next gap closes, and the proof that none was missed, of two bodies in `pairs`, from `look` to
 //!   look
@@ -23,6 +23,7 @@ pub mod caps;
 pub mod change;
 pub mod decide;
 pub mod dense;
+pub mod descent;
 pub mod ending;
 pub mod field;
 pub mod flush;
@@ -34,6 +35,7 @@ pub mod motion;
 mod pairs;
 pub mod patience;
 pub mod radau_tableau;
+mod rolling;
 pub mod settle;
 pub mod shown;
 pub mod slip;

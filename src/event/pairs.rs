@@ -1,10 +1,11 @@
 //! When two bodies come to touch with parts that are not held (`watch`).
 
-use super::caps;
+use super::caps::are_of_one_rim;
 use super::decide::SAME;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::look::{Look, Paths, Window, march};
 use super::motion::Bounds;
+use super::rolling::rolling;
 use super::which::{GRAZING, Sharing};
 use crate::collide::Contact;
 use crate::collide::closed::delta_m;
@@ -386,12 +387,13 @@ impl<'a> Two<'a> {
             let rate_m_s = touch.normal.dot(&(velocity(0) - velocity(1)));
             let toward_m_s2 = self.rolling_m_s2(closing);
             let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2, known_s: near_m / closing, ..Look::EMPTY };
+            let touches = look.is_touching(*delta_m, *slow_m_s);
+            let lingers = !touches && look.gap_m <= *delta_m && look.rate_m_s <= *slow_m_s;
             let of_touch_s = self.rolling_s(now, touch, &look);
             safe_s = safe_s.min(of_touch_s);
-            let touches = look.is_touching(*delta_m, *slow_m_s);
             others_s = if touches { others_s } else { others_s.min(of_touch_s) };
             touching |= touches;
-            lingering += usize::from(!touches && look.gap_m <= *delta_m && look.rate_m_s <= *slow_m_s);
+            lingering += usize::from(lingers);
         }
         let way_m = near_m.max(self.smaller_m() * WAY);
         let way_s = way_m / closing.max(f64::MIN_POSITIVE);
@@ -402,7 +404,7 @@ impl<'a> Two<'a> {
     fn rolling_s(&self, now: &Now, touch: &Found, look: &Look) -> f64 {
         let Now { at, delta_m, slow_m_s, .. } = now;
         let w_rad_s = self.bounds[0].w + self.bounds[1].w;
-        let Some(rolling) = caps::rolling(self.bodies, at, (touch, *delta_m), w_rad_s) else {
+        let Some(rolling) = rolling(self.bodies, at, (touch, *delta_m), w_rad_s) else {
             return look.safe_s(*delta_m, *slow_m_s);
         };
         let of_any = Look { rate_m_s: look.rate_m_s - rolling.faster_m_s, ..*look };
@@ -440,7 +442,7 @@ impl<'a> Two<'a> {
     fn is_held(&self, held: &[Contact], now: &Now, touch: &Found) -> bool {
         let is_same = |contact: &Contact| {
             // The lowest point of a rim is held, wherever it is.
-            caps::are_of_one_rim(contact.feature, touch.feature)
+            are_of_one_rim(contact.feature, touch.feature)
                 || (contact.p_WC - touch.p_W).norm() <= SAME * self.smaller_m()
         };
         held.iter().any(is_same) || self.is_kept(held, now, touch)

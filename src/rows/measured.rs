@@ -113,7 +113,9 @@ columns! {
         #[column(small = 1e-12)]
         pub error_estimate_m: Option<f64>,
         /// Whether the run has finished and its `error_estimate_m` is within the tolerance that `auto` was asked for:
-        /// `yes` or `no`. Far from the origin rounding alone may be more than that. Null for other methods.
+        /// `yes` or `no`. Far from the origin rounding alone may be more than that. Of `event-driven` itself `no` where
+        /// that is sure: it has not finished, had steps of equal length in between (`work_fallbacks`), is in doubt, or
+        /// has bodies deeper in each other than its tolerance. Else null, and for other methods.
         pub tolerance_met: Option<String>,
         /// Distance between the two runs of the reference at `error_time_s`.
         pub reference_uncertainty_m: Option<f64>,

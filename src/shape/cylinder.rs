@@ -14,6 +14,9 @@ pub const FLAT: f64 = 1e-10;
 pub const FACE: u32 = 0;
 pub const VERTEX: u32 = 1 << 28;
 
+/// The same: an edge, by the numbers of its corners in 14 bits each, the smaller one first.
+pub const EDGE: u32 = 2 << 28;
+
 /// The same: a point of a rim, by its number.
 pub const RIM: u32 = 3 << 28;
 

@@ -27,11 +27,9 @@ pub struct Opposite {
 
 /// Features of a body that can face another one: kind in the upper four bits, number in the others.
 mod feature {
-    use crate::shape::cylinder::{ARC, RIM, VERTEX};
+    use crate::shape::cylinder::{ARC, EDGE, RIM, VERTEX};
 
     pub use crate::shape::cylinder::FACE;
-
-    const EDGE: u32 = 2 << 28;
 
     pub fn vertex(number: u32) -> u32 {
         VERTEX | number

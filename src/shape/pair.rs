@@ -63,6 +63,14 @@ pub fn along(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose, normal: &Vector
     separation(&a, &b, normal) - a.radius_m() - b.radius_m()
 }
 
+/// Unit direction of an edge, or of a round side, by its name among a pair's features; None where it has no length.
+pub fn edge_W(solid: &Solid, pose: &Pose, feature: u32) -> Option<Vector3<f64>> {
+    let placed = Placed::new(solid, pose, &pose.p_W);
+    let [from, to] = [14, 0].map(|shift| feature >> shift & 0x3fff);
+    let along = if placed.is_polytope() { placed.vertex(to) - placed.vertex(from) } else { placed.axis() };
+    along.try_normalize(0.0)
+}
+
 /// The axis between two cores, what else it may be where no face lies opposite (`axis::axis`), and the solids'
 /// distance.
 fn of_cores(placed: &[Placed; 2], reach_m: f64) -> (Axis, Vector3<f64>, Apart) {

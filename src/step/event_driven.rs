@@ -458,7 +458,7 @@ impl EventDriven {
             let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
             let until = self.work.newton_steps + self.patience.left(&self.work);
             let (gathered, at, work) = (self.gathered.get_mut(), &mut self.scratch, &mut self.work);
-            let mut looking = Looking { paths, held: &self.held, gathered, at, work, until };
+            let mut looking = Looking { paths, held: &self.held, gathered, at, work, until, seen: Vec::new() };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
                 let turned = looking.has_turned();
                 (to_s, self.next) = (t_s, if turned { Event::Impact } else { Event::Change(change) });

@@ -79,13 +79,27 @@ impl Chosen {
     pub fn describe(&self, measured: &mut Measured) {
         measured.solver_used =
             self.experiment.method.facts().solver.and_then(|solver| solver_used(solver, &measured.work));
-        let Some(Searched { tolerance_m, error_estimate_m, search_s }) = self.searched else { return };
+        let Some(Searched { tolerance_m, error_estimate_m, search_s }) = self.searched else {
+            if self.is_missed(measured) {
+                measured.tolerance_met = Some("no".to_string());
+            }
+            return;
+        };
         let is_met = measured.outcome == Outcome::Finished && error_estimate_m.is_some_and(|m| m <= tolerance_m);
         measured.tolerance_met = Some(if is_met { "yes" } else { "no" }.to_string());
         measured.method_used = Some(self.experiment.method.word().to_string());
         measured.tolerance_used = self.experiment.method.tolerance();
         measured.error_estimate_m = error_estimate_m;
         measured.wall_search_s = finite(search_s);
+    }
+
+    /// Whether a run from event to event has surely not met its tolerance: it did not come to its end, had steps of
+    /// equal length in between, is in doubt, or has bodies deeper in each other than that.
+    fn is_missed(&self, measured: &Measured) -> bool {
+        let tolerance = self.experiment.method.tolerance().unwrap_or(f64::INFINITY);
+        let is_deep = measured.penetration_max_m.is_some_and(|depth_m| depth_m > tolerance);
+        let is_whole = measured.outcome == Outcome::Finished && measured.work.fallbacks == 0;
+        self.experiment.method.follows_events() && (!is_whole || is_deep || are_raised(measured))
     }
 }
 

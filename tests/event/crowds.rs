@@ -72,9 +72,11 @@ time: { end_s: 0.6 }
 
 #[test]
 fn steps_between_events_are_judged_where_their_impulses_act() {
-    let Measured { outcome, penetration_max_m, residual_max, work, .. } =
+    let Measured { outcome, penetration_max_m, residual_max, work, tolerance_met, .. } =
         measured(CORNER_ON_A_RIM, &["time.end_s=0.5"]);
     assert_eq!((outcome, work.fallbacks), (Outcome::Finished, 1));
+    // The tolerance says nothing of them.
+    assert_eq!(tolerance_met.as_deref(), Some("no"));
     // measured: 1.2e-13 and 1.5e-7; 4e-8 and 0.12 where the last of them was judged at its beginning
     assert!(penetration_max_m.unwrap() < 1e-10 && residual_max.unwrap() < 1e-6);
 }
@@ -101,4 +103,15 @@ fn what_slides_over_a_rim_stays_outside() {
     assert_eq!(outcome, Outcome::Finished);
     // measured: 9.7e-11; 4e-4 before the end of a motion was looked at
     assert!(penetration_max_m.unwrap() < 1e-9, "{penetration_max_m:?}");
+}
+
+#[test]
+fn what_tips_about_an_edge_along_a_cap_is_followed_in_few_looks() {
+    let Measured { outcome, penetration_max_m, residual_max, work, tolerance_met, .. } =
+        measured(CAPSULE_OVER_A_RIM, &[]);
+    assert_eq!((outcome, work.fallbacks, tolerance_met), (Outcome::Finished, 0, None));
+    // measured: 2.3e-12 and 2.3e-8
+    assert!(penetration_max_m.unwrap() < 1e-10 && residual_max.unwrap() < 1e-6);
+    // measured: 4,579; 10,000 for 5e-9 s where any point of the rim might have come down as fast as the fastest
+    assert!(work.contact_tests < 15_000, "{}", work.contact_tests);
 }

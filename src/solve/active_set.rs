@@ -32,16 +32,18 @@ const ROUNDING: f64 = 1e-14;
 struct Until {
     enough: f64,
     tolerance: f64,
+    /// Steps alone that leave redundant contacts their shares, as far as they may.
+    keeps_shares: bool,
 }
 
 /// Improves impulses whose residual is known, or leaves them. Their residual.
 pub fn improve(island: &Island, at: &mut Point, residual: f64, tolerance: f64, steps: &mut u64) -> f64 {
-    improve_with(|_| ETA, island, at, residual, Until { enough: ROUNDING, tolerance }, steps)
+    improve_with(|_| ETA, island, at, residual, Until { enough: ROUNDING, tolerance, keeps_shares: false }, steps)
 }
 
 /// The same up to a residual and no further.
 pub fn approach(island: &Island, at: &mut Point, residual: f64, enough: f64, steps: &mut u64) -> f64 {
-    improve_with(|_| ETA, island, at, residual, Until { enough, tolerance: enough }, steps)
+    improve_with(|_| ETA, island, at, residual, Until { enough, tolerance: enough, keeps_shares: false }, steps)
 }
 
 /// The same from impulses that are near already. What rounds a velocity is felt as 1/η of it in impulses that redundant
@@ -49,7 +51,7 @@ pub fn approach(island: &Island, at: &mut Point, residual: f64, enough: f64, ste
 /// to be mended.
 pub fn improve_near(island: &Island, at: &mut Point, residual: f64, tolerance: f64, steps: &mut u64) -> f64 {
     let eta = |best: f64| (NOISE / best).clamp(ETA, LARGEST_ETA);
-    improve_with(eta, island, at, residual, Until { enough: ROUNDING, tolerance }, steps)
+    improve_with(eta, island, at, residual, Until { enough: ROUNDING, tolerance, keeps_shares: false }, steps)
 }
 
 fn improve_with(
@@ -84,7 +86,8 @@ fn improve_with(
         }
         worse += 1;
         tried = Some(next);
-        if by == By::NaturalMap && !is_solved && island.touches.len() <= complementary::MOST_TOUCHES {
+        let may_choose = !is_solved && !until.keeps_shares && island.touches.len() <= complementary::MOST_TOUCHES;
+        if by == By::NaturalMap && may_choose {
             // From the best point again.
             (by, tried) = (By::Complementarity, None);
         }
@@ -97,7 +100,7 @@ fn improve_with(
 enum By {
     /// The natural map where the step begins.
     NaturalMap,
-    /// The step itself (`complementary.rs`).
+    /// The step itself (`complementary.rs`). Of redundant contacts it takes some, and leaves others nothing.
     Complementarity,
 }
 
@@ -118,7 +121,7 @@ pub fn even(island: &Island, at: &mut Point, mut residual: f64, rounds: usize, t
         *steps += 1;
         let Some(mut next) = step_even(island, at) else { break };
         let first = island.residual_at(&next);
-        let until = Until { enough: ROUNDING.max(ENOUGH * tolerance), tolerance };
+        let until = Until { enough: ROUNDING.max(ENOUGH * tolerance), tolerance, keeps_shares: true };
         let reached = improve_with(|_| ETA, island, &mut next, first, until, steps);
         if reached > residual.max(tolerance).max(island.rounding(&next)) {
             break;
@@ -211,8 +214,7 @@ fn step(island: &Island, at: &Point, eta: f64) -> Option<Point> {
 }
 
 /// A step toward even shares. Measured from zero with η, normal velocities would be η p; so the impulses that this
-/// makes are taken for a centre to measure from once more (the method of multipliers), which leaves η² of it and changes
-/// no shares.
+/// makes are a centre to measure from once more (the method of multipliers): it leaves η² of it and changes no shares.
 fn step_even(island: &Island, at: &Point) -> Option<Point> {
     let small = island.scales(at).into_iter().map(|scale| ROUNDING.sqrt() * scale);
     let largest = island.touches.iter().map(|touch| touch.scale).fold(0.0, f64::max);

@@ -116,6 +116,7 @@ fn faces_that_come_to_lie_flat_are_solved_in_some_steps() {
         (steps, solves) = (steps + m.work.newton_steps, solves + m.work.exact_solves);
         most = most.max(m.work.newton_steps as f64 / m.work.exact_solves as f64);
     }
+    println!("MEASURED faces {steps} {solves} {most}");
     // measured:
     assert!(steps < 40 * solves && most < 200.0, "{steps} in {solves}, {most} a solve");
 }

@@ -35,6 +35,13 @@ const LEAST_ETA: f64 = 1e-8;
 const ON: f64 = 0.5;
 const BACK: f64 = 4.0;
 
+/// Contacts of a face whose gaps differ by rounding cannot all press. What the wrong one of them has goes to others by
+/// what is missing over η in a problem, which is no improvement until it is there: where a hair is missing (so many
+/// times the tolerance) after so many problems in vain, η falls further.
+const HAIR: f64 = 10.0;
+const TRAVELS: u32 = 8;
+const TRAVELLING_ETA: f64 = 1e-11;
+
 /// The least η of the way to impulses shared evenly.
 const EVEN_ETA: f64 = 1e-3;
 
@@ -196,7 +203,8 @@ pub(super) fn solve_island(
             break;
         }
         if let Some(next) = proximal::solve(island, &centre, &centre, eta, &mut work.newton_steps) {
-            eta = (eta * ON).max(LEAST_ETA);
+            let travels = best <= HAIR * goal.tolerance && in_vain > TRAVELS;
+            eta = (eta * ON).max(if travels { TRAVELLING_ETA } else { LEAST_ETA });
             centre = next;
         } else {
             eta *= BACK;

@@ -3,10 +3,10 @@
 //! (`AFFORDABLE_PRODUCTS`; `rule_of_auto` says it to people).
 //!
 //! One contact alone has a closed solution. From where impulses are near, Newton's method goes on alone, and what
-//! redundant contacts share stays as it was. Few contacts are mostly near after some sweeps; only what is left then
-//! goes the whole way of the exact solver, and so does what slips different ways, as there even shares are a part of
-//! the answer. Islands that are too large, and what the exact solver is given up at, are left to conjugate gradients,
-//! whose starts survive from step to step; where they miss the tolerance they say so.
+//! redundant contacts share stays as it was. Few contacts that are not near are mostly so after some sweeps; only what
+//! is left then goes the whole way of the exact solver, and so does what slips different ways, as there even shares are
+//! a part of the answer. Islands that are too large, and what the exact solver is given up at, are left to conjugate
+//! gradients, whose starts survive from step to step; where they miss the tolerance they say so.
 
 use super::block::Block;
 use super::gauss_seidel::{self, Sweeps};
@@ -22,7 +22,7 @@ use crate::work::Work;
 
 /// Sweeps before a look whether impulses are near enough for Newton's method: of few contacts, and of many.
 const SWEEPS_OF_FEW: [u32; 4] = [0, 8, 16, 32];
-/// The same of few contacts, before anything else is made: what mostly settles within some of them.
+/// The same of few contacts that are not near, before anything else is made: they mostly settle within some of them.
 const FIRST_SWEEPS: u32 = 8;
 const SWEEPS: [u32; 2] = [0, 20];
 /// The same of an island that is too large for anything else.

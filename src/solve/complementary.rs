@@ -4,8 +4,8 @@
 //!
 //! The natural map decides where a step begins which contacts press in it. Where two contacts are but just apart, it
 //! may change its mind for ever: a step in which one presses has it pull, and the other one overlap, and the next step
-//! the other way round. And contacts of one face whose gaps do not go together, by what the step of the clock before has
-//! left of them, are all closed to it, though one of them is to open. Here the step itself decides.
+//! the other way round. And contacts of one face whose gaps do not go together, by what the step of the clock before
+//! has left of them, are all closed to it, though one of them is to open. Here the step itself decides.
 
 use super::Impulse;
 use super::island::{Island, Point, Share};

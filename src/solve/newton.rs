@@ -1,12 +1,13 @@
 //! The exact contact solver: the law of contact (`law.rs`) of all contacts of an island at once, to rounding.
 //!
 //! Impulses that are near (last step's, mostly) go straight to Newton's method on the law itself (`active_set.rs`:
-//! quadratic, once it is known which contacts stick and slip). Otherwise an interior-point method (`interior.rs`) comes
-//! near from nothing. Where friction wedges bodies and its path turns back, proximal problems with a falling η go on
-//! from there (`proximal.rs`), and where one of those is not solved, sweeps of exact projected Gauss–Seidel. All of
-//! them work on six velocities a body, in sparse blocks; contacts may be as redundant as they like, and pins are among
-//! them. Last, redundant contacts share their impulses evenly: those that slip (`active_set::even`), and then, of all
-//! impulses that make these velocities, the smallest are taken (`smallest.rs`), wherever the iteration started.
+//! quadratic, once it is known which contacts press), whose steps are complementary where the contacts that press
+//! change for ever (`complementary.rs`). Otherwise an interior-point method (`interior.rs`) comes near from nothing.
+//! Where friction wedges bodies and its path turns back, proximal problems with a falling η go on from there
+//! (`proximal.rs`), and where one of those is not solved, sweeps of exact projected Gauss–Seidel. All of them work on
+//! six velocities a body, in sparse blocks; contacts may be as redundant as they like, and pins are among them. Last,
+//! redundant contacts share their impulses evenly: those that slip (`active_set::even`), and then, of all impulses that
+//! make these velocities, the smallest are taken (`smallest.rs`), wherever the iteration started.
 //!
 //! Allocates. Residuals are the judge's (`measure::residual`), worked out from J and M⁻¹ as the solver has them.
 

@@ -35,7 +35,8 @@ pub struct ContactProblem {
     A_blocks: RefCell<Vec<Matrix3<f64>>>,
 }
 
-/// Contacts up to which A is worked out where it is swept over. A sweep costs 9 L² products with A and 36 L (in long chains) without it.
+/// Contacts up to which A is worked out, where it is swept over. A sweep costs 9 L² products with A and 36 L (in long
+/// chains) without it.
 const DENSE: usize = 32;
 
 /// Of the speed of a body there: a slip below it is none, and has no sign to change.
@@ -260,7 +261,11 @@ impl ContactProblem {
 
     /// The 3×3 block of A between two contacts.
     pub fn coupling(&self, i: usize, j: usize) -> Matrix3<f64> {
-        self.blocks[i].coupling(&self.blocks[j])
+        if self.is_dense() {
+            self.dense().A_blocks[i * self.blocks.len() + j]
+        } else {
+            self.blocks[i].coupling(&self.blocks[j])
+        }
     }
 
     /// A as a dense matrix, 3L × 3L.

@@ -99,7 +99,7 @@ impl Approach {
             Approach::Touching => Some(0.0),
             // Forces act during the impact's step as in any other, else it would add m g Δt v of energy.
             Approach::Start if rebound > 0.0 && before + gained < closing - turning => {
-                Some((closing - turning).max(rebound + falling))
+                Some(rebounding(model, contact, motion, gained, step_s))
             }
             // What opens may come back with its part e of that speed: so Moreau's form u⁺ + e u⁻ ≥ 0 has it of all
             // contacts that are closed, and one e for all of them gains no energy without friction.
@@ -120,6 +120,14 @@ impl Approach {
             }
         }
     }
+}
+
+/// The least normal velocity after a step that kicks at its start of a contact that has an impact in it, where the
+/// step's forces, and what holds its bodies, add `gained` (m/s) to that.
+pub fn rebounding(model: &Model, contact: &Contact, motion: NormalMotion, gained: f64, step_s: f64) -> f64 {
+    let gap_m = if is_closed_to_rounding(model, contact) { 0.0 } else { contact.gap_m };
+    let rebound = -contact.restitution * motion.before.min(0.0);
+    (-gap_m / step_s - motion.turning).max(rebound + gained.min(0.0))
 }
 
 /// Whether a contact bounces before its gap has closed: inside it would be so deep by the next kick that its rebound

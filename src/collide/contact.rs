@@ -3,6 +3,13 @@
 use crate::model::Model;
 use nalgebra::Vector3;
 
+/// What a body touches: a face of the container by its place, or a body by its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Partner {
+    Face(u32),
+    Body(usize),
+}
+
 /// One point of contact of a body with the container or with another body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
@@ -35,6 +42,14 @@ impl Contact {
     pub fn ends(&self) -> impl Iterator<Item = (usize, Vector3<f64>, f64)> {
         let other = self.other.map(|other| (other, self.r_OC_W, -1.0));
         std::iter::once((self.body, self.r_BC_W, 1.0)).chain(other)
+    }
+
+    /// What a body that the contact pushes touches there.
+    pub fn partner_of(&self, body: usize) -> Partner {
+        match self.other {
+            None => Partner::Face(self.feature.0),
+            Some(other) => Partner::Body(if body == self.body { other } else { self.body }),
+        }
     }
 
     /// Whether it is held against what nothing moves.

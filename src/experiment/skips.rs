@@ -66,7 +66,7 @@ impl Skip {
             Skip::GyroscopicTerm => {
                 "exact; without it the method's rule errs, the implicit midpoint by (|ω|Δt)³/12 a step"
             }
-            Skip::KeptImpulses => "within a hundredth of the solver's tolerance, or 1e-12 of the impulses",
+            Skip::KeptImpulses => "within a hundredth of the solver's tolerance, or 1e-13 of the impulses",
             Skip::ClosedForms => "within the tolerance",
         }
     }

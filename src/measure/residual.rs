@@ -19,10 +19,10 @@
 
 use super::exchange::{Exchange, Met, Motion, Moved};
 use super::push::relative;
-use crate::collide::approach::{Approach, NormalMotion};
+use crate::collide::approach::{Approach, NormalMotion, rebounding};
 use crate::collide::closed::is_closed_to_rounding;
 use crate::collide::lasting::{Hold, Lasting};
-use crate::collide::{Contact, Key, SolvedContact};
+use crate::collide::{Contact, Key, Partner, SolvedContact};
 use crate::model::Model;
 use nalgebra::Vector3;
 
@@ -33,6 +33,29 @@ const SMALL: f64 = 1e-5;
 /// Of what forces do to a body in a step: what they do to one that is held, at most, as one that pivots.
 const HELD: f64 = 3.0;
 
+/// What presses a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Pressing {
+    Nothing,
+    One(Partner),
+    Several,
+}
+
+impl Pressing {
+    fn note(&mut self, partner: Partner) {
+        *self = match self {
+            Pressing::Nothing => Pressing::One(partner),
+            Pressing::One(own) if *own == partner => return,
+            _ => Pressing::Several,
+        };
+    }
+
+    /// Whether there is something beside this.
+    fn has_beside(self, partner: Partner) -> bool {
+        self == Pressing::Several || matches!(self, Pressing::One(own) if own != partner)
+    }
+}
+
 /// A contact as the law sees it, in a step that goes so through contacts and is so long.
 struct Seen<'a> {
     model: &'a Model,
@@ -42,8 +65,10 @@ struct Seen<'a> {
     /// What friction did before, where the contact lasts.
     hold: Option<Hold>,
     motion: NormalMotion,
-    /// What the step's forces may do here to bodies one of which others hold, in m/s; 0: none does.
+    /// What the step's forces may do here to bodies one of which something else holds, in m/s; 0: nothing does.
     held_m_s: f64,
+    /// The normal velocity that it is judged by; none: that of the law.
+    asked: Option<f64>,
     /// ρ: one over the trace of its own block of A.
     step_length: f64,
     /// What the residual is compared with: the least impulse that would do to one of its bodies, at the contact, what
@@ -55,7 +80,7 @@ impl<'a> Seen<'a> {
     fn new(
         model: &'a Model,
         (contact, met): (&'a Contact, &'a Met),
-        (moved, pressing): (&[Moved], &[u32]),
+        (moved, pressing): (&[Moved], &[Pressing]),
         through: (Approach, f64),
         hold: Option<Hold>,
     ) -> Self {
@@ -63,7 +88,7 @@ impl<'a> Seen<'a> {
         let (mut forced_m_s, mut is_held) = (0.0, false);
         for (i, r, _) in contact.ends() {
             forced_m_s += HELD * moved[i].gained.reach(r.norm());
-            is_held |= pressing[i] > 1;
+            is_held |= pressing[i].has_beside(contact.partner_of(i));
             let (of, r_m, compliance) = (&moved[i], r.norm(), moved[i].compliance(&r));
             trace += compliance;
             // What is driven has no compliance: nothing moves it.
@@ -77,13 +102,13 @@ impl<'a> Seen<'a> {
         let [before, free, turning] = [met.before, met.free, met.turning].map(|u| contact.normal.dot(&u));
         let motion = NormalMotion { before, gained: free - before, turning };
         let held_m_s = if is_held { forced_m_s } else { 0.0 };
-        Seen { model, contact, met, through, hold, motion, held_m_s, step_length: 1.0 / trace, scale }
+        Seen { model, contact, met, through, hold, motion, held_m_s, asked: None, step_length: 1.0 / trace, scale }
     }
 
     /// The normal velocity that the law asks for at least, u_n ≥ least. None: the contact is not there in this step.
     fn least(&self, contact: &Contact) -> Option<f64> {
         let (approach, step_s) = self.through;
-        approach.least_of(self.model, contact, self.motion, step_s, self.hold)
+        self.asked.or_else(|| approach.least_of(self.model, contact, self.motion, step_s, self.hold))
     }
 
     /// Whether restitution matters.
@@ -125,12 +150,12 @@ impl<'a> Seen<'a> {
             found = found.min(missed(&Seen { motion, ..*self }));
         }
         // What others hold the forces do not move: how much is left of that is the steps' affair.
-        if self.through.0 == Approach::Start && self.held_m_s > 0.0 && self.contact.restitution > 0.0 && self.strikes()
-        {
-            let rebound = -self.contact.restitution * self.motion.before;
-            let gained = (self.contact.normal.dot(&self.met.after) - rebound).clamp(-self.held_m_s, 0.0);
-            let motion = NormalMotion { gained, ..self.motion };
-            found = found.min(missed(&Seen { motion, ..*self }));
+        let is_start = self.through.0 == Approach::Start && !is_struck;
+        if is_start && self.held_m_s > 0.0 && self.contact.restitution > 0.0 && self.strikes() {
+            let asked = |gained| rebounding(self.model, self.contact, self.motion, gained, self.through.1);
+            let after = self.contact.normal.dot(&self.met.after);
+            let asked = Some(after.clamp(asked(-self.held_m_s), asked(0.0)));
+            found = found.min(missed(&Seen { asked, ..*self }));
         }
         // A gap that stays open, as other impulses part the bodies first, has nothing to send back.
         let is_left = self.through.0 == Approach::Start && *impulse_W == Vector3::zeros();
@@ -195,8 +220,8 @@ pub struct ResidualLedger {
     newton: bool,
     /// Of every island by its first body: some contact strikes.
     struck: Vec<bool>,
-    /// Of every body: contacts that press it.
-    pressing: Vec<u32>,
+    /// Of every body: what presses it.
+    pressing: Vec<Pressing>,
     /// What lasts into the next step, and what the step shows of that.
     /// None: no contact does, whatever a step shows.
     lasting: Option<Lasting>,
@@ -225,9 +250,9 @@ impl ResidualLedger {
         let is_half_way = through.0 == Approach::Middle;
         let ResidualLedger { newton, struck, pressing, lasting, last_on, max, .. } = self;
         pressing.clear();
-        pressing.resize(exchange.moved.len(), 0);
+        pressing.resize(exchange.moved.len(), Pressing::Nothing);
         for SolvedContact { contact, .. } in contacts.iter().filter(|solved| solved.impulse_W != Vector3::zeros()) {
-            contact.ends().for_each(|(i, ..)| pressing[i] += 1);
+            contact.ends().for_each(|(i, ..)| pressing[i].note(contact.partner_of(i)));
         }
         let pressing = &*pressing;
         let seen = |contact, met| {

@@ -86,7 +86,7 @@ fn improve_with(
         }
         worse += 1;
         tried = Some(next);
-        let may_choose = !is_solved && !until.keeps_shares && island.touches.len() <= complementary::MOST_TOUCHES;
+        let may_choose = !is_solved && !until.keeps_shares && complementary::is_affordable(island);
         if by == By::NaturalMap && may_choose {
             // From the best point again.
             (by, tried) = (By::Complementarity, None);

@@ -16,8 +16,10 @@ use crate::math::few::{BlockVector, Few};
 use crate::math::lemke;
 use nalgebra::Vector3;
 
-/// Contacts up to which such steps are made: their cost grows with the square of it.
-pub(super) const MOST_TOUCHES: usize = 64;
+/// Contacts, and contacts times bodies, up to which such steps are made: they take a solution a contact, and pivots
+/// that grow with the square of it.
+const MOST_TOUCHES: usize = 64;
+const MOST: usize = 256;
 
 /// η of what sticks and turns, and of normal impulses: so small that one step takes those where they belong.
 const ETA: f64 = 1e-8;
@@ -57,6 +59,12 @@ impl Complementary {
             _ => Complementary { kept: Impulse::zeros(), D: Slope::Nothing, edge: normal, mode },
         }
     }
+}
+
+/// Whether such steps are made.
+pub(super) fn is_affordable(island: &Island) -> bool {
+    let touches = island.touches.len();
+    touches <= MOST_TOUCHES && touches * island.bodies() <= MOST
 }
 
 /// A step of Newton's method after which no contact pulls or overlaps.

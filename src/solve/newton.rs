@@ -195,7 +195,7 @@ pub(super) fn solve_island(
         keep(&mut best, at, found, residual, work);
     }
     let (mut centre, mut eta) = (at.p.clone(), (OF_RESIDUAL * best).clamp(LEAST_FIRST_ETA, FIRST_ETA));
-    let (mut last, mut in_vain) = (best, 0);
+    let (mut last, mut in_vain, mut may_travel) = (best, 0, true);
     for _ in 0..goal.most {
         in_vain = if best < last { 0 } else { in_vain + 1 };
         last = best;
@@ -204,11 +204,12 @@ pub(super) fn solve_island(
             break;
         }
         if let Some(next) = proximal::solve(island, &centre, &centre, eta, &mut work.newton_steps) {
-            let travels = best <= HAIR * goal.tolerance && in_vain > TRAVELS;
+            let travels = may_travel && best <= HAIR * goal.tolerance && in_vain > TRAVELS;
             eta = (eta * ON).max(if travels { TRAVELLING_ETA } else { LEAST_ETA });
             centre = next;
         } else {
-            eta *= BACK;
+            may_travel &= eta >= LEAST_ETA;
+            eta = eta.max(LEAST_ETA) * BACK;
             sweep(&mut centre, work);
         }
         let tried = island.at(centre.clone());

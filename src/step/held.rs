@@ -3,13 +3,14 @@
 //! The step's forces act in an impact's step as in any other (`Approach::least`): a ball that comes back from a floor
 //! has fallen for that step. Of two bodies what counts is by how much forces move one against the other, and one that
 //! others hold up they do not move: if a ball that comes back from it had not fallen for the step either, it would gain
-//! m g Δt v. So a body that a contact without an impact holds, as it did in the last step, is moved as it was then. If
-//! that contact opens by the impact, nothing has held the body, and the step is solved again.
+//! m g Δt v. So a body that a contact without an impact, and with something else than what strikes it, holds, as it did
+//! in the last step, is moved as it was then. If that contact opens by the impact, nothing has held the body, and the
+//! step is solved again. What strikes is decided by the forces alone, and pins hold nothing here.
 
 use super::blow::normal_motion;
 use super::scratch::Scratch;
-use crate::collide::Contact;
-use crate::collide::approach::{Approach, NormalMotion};
+use crate::collide::approach::{Approach, NormalMotion, rebounding};
+use crate::collide::{Contact, Partner};
 use crate::model::Model;
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
@@ -17,6 +18,21 @@ use crate::state::{BodyState, State};
 /// Of what forces do in a step: what they do to a body that is held, at most, as one that pivots does. More is an
 /// impact of the last step.
 const MOST: f64 = 3.0;
+
+/// What moves a body that is held.
+#[derive(Clone, Copy, Debug)]
+struct Moves {
+    moved: Twist,
+    /// What holds it; none: several things do.
+    by: Option<Partner>,
+}
+
+impl Moves {
+    /// Whether something else than this holds the body.
+    fn is_held_beside(&self, partner: Partner) -> bool {
+        self.by != Some(partner)
+    }
+}
 
 /// Bodies that are held, in a step as far as it is solved.
 #[derive(Debug, Default)]
@@ -26,8 +42,8 @@ pub(super) struct Held {
     made_s: f64,
     /// Of every body: what holds it has opened.
     is_let_go: Vec<bool>,
-    /// Of every body: what the forces of the step and what holds it do to it, where that is asked for.
-    moves: Vec<Option<Twist>>,
+    /// Of every body that something holds: what the forces of the step and that do to it.
+    moves: Vec<Option<Moves>>,
     /// Of every contact: it has an impact.
     strikes: Vec<bool>,
 }
@@ -92,38 +108,42 @@ impl Held {
                 let moved = Twist { v: along * along.dot(&(now.v_WB - before.v_WB)), w: now.w_WB - before.w_WB };
                 // Bodies on each other fall alike: their gap need not close by the forces.
                 if opens < forced && contact.gap_m < step_s * forced && speed(&moved) <= MOST * forced {
-                    moves[i] = Some(moved);
+                    let by =
+                        Some(contact.partner_of(i)).filter(|by| moves[i].is_none_or(|moves| moves.by == Some(*by)));
+                    moves[i] = Some(Moves { moved, by });
                 }
             }
         }
         for ((contact, block), _) in contacts.iter().zip(&mut problem.blocks).zip(&*strikes).filter(|(_, is)| **is) {
-            if contact.ends().all(|(i, ..)| moves[i].is_none()) {
+            let held = |i: usize| moves[i].filter(|moves| moves.is_held_beside(contact.partner_of(i)));
+            if contact.ends().all(|(i, ..)| held(i).is_none()) {
                 continue;
             }
             let gained = contact.normal.dot(&contact.velocity(|i| {
                 let at = &state.bodies[i];
-                moves[i].map_or([free[i].v - at.v_WB, free[i].w - at.w_WB], |moved| [moved.v, moved.w])
+                held(i).map_or([free[i].v - at.v_WB, free[i].w - at.w_WB], |Moves { moved, .. }| [moved.v, moved.w])
             }));
-            let before = normal_motion(contact, state, free).before;
-            let motion = NormalMotion { before, gained, turning: block.turning };
-            if let Some(least) = Approach::Start.least(model, contact, motion, step_s) {
-                block.ask_for(least);
-            }
+            // An impact is one by the forces that act; what they take of its rebound is what they move.
+            let motion = NormalMotion { turning: block.turning, ..normal_motion(contact, state, free) };
+            block.ask_for(rebounding(model, contact, motion, gained, step_s));
         }
     }
 
     /// Whether something has opened that held a body: the impulses in `scratch` are to be found again.
     pub(super) fn revise(&mut self, model: &Model, scratch: &Scratch) -> bool {
         let Held { is_let_go, moves, strikes, .. } = self;
-        let mut any = false;
-        let is_struck = |i: usize| {
-            let contacts = scratch.found.iter().zip(&*strikes).filter(|(_, strikes)| **strikes);
-            contacts.map(|(contact, _)| contact).any(|contact| contact.ends().any(|(end, ..)| end == i))
+        let of = |i: usize, strike: bool| {
+            let solved = scratch.found.iter().zip(&scratch.impulses).zip(&*strikes);
+            let own = solved
+                .filter(move |((contact, _), strikes)| **strikes == strike && contact.ends().any(|(end, ..)| end == i));
+            own.map(|(solved, _)| solved)
         };
-        for i in (0..moves.len()).filter(|i| moves[*i].is_some() && !model.bodies[*i].driven && is_struck(*i)) {
-            let contacts = scratch.found.iter().zip(&scratch.impulses).zip(&*strikes);
-            let mut holds = contacts.filter(|(_, strikes)| !**strikes).map(|(solved, _)| solved);
-            if !holds.any(|(contact, p)| p.x > 0.0 && contact.ends().any(|(end, ..)| end == i)) {
+        let mut any = false;
+        for (i, held) in moves.iter().enumerate().filter_map(|(i, moves)| Some((i, (*moves)?))) {
+            let is_held_beside =
+                |by: Partner| of(i, false).any(|(contact, p)| p.x > 0.0 && contact.partner_of(i) != by);
+            let mut struck_by = of(i, true).map(|(contact, _)| contact.partner_of(i));
+            if !model.bodies[i].driven && struck_by.any(|by| held.is_held_beside(by) && !is_held_beside(by)) {
                 is_let_go[i] = true;
                 any = true;
             }

@@ -220,7 +220,7 @@ pub struct ResidualLedger {
     newton: bool,
     /// Of every island by its first body: some contact strikes.
     struck: Vec<bool>,
-    /// Of every body: what presses it.
+    /// Of every body: what presses it, where anything rebounds.
     pressing: Vec<Pressing>,
     /// What lasts into the next step, and what the step shows of that.
     /// None: no contact does, whatever a step shows.
@@ -251,8 +251,10 @@ impl ResidualLedger {
         let ResidualLedger { newton, struck, pressing, lasting, last_on, max, .. } = self;
         pressing.clear();
         pressing.resize(exchange.moved.len(), Pressing::Nothing);
-        for SolvedContact { contact, .. } in contacts.iter().filter(|solved| solved.impulse_W != Vector3::zeros()) {
-            contact.ends().for_each(|(i, ..)| pressing[i].note(contact.partner_of(i)));
+        if contacts.iter().any(|solved| solved.contact.restitution > 0.0) {
+            for SolvedContact { contact, .. } in contacts.iter().filter(|solved| solved.impulse_W != Vector3::zeros()) {
+                contact.ends().for_each(|(i, ..)| pressing[i].note(contact.partner_of(i)));
+            }
         }
         let pressing = &*pressing;
         let seen = |contact, met| {

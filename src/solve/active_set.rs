@@ -8,7 +8,7 @@
 
 use super::island::{Island, Point, Share};
 use super::law::{self, Law};
-use super::modes::{Mode, onto_cone, turning};
+use super::modes::{Mode, against, onto_cone, slip, turning};
 use super::slope::Slope;
 use super::{Impulse, complementary};
 use crate::math::few::{BlockVector, Few};
@@ -180,12 +180,13 @@ impl Linear {
     /// With impulses measured from zero. `small`: velocities that are rounding.
     fn even(touch: &Share, p: &Impulse, u: &Vector3<f64>, eta: f64, small: f64) -> Self {
         let friction = touch.law.friction();
-        let slip = (u.y * u.y + u.z * u.z).sqrt();
         let t = match Mode::of(touch, p, u) {
             _ if touch.law == Law::Pin || friction == 0.0 => return Linear::new(touch, p, u, ETA),
             // It touches without a force: it may have one.
-            Mode::Open if u.x > small || slip <= small => return Linear::new(touch, p, u, ETA),
-            Mode::Open => Vector3::new(0.0, -u.y / slip, -u.z / slip),
+            Mode::Open => match against(u) {
+                Some(t) if u.x <= small && slip(u) > small => t,
+                _ => return Linear::new(touch, p, u, ETA),
+            },
             Mode::Held => {
                 return Linear { jump: -p, D: Slope::alike(1.0 / eta), slips: false, is_even: true };
             }

@@ -27,16 +27,20 @@ impl Mode {
     }
 }
 
+/// |u_t|.
+pub(super) fn slip(u: &Vector3<f64>) -> f64 {
+    (u.y * u.y + u.z * u.z).sqrt()
+}
+
 /// How fast p turns with what slips across: E = |u_t|/μ p_n, with η.
 pub(super) fn turning(p: &Impulse, u: &Vector3<f64>, friction: f64, eta: f64) -> f64 {
-    let slip = (u.y * u.y + u.z * u.z).sqrt();
-    let E = if p.x > 0.0 { slip / (friction * p.x) } else { f64::INFINITY };
+    let E = if p.x > 0.0 { slip(u) / (friction * p.x) } else { f64::INFINITY };
     1.0 / (E + eta)
 }
 
 /// The way against a slip.
 pub(super) fn against(u: &Vector3<f64>) -> Option<Vector3<f64>> {
-    let slip = (u.y * u.y + u.z * u.z).sqrt();
+    let slip = slip(u);
     (slip > 0.0).then(|| Vector3::new(0.0, -u.y / slip, -u.z / slip))
 }
 

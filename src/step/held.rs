@@ -60,13 +60,12 @@ impl Held {
         }
     }
 
-    /// Keeps where a step begins. `made_s`: the length of the one before it.
-    pub(super) fn begin(&mut self, earlier: &[BodyState], made_s: f64) {
-        self.earlier.clear();
-        self.earlier.extend_from_slice(earlier);
+    /// Takes where the last step began, and its length.
+    pub(super) fn begin(&mut self, earlier: &mut Vec<BodyState>, made_s: f64) {
+        std::mem::swap(&mut self.earlier, earlier);
         self.made_s = made_s;
         self.is_let_go.clear();
-        self.is_let_go.resize(earlier.len(), false);
+        self.is_let_go.resize(self.earlier.len(), false);
     }
 
     /// Asks contacts that rebound for what the bodies do that others hold. `contacts`: as they are asked for; the

@@ -187,7 +187,7 @@ impl TimeStepping {
             return;
         }
         let unsolved = self.scratch.work.unsolved;
-        self.held.begin(&self.began, self.made_s);
+        self.held.begin(&mut self.began, self.made_s);
         self.began.clear();
         self.began.extend_from_slice(&state.bodies);
         if state.step == 0 {

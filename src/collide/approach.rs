@@ -9,6 +9,10 @@ pub use crate::experiment::types::Approach;
 use crate::model::Model;
 use nalgebra::Vector3;
 
+/// An approach, of the speeds that bodies have with the step's forces, that strikes nothing by a law of impact of its
+/// own: bodies that rest on each other fall alike, and approach each other by rounding.
+const NO_APPROACH: f64 = 1e-9;
+
 /// Normal velocity of a contact: before the step, what the step's forces add to it, and what of the mean through the
 /// step is beyond that after the impulses, as bodies turn on freely (`Body::turns_on`). In m/s.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +20,11 @@ pub struct NormalMotion {
     pub before: f64,
     pub gained: f64,
     pub turning: f64,
+}
+
+/// Whether bodies of these speeds at a contact, with the step's forces, come together before the step.
+pub fn comes(motion: NormalMotion, speeds_m_s: impl Iterator<Item = f64>) -> bool {
+    -motion.before > NO_APPROACH * speeds_m_s.fold(0.0, f64::max)
 }
 
 /// Says of contacts which may close in the step: of every body and face (or other body) none beyond twice the way that
@@ -52,7 +61,7 @@ impl Approach {
         step_s: f64,
         hold: Option<Hold>,
     ) -> Option<f64> {
-        hold.map_or_else(|| self.least(model, contact, motion, step_s), |_| Some(-motion.before))
+        hold.map_or_else(|| self.least(model, contact, motion, step_s), |hold| Some(-motion.before * hold.sent_back()))
     }
 
     /// Whether a contact that pressed in this step lasts: it was held, or came to rest.

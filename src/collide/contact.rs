@@ -1,13 +1,25 @@
 //! One point of contact.
 
 use crate::model::Model;
+use crate::model::pins::Anchor;
 use nalgebra::Vector3;
 
-/// What a body touches: a face of the container by its place, or a body by its index.
+/// What a body touches or is pinned to: a face of the container by its place, a body by its index, or a point of the
+/// world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Partner {
     Face(u32),
     Body(usize),
+    World,
+}
+
+/// What pins hold a body to.
+pub fn pinned_to(model: &Model, body: usize) -> impl Iterator<Item = Partner> {
+    model.pins.iter().filter_map(move |pin| match pin.anchor {
+        Anchor::World(_) => (pin.body == body).then_some(Partner::World),
+        Anchor::Body(other, _) if pin.body == body => Some(Partner::Body(other)),
+        Anchor::Body(other, _) => (other == body).then_some(Partner::Body(pin.body)),
+    })
 }
 
 /// One point of contact of a body with the container or with another body.

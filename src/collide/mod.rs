@@ -20,6 +20,6 @@ pub mod reduce;
 mod two;
 
 pub use ahead::Ahead;
-pub use contact::{Contact, Key, Partner, SolvedContact};
+pub use contact::{Contact, Key, Partner, SolvedContact, pinned_to};
 pub use detector::{Detector, deepest};
 pub use limits::Reach;

@@ -6,9 +6,10 @@
 //! residual of a contact (V. Acary, B. Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, Springer 2008).
 //!
 //! A contact that lasts through steps whose kick is half-way (`collide::lasting`: by what the steps before it showed)
-//! obeys the law in the mean of the velocities before and after: u is u⁻ + u⁺. Friction of one that slid may be against
-//! the velocity at the end of the step instead, as of one that is new: it comes to rest then, where the mean would turn
-//! its slip over for ever. That is u⁺ and half of what its slip changed by from the last kick to this one.
+//! obeys the law in the mean of the velocities before and after: u is u⁻ + u⁺; or u⁺, where u⁻ is
+//! rounding: what is at rest does not swing. Friction of one that slid may be against the velocity at the end of the step
+//! instead, as of one that is new: it comes to rest then, where the mean would turn its slip over for ever. That is u⁺
+//! and half of what its slip changed by from the last kick to this one.
 //!
 //! In an impact with tangential restitution u_t stands for u_t⁺ + ε_t u_t⁻, from the velocities before and after.
 //!
@@ -19,10 +20,10 @@
 
 use super::exchange::{Exchange, Met, Motion, Moved};
 use super::push::relative;
-use crate::collide::approach::{Approach, NormalMotion, rebounding};
+use crate::collide::approach::{Approach, NormalMotion, comes, rebounding};
 use crate::collide::closed::is_closed_to_rounding;
 use crate::collide::lasting::{Hold, Lasting};
-use crate::collide::{Contact, Key, Partner, SolvedContact};
+use crate::collide::{Contact, Key, Partner, SolvedContact, pinned_to};
 use crate::model::Model;
 use nalgebra::Vector3;
 
@@ -87,7 +88,7 @@ impl<'a> Seen<'a> {
         let (mut trace, mut scale) = (0.0, f64::INFINITY);
         let (mut forced_m_s, mut is_held) = (0.0, false);
         for (i, r, _) in contact.ends() {
-            forced_m_s += HELD * moved[i].gained.reach(r.norm());
+            forced_m_s += moved[i].gained.reach(r.norm());
             is_held |= pressing[i].has_beside(contact.partner_of(i));
             let (of, r_m, compliance) = (&moved[i], r.norm(), moved[i].compliance(&r));
             trace += compliance;
@@ -101,8 +102,10 @@ impl<'a> Seen<'a> {
         }
         let [before, free, turning] = [met.before, met.free, met.turning].map(|u| contact.normal.dot(&u));
         let motion = NormalMotion { before, gained: free - before, turning };
-        let held_m_s = if is_held { forced_m_s } else { 0.0 };
-        Seen { model, contact, met, through, hold, motion, held_m_s, asked: None, step_length: 1.0 / trace, scale }
+        let held_m_s = if is_held { HELD * forced_m_s } else { 0.0 };
+        let step_length = 1.0 / trace;
+        let hold = hold.map(|hold| hold.before(&met.before, forced_m_s));
+        Seen { model, contact, met, through, hold, motion, held_m_s, asked: None, step_length, scale }
     }
 
     /// The normal velocity that the law asks for at least, u_n ≥ least. None: the contact is not there in this step.
@@ -159,7 +162,7 @@ impl<'a> Seen<'a> {
         }
         // A gap that stays open, as other impulses part the bodies first, has nothing to send back.
         let is_left = self.through.0 == Approach::Start && *impulse_W == Vector3::zeros();
-        if is_left && self.strikes() && !is_closed_to_rounding(self.model, self.contact) {
+        if is_left && self.contact.restitution > 0.0 && !is_closed_to_rounding(self.model, self.contact) {
             let contact = &Contact { restitution: 0.0, tangential_restitution: 0.0, ..*self.contact };
             found = found.min(missed(&Seen { contact, ..*self }));
         }
@@ -177,6 +180,7 @@ impl<'a> Seen<'a> {
         }
         let missed = |u: &Vector3<f64>| self.missed_at(u, least, impulse_W);
         match self.hold {
+            Some(Hold::Resting) => missed(after),
             Some(Hold::Stuck) => missed(&(after + tangent)),
             Some(Hold::Slid(last)) => {
                 let drift = (tangent - (last - normal * normal.dot(&last))) / 2.0;
@@ -255,6 +259,9 @@ impl ResidualLedger {
             for SolvedContact { contact, .. } in contacts.iter().filter(|solved| solved.impulse_W != Vector3::zeros()) {
                 contact.ends().for_each(|(i, ..)| pressing[i].note(contact.partner_of(i)));
             }
+            for (i, pressing) in pressing.iter_mut().enumerate().take_while(|_| !model.pins.is_empty()) {
+                pinned_to(model, i).for_each(|partner| pressing.note(partner));
+            }
         }
         let pressing = &*pressing;
         let seen = |contact, met| {
@@ -266,11 +273,18 @@ impl ResidualLedger {
         struck.resize(exchange.moved.len(), false);
         if !*newton {
             for (solved, met) in contacts.iter().zip(&exchange.met) {
-                struck[met.island] |= seen(&solved.contact, met).strikes();
+                let seen = seen(&solved.contact, met);
+                let speeds = solved.contact.ends().map(|(i, r, _)| exchange.moved[i].free.reach(r.norm()));
+                let is_impact = matches!(through.0, Approach::Inside | Approach::Touching);
+                struck[met.island] |= seen.strikes() && (is_impact || comes(seen.motion, speeds));
             }
         }
         for (SolvedContact { contact, impulse_W }, met) in contacts.iter().zip(&exchange.met) {
+            // What another law than Newton's has not struck does not rebound.
+            let is_plastic = !*newton && through.0 == Approach::Start;
+            let plastic = Contact { restitution: 0.0, tangential_restitution: 0.0, ..*contact };
             let (seen, is_struck) = (seen(contact, met), struck[met.island]);
+            let seen = if is_plastic { Seen { contact: &plastic, ..seen } } else { seen };
             *max = Some(max.unwrap_or(0.0).max(relative(seen.missed(impulse_W, is_struck), seen.scale)));
             if lasting.is_some() && !is_struck {
                 last_on.extend(seen.holds_on(impulse_W).map(|hold| (contact.key(), hold)));

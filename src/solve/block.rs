@@ -5,7 +5,7 @@ use super::law::Law;
 use super::twist::Twist;
 use super::{Impulse, corrected};
 use crate::collide::Contact;
-use crate::collide::approach::{Approach, NormalMotion};
+use crate::collide::approach::{Approach, NormalMotion, rebounding};
 use crate::collide::lasting::Hold;
 use crate::experiment::types::Cone;
 use crate::model::Model;
@@ -29,6 +29,9 @@ pub struct Block {
     pub least: f64,
     /// As `least` has it (`NormalMotion::turning`).
     pub turning: f64,
+    /// Of an impact: what the step's forces and what holds the bodies add to their approach, where that is not what the
+    /// forces do alone, in m/s.
+    pub held: Option<f64>,
     /// Relative velocity before the step, in the contact's frame.
     pub before: Vector3<f64>,
     /// ε_t of an impact, which b's tangents' rows are relative to; else 0.
@@ -116,7 +119,7 @@ impl Block {
             hold.is_none() && contact.tangential_restitution > 0.0 && approach.strikes(model, contact, motion, step_s);
         let tangential_restitution = if strikes { contact.tangential_restitution } else { 0.0 };
         b.x -= least;
-        let sent_back = if hold.is_some() { 1.0 } else { tangential_restitution };
+        let sent_back = hold.map_or(tangential_restitution, Hold::sent_back);
         let against = Vector3::new(0.0, before.y, before.z) * sent_back;
         if sent_back > 0.0 {
             b += against;
@@ -132,6 +135,7 @@ impl Block {
             b,
             least,
             turning: 0.0,
+            held: None,
             before,
             tangential_restitution,
             hold,
@@ -148,11 +152,19 @@ impl Block {
         self.least = least;
     }
 
+    /// Asks an impact for the rebound of bodies that others hold: these and the step's forces add so much to it, in m/s.
+    pub fn hold_at(&mut self, contact: &Contact, model: &Model, gained: f64, step_s: f64) {
+        self.held = Some(gained);
+        let motion = NormalMotion { before: self.before.x, gained, turning: self.turning };
+        self.ask_for(rebounding(model, contact, motion, gained, step_s));
+    }
+
     /// Asks for what the bodies' free turning beyond their angular velocities after the step leaves of the gap.
     pub(super) fn turn(&mut self, contact: &Contact, model: &Model, turning: f64, (approach, step_s): (Approach, f64)) {
         let gained = self.b.x + self.least - self.before.x;
         let motion = NormalMotion { before: self.before.x, gained, turning };
-        if let Some(least) = approach.least(model, contact, motion, step_s) {
+        let held = self.held.map(|held| rebounding(model, contact, motion, held, step_s));
+        if let Some(least) = held.or_else(|| approach.least(model, contact, motion, step_s)) {
             self.ask_for(least);
             self.turning = turning;
         }

@@ -69,6 +69,7 @@ impl Block {
             pin: Some(A.try_inverse().unwrap_or_default()),
             least: 0.0,
             turning: 0.0,
+            held: None,
             before: Vector3::zeros(),
             tangential_restitution: 0.0,
             hold: None,

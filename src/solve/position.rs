@@ -27,7 +27,9 @@ use crate::work::Work;
 /// All of it at once would turn bodies so far that they leave the contacts that hold them, and a pile would shake.
 const PART: f64 = 0.2;
 
-/// Sweeps; what they leave is the next step's.
+/// Sweeps; what they leave is the next step's. A light body between a heavy one and the floor would take as many as
+/// their masses differ by, and what fewer have found may lead its other side in: an island goes no further than nothing
+/// in it gets deeper than the deepest was.
 const MOST: u32 = 50;
 
 /// Of the smaller body's bounding radius.
@@ -46,6 +48,9 @@ pub struct Account {
     /// The container, a body that nothing moves, or a pin holds it.
     pub is_held: bool,
     is_pushed: bool,
+    /// What is deepest inside, as far as it is to come out; and the part of the way after which nothing is deeper.
+    deepest_m: f64,
+    part: f64,
 }
 
 /// Multipliers of the contacts and displacements of the bodies, kept to spare the allocator.
@@ -82,21 +87,22 @@ impl Push {
     /// Finds every body's displacement; false if no contact will be inside (then `moved` means nothing). `response`:
     /// what the impulses did to the velocities, which last until the next step's contacts are seen. `taken_j`: what
     /// every contact of this step took; `lost_j_kg`: what every body has lost beside that. `left_m`: a depth that is
-    /// left to a contact.
+    /// left to a contact; `late_m`: one that it has come to in this step.
     pub fn find(
         &mut self,
         problem: &ContactProblem,
         contacts: &[Contact],
         model: &Model,
         (impulses, response, step_s): (&[Impulse], &[Twist], f64),
-        (taken_j, lost_j_kg, left_m): (impl FnOnce(&mut Vec<f64>), f64, impl Fn(&Contact) -> f64),
+        (taken_j, lost_j_kg): (impl FnOnce(&mut Vec<f64>), f64),
+        (left_m, late_m): (impl Fn(&Contact) -> f64, impl Fn(&Contact) -> f64),
         work: &mut Work,
     ) -> bool {
         let wanted_m = |block: &Block, contact: &Contact| {
             let moves_m = step_s * (block.velocity(response).x + block.least + block.turning);
             let inside_m = -(contact.gap_m + moves_m.max(0.0)) - block.swing(step_s) - left_m(contact);
             let is_pushed = contact.restitution < 1.0 && inside_m > rounding_m(model, contact);
-            let at_once_m = SHALLOW * size_m(model, contact);
+            let at_once_m = late_m(contact).max(SHALLOW * size_m(model, contact));
             if is_pushed { inside_m.min(at_once_m.max(PART * inside_m)) } else { -(contact.gap_m + moves_m).max(0.0) }
         };
         self.wanted_m.clear();
@@ -108,19 +114,31 @@ impl Push {
         self.multipliers.resize(contacts.len(), 0.0);
         self.moved.clear();
         self.moved.resize(model.bodies.len(), Twist::ZERO);
+        let mut is_settled = false;
         for _ in 0..MOST {
             work.sweeps += 1;
-            if self.sweep(problem) <= self.tolerance {
+            is_settled = self.sweep(problem) <= self.tolerance;
+            if is_settled {
                 break;
             }
         }
         taken_j(&mut self.taken_j);
-        self.settle(contacts, impulses, model, lost_j_kg);
+        self.settle(contacts, impulses, model, lost_j_kg, late_m);
+        if !is_settled {
+            self.hold_back(problem);
+        }
         true
     }
 
     /// What islands have in common.
-    fn settle(&mut self, contacts: &[Contact], impulses: &[Impulse], model: &Model, lost_j_kg: f64) {
+    fn settle(
+        &mut self,
+        contacts: &[Contact],
+        impulses: &[Impulse],
+        model: &Model,
+        lost_j_kg: f64,
+        late_m: impl Fn(&Contact) -> f64,
+    ) {
         let Push { wanted_m, multipliers, first, islands, accounts, taken_j, .. } = self;
         let joins = |(contact, (p, multiplier)): &(&Contact, (&Impulse, &f64))| {
             p.x > 0.0 || **multiplier > 0.0 || contact.gap_m <= rounding_m(model, contact)
@@ -131,7 +149,7 @@ impl Push {
         first.clear();
         first.extend((0..model.bodies.len()).map(|body| islands.first(body)));
         accounts.clear();
-        accounts.resize(model.bodies.len(), Account::default());
+        accounts.resize(model.bodies.len(), Account { part: 1.0, ..Account::default() });
         for contact in joining() {
             accounts[islands.of(model, &contact)].is_held |= contact.is_fixed(model);
         }
@@ -145,13 +163,37 @@ impl Push {
         for ((contact, (wanted_m, multiplier)), taken_j) in contacts.iter().zip(pushes).zip(&*taken_j) {
             let account = &mut accounts[islands.of(model, contact)];
             account.taken_j += taken_j;
-            if *wanted_m > PART * DEEP * size_m(model, contact) {
+            if *wanted_m > late_m(contact).max(PART * DEEP * size_m(model, contact)) {
                 account.least = PART;
             }
             account.is_pushed |= *multiplier > 0.0;
         }
         for (i, body) in model.bodies.iter().enumerate().filter(|(_, body)| !body.driven) {
             accounts[first[i]].taken_j += body.mass_kg * lost_j_kg;
+        }
+    }
+
+    /// Lets islands go only so far that nothing in them gets deeper than the deepest was.
+    fn hold_back(&mut self, problem: &ContactProblem) {
+        let Push { wanted_m, moved, first, accounts, .. } = self;
+        for (wanted_m, block) in wanted_m.iter().zip(&problem.blocks) {
+            for end in block.ends() {
+                let deepest_m = &mut accounts[first[end.body]].deepest_m;
+                *deepest_m = deepest_m.max(*wanted_m);
+            }
+        }
+        for (wanted_m, block) in wanted_m.iter().zip(&problem.blocks) {
+            let deeper_m = -block.normal_motion(moved);
+            for end in block.ends() {
+                let account = &mut accounts[first[end.body]];
+                let left_m = account.deepest_m - wanted_m;
+                if deeper_m > left_m {
+                    account.part = account.part.min(left_m / deeper_m);
+                }
+            }
+        }
+        for (moved, first) in moved.iter_mut().zip(&*first) {
+            *moved = moved.times(accounts[*first].part);
         }
     }
 

@@ -3,7 +3,7 @@
 //! those just after.
 
 use crate::collide::Contact;
-use crate::collide::approach::{Approach, NormalMotion};
+use crate::collide::approach::{Approach, NormalMotion, comes};
 use crate::collide::closed::is_closed_to_rounding;
 use crate::collide::islands::Islands;
 use crate::deadline::Deadline;
@@ -15,9 +15,6 @@ use crate::solve::problem::ContactProblem;
 use crate::solve::twist::Twist;
 use crate::state::State;
 use nalgebra::Vector3;
-
-/// An approach, of the speed of the bodies with the step's forces, that strikes nothing.
-const ROUNDING: f64 = 1e-9;
 
 /// Whether a contact may have an impact: what lasts has none.
 type MayStrike<'a> = dyn Fn(&Contact) -> bool + 'a;
@@ -116,11 +113,9 @@ impl Blow {
             .iter()
             .map(|contact| {
                 let motion = normal_motion(contact, state, free);
-                // Bodies that rest on each other fall alike: what they approach each other by is rounding.
                 let speed = |(i, r_W, _): (usize, Vector3<f64>, f64)| free[i].v.norm() + free[i].w.norm() * r_W.norm();
-                let rounding = ROUNDING * contact.ends().map(speed).fold(0.0, f64::max);
                 may_strike(contact)
-                    && -motion.before > rounding
+                    && comes(motion, contact.ends().map(speed))
                     && self.approach.strikes(model, contact, motion, step_s)
             })
             .collect();

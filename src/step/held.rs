@@ -3,14 +3,14 @@
 //! The step's forces act in an impact's step as in any other (`Approach::least`): a ball that comes back from a floor
 //! has fallen for that step. Of two bodies what counts is by how much forces move one against the other, and one that
 //! others hold up they do not move: if a ball that comes back from it had not fallen for the step either, it would gain
-//! m g Δt v. So a body that a contact without an impact, and with something else than what strikes it, holds, as it did
-//! in the last step, is moved as it was then. If that contact opens by the impact, nothing has held the body, and the
-//! step is solved again. What strikes is decided by the forces alone, and pins hold nothing here.
+//! m g Δt v. So a body that a pin, or a contact without an impact, and to something else than what strikes it, holds, as it
+//! did in the last step, is moved as it was then. If that contact opens by the impact, nothing has held the body, and the
+//! step is solved again. What strikes is decided by the forces alone.
 
 use super::blow::normal_motion;
 use super::scratch::Scratch;
-use crate::collide::approach::{Approach, NormalMotion, rebounding};
-use crate::collide::{Contact, Partner};
+use crate::collide::approach::Approach;
+use crate::collide::{Contact, Partner, pinned_to};
 use crate::model::Model;
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
@@ -94,22 +94,35 @@ impl Held {
             return;
         }
         moves.resize(model.bodies.len(), None);
+        let change = |i: usize| {
+            let (now, free) = (&state.bodies[i], &free[i]);
+            Twist { v: free.v - now.v_WB, w: free.w - now.w_WB }
+        };
+        let speed = |i: usize, u: &Twist| u.v.norm() + u.w.norm() * model.bodies[i].bounding_radius_m;
+        // Unless it was moved by more than forces do: by an impact of the last step.
+        let mut hold = |i: usize, partner: Partner| {
+            let (now, before, change) = (&state.bodies[i], &earlier[i], change(i));
+            // What holds a body holds it against the forces; what has sent it aside may have been an impact.
+            let along = change.v.try_normalize(0.0).unwrap_or_default();
+            let moved = Twist { v: along * along.dot(&(now.v_WB - before.v_WB)), w: now.w_WB - before.w_WB };
+            if speed(i, &moved) <= MOST * speed(i, &change) {
+                let by = Some(partner).filter(|by| moves[i].is_none_or(|moves| moves.by == Some(*by)));
+                moves[i] = Some(Moves { moved, by });
+            }
+        };
+        if !model.pins.is_empty() {
+            for i in 0..model.bodies.len() {
+                pinned_to(model, i).for_each(|partner| hold(i, partner));
+            }
+        }
         let lasts = contacts.iter().zip(&*strikes).zip(&*impulses).filter(|((_, strikes), p)| !**strikes && p.x > 0.0);
         for ((contact, _), _) in lasts {
             let opens = normal_motion(contact, state, free).before;
             for (i, ..) in contact.ends().filter(|(i, ..)| !is_let_go[*i]) {
-                let (now, before, radius_m) = (&state.bodies[i], &earlier[i], model.bodies[i].bounding_radius_m);
-                let speed = |u: &Twist| u.v.norm() + u.w.norm() * radius_m;
-                let change = Twist { v: free[i].v - now.v_WB, w: free[i].w - now.w_WB };
-                let forced = speed(&change);
-                // What holds a body holds it against the forces; what has sent it aside may have been an impact.
-                let along = change.v.try_normalize(0.0).unwrap_or_default();
-                let moved = Twist { v: along * along.dot(&(now.v_WB - before.v_WB)), w: now.w_WB - before.w_WB };
+                let forced = speed(i, &change(i));
                 // Bodies on each other fall alike: their gap need not close by the forces.
-                if opens < forced && contact.gap_m < step_s * forced && speed(&moved) <= MOST * forced {
-                    let by =
-                        Some(contact.partner_of(i)).filter(|by| moves[i].is_none_or(|moves| moves.by == Some(*by)));
-                    moves[i] = Some(Moves { moved, by });
+                if opens < forced && contact.gap_m < step_s * forced {
+                    hold(i, contact.partner_of(i));
                 }
             }
         }
@@ -123,8 +136,7 @@ impl Held {
                 held(i).map_or([free[i].v - at.v_WB, free[i].w - at.w_WB], |Moves { moved, .. }| [moved.v, moved.w])
             }));
             // An impact is one by the forces that act; what they take of its rebound is what they move.
-            let motion = NormalMotion { turning: block.turning, ..normal_motion(contact, state, free) };
-            block.ask_for(rebounding(model, contact, motion, gained, step_s));
+            block.hold_at(contact, model, gained, step_s);
         }
     }
 
@@ -139,8 +151,10 @@ impl Held {
         };
         let mut any = false;
         for (i, held) in moves.iter().enumerate().filter_map(|(i, moves)| Some((i, (*moves)?))) {
-            let is_held_beside =
-                |by: Partner| of(i, false).any(|(contact, p)| p.x > 0.0 && contact.partner_of(i) != by);
+            let is_held_beside = |by: Partner| {
+                of(i, false).any(|(contact, p)| p.x > 0.0 && contact.partner_of(i) != by)
+                    || pinned_to(model, i).any(|partner| partner != by)
+            };
             let mut struck_by = of(i, true).map(|(contact, _)| contact.partner_of(i));
             if !model.bodies[i].driven && struck_by.any(|by| held.is_held_beside(by) && !is_held_beside(by)) {
                 is_let_go[i] = true;

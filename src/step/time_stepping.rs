@@ -388,8 +388,10 @@ impl TimeStepping {
             reduction.apply(&mut s.found);
         }
         let is_half_way = self.approach == Approach::Middle;
-        let hold = |contact: &Contact| self.lasting.of(contact).filter(|_| is_half_way);
-        let mut asked = self.rebounds.asked(&s.found);
+        let hold = |contact: &Contact| hold_of(contact, &self.lasting, state, &s.free).filter(|_| is_half_way);
+        // Whatever rebounds by another law than Newton's has done so before the step's own impulses.
+        let is_newton = self.blow.is_none();
+        let mut asked = if is_newton || is_half_way { self.rebounds.asked(&s.found) } else { Some(plastic(&s.found)) };
         let contacts = asked.as_mut().unwrap_or(&mut s.found);
         s.problem.gather_held(model, state, &s.free, contacts, (self.approach, step_s), hold);
         if !model.pins.is_empty() {
@@ -398,7 +400,6 @@ impl TimeStepping {
             pins::at(model, state, closing, &mut self.pins);
             s.problem.pin(model, state, &s.free, &self.pins);
         }
-        let is_newton = self.blow.is_none();
         let struck = self.blow.as_mut().filter(|_| !s.found.is_empty()).and_then(|blow| {
             let (solver, work) = (&mut self.solver, &mut s.work);
             let mut plastic =
@@ -475,9 +476,27 @@ impl TimeStepping {
         let taken_j = |taken: &mut Vec<f64>| s.problem.taken_j(state, free, (&s.impulses, &s.response), taken);
         let through = (&s.impulses[..], &s.response[..], step_s);
         let left_m = |contact: &Contact| if self.is_far { left_m(contact, state, &s.free, step_s) } else { 0.0 };
+        // A kick half-way sees an impact when its gap has closed already.
+        let late_s = if is_half_way { step_s } else { 0.0 };
+        let late_m = |contact: &Contact| -late_s * normal_motion(contact, state, &s.free).before.min(0.0);
         self.position_correction == PositionCorrection::Projection
-            && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg, left_m), &mut s.work)
+            && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg), (left_m, late_m), &mut s.work)
     }
+}
+
+/// What friction did at a contact that lasts into the step.
+fn hold_of(contact: &Contact, lasting: &Lasting, state: &State, free: &[Twist]) -> Option<Hold> {
+    let hold = lasting.of(contact)?;
+    let forced_m_s = contact.ends().map(|(i, r_W, _)| {
+        let (at, free) = (&state.bodies[i], &free[i]);
+        (free.v - at.v_WB).norm() + (free.w - at.w_WB).norm() * r_W.norm()
+    });
+    let before_W = contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]);
+    Some(hold.before(&before_W, forced_m_s.sum()))
+}
+
+fn plastic(contacts: &[Contact]) -> Vec<Contact> {
+    contacts.iter().map(|contact| Contact { restitution: 0.0, ..*contact }).collect()
 }
 
 /// The step's contact problem after a blow that took care of all restitution, and its contacts.
@@ -491,7 +510,7 @@ fn go_on_after(
     hold: impl Fn(&Contact) -> Option<Hold>,
 ) -> Vec<Contact> {
     let free: Vec<Twist> = free.iter().zip(&blow.response).map(|(a, b)| Twist { v: a.v + b.v, w: a.w + b.w }).collect();
-    let mut plastic: Vec<Contact> = found.iter().map(|contact| Contact { restitution: 0.0, ..*contact }).collect();
+    let mut plastic = plastic(found);
     let mut is_struck = blow.is_struck.iter();
     let hold = |contact: &Contact| {
         let is_struck = is_struck.next();

@@ -61,7 +61,7 @@ impl Approach {
         step_s: f64,
         hold: Option<Hold>,
     ) -> Option<f64> {
-        hold.map_or_else(|| self.least(model, contact, motion, step_s), |hold| Some(-motion.before * hold.sent_back()))
+        hold.map_or_else(|| self.least(model, contact, motion, step_s), |_| Some(-motion.before))
     }
 
     /// Whether a contact that pressed in this step lasts: it was held, or came to rest.

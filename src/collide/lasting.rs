@@ -16,15 +16,9 @@ const STUCK: f64 = 1.0 - 1e-9;
 /// Of the speed of the contact's points: what is below it does not open or close, or slip.
 const NO_SPEED: f64 = 1e-9;
 
-/// Of what the step's forces do to the bodies at a contact: a velocity before the kick that rounding has left. Sent
-/// back, it would never end, and impulses would swing with it.
-const RESTING: f64 = 1e-9;
-
 /// What friction did in the last step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hold {
-    /// The bodies are at rest against each other: the contact is held in the velocity after the kick.
-    Resting,
     Stuck,
     /// With this slip after the kick, in m/s, world axes.
     Slid(Vector3<f64>),
@@ -36,17 +30,6 @@ impl Hold {
     pub fn of(contact: &Contact, normal: f64, tangential: f64, after_W: &Vector3<f64>) -> Option<Hold> {
         let slid = contact.friction > 0.0 && tangential >= STUCK * contact.friction * normal;
         (normal > 0.0).then(|| if slid { Hold::Slid(along(contact, after_W)) } else { Hold::Stuck })
-    }
-
-    /// The same, of bodies whose points have this velocity against each other before the kick. `forced_m_s`: what the
-    /// step's forces do to the bodies there.
-    pub fn before(self, before_W: &Vector3<f64>, forced_m_s: f64) -> Hold {
-        if before_W.norm() <= RESTING * forced_m_s { Hold::Resting } else { self }
-    }
-
-    /// Of the velocity before the kick, what is sent back: the contact is held in the mean of that and the one after.
-    pub fn sent_back(self) -> f64 {
-        if self == Hold::Resting { 0.0 } else { 1.0 }
     }
 }
 

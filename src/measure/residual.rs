@@ -6,10 +6,9 @@
 //! residual of a contact (V. Acary, B. Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, Springer 2008).
 //!
 //! A contact that lasts through steps whose kick is half-way (`collide::lasting`: by what the steps before it showed)
-//! obeys the law in the mean of the velocities before and after: u is u⁻ + u⁺; or u⁺, where u⁻ is
-//! rounding: what is at rest does not swing. Friction of one that slid may be against the velocity at the end of the step
-//! instead, as of one that is new: it comes to rest then, where the mean would turn its slip over for ever. That is u⁺
-//! and half of what its slip changed by from the last kick to this one.
+//! obeys the law in the mean of the velocities before and after: u is u⁻ + u⁺. Friction of one that slid may be against
+//! the velocity at the end of the step instead, as of one that is new: it comes to rest then, where the mean would turn
+//! its slip over for ever. That is u⁺ and half of what its slip changed by from the last kick to this one.
 //!
 //! In an impact with tangential restitution u_t stands for u_t⁺ + ε_t u_t⁻, from the velocities before and after.
 //!
@@ -88,7 +87,7 @@ impl<'a> Seen<'a> {
         let (mut trace, mut scale) = (0.0, f64::INFINITY);
         let (mut forced_m_s, mut is_held) = (0.0, false);
         for (i, r, _) in contact.ends() {
-            forced_m_s += moved[i].gained.reach(r.norm());
+            forced_m_s += HELD * moved[i].gained.reach(r.norm());
             is_held |= pressing[i].has_beside(contact.partner_of(i));
             let (of, r_m, compliance) = (&moved[i], r.norm(), moved[i].compliance(&r));
             trace += compliance;
@@ -102,10 +101,8 @@ impl<'a> Seen<'a> {
         }
         let [before, free, turning] = [met.before, met.free, met.turning].map(|u| contact.normal.dot(&u));
         let motion = NormalMotion { before, gained: free - before, turning };
-        let held_m_s = if is_held { HELD * forced_m_s } else { 0.0 };
-        let step_length = 1.0 / trace;
-        let hold = hold.map(|hold| hold.before(&met.before, forced_m_s));
-        Seen { model, contact, met, through, hold, motion, held_m_s, asked: None, step_length, scale }
+        let held_m_s = if is_held { forced_m_s } else { 0.0 };
+        Seen { model, contact, met, through, hold, motion, held_m_s, asked: None, step_length: 1.0 / trace, scale }
     }
 
     /// The normal velocity that the law asks for at least, u_n ≥ least. None: the contact is not there in this step.
@@ -180,7 +177,6 @@ impl<'a> Seen<'a> {
         }
         let missed = |u: &Vector3<f64>| self.missed_at(u, least, impulse_W);
         match self.hold {
-            Some(Hold::Resting) => missed(after),
             Some(Hold::Stuck) => missed(&(after + tangent)),
             Some(Hold::Slid(last)) => {
                 let drift = (tangent - (last - normal * normal.dot(&last))) / 2.0;

@@ -119,7 +119,7 @@ impl Block {
             hold.is_none() && contact.tangential_restitution > 0.0 && approach.strikes(model, contact, motion, step_s);
         let tangential_restitution = if strikes { contact.tangential_restitution } else { 0.0 };
         b.x -= least;
-        let sent_back = hold.map_or(tangential_restitution, Hold::sent_back);
+        let sent_back = if hold.is_some() { 1.0 } else { tangential_restitution };
         let against = Vector3::new(0.0, before.y, before.z) * sent_back;
         if sent_back > 0.0 {
             b += against;

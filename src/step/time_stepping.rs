@@ -388,7 +388,7 @@ impl TimeStepping {
             reduction.apply(&mut s.found);
         }
         let is_half_way = self.approach == Approach::Middle;
-        let hold = |contact: &Contact| hold_of(contact, &self.lasting, state, &s.free).filter(|_| is_half_way);
+        let hold = |contact: &Contact| self.lasting.of(contact).filter(|_| is_half_way);
         // Whatever rebounds by another law than Newton's has done so before the step's own impulses.
         let is_newton = self.blow.is_none();
         let mut asked = if is_newton || is_half_way { self.rebounds.asked(&s.found) } else { Some(plastic(&s.found)) };
@@ -482,17 +482,6 @@ impl TimeStepping {
         self.position_correction == PositionCorrection::Projection
             && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg), (left_m, late_m), &mut s.work)
     }
-}
-
-/// What friction did at a contact that lasts into the step.
-fn hold_of(contact: &Contact, lasting: &Lasting, state: &State, free: &[Twist]) -> Option<Hold> {
-    let hold = lasting.of(contact)?;
-    let forced_m_s = contact.ends().map(|(i, r_W, _)| {
-        let (at, free) = (&state.bodies[i], &free[i]);
-        (free.v - at.v_WB).norm() + (free.w - at.w_WB).norm() * r_W.norm()
-    });
-    let before_W = contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]);
-    Some(hold.before(&before_W, forced_m_s.sum()))
 }
 
 fn plastic(contacts: &[Contact]) -> Vec<Contact> {

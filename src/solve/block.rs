@@ -152,7 +152,8 @@ impl Block {
         self.least = least;
     }
 
-    /// Asks an impact for the rebound of bodies that others hold: these and the step's forces add so much to it, in m/s.
+    /// Asks an impact for the rebound of bodies that others hold: these and the step's forces add `gained` to it, in
+    /// m/s.
     pub fn hold_at(&mut self, contact: &Contact, model: &Model, gained: f64, step_s: f64) {
         self.held = Some(gained);
         let motion = NormalMotion { before: self.before.x, gained, turning: self.turning };

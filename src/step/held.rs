@@ -3,9 +3,9 @@
 //! The step's forces act in an impact's step as in any other (`Approach::least`): a ball that comes back from a floor
 //! has fallen for that step. Of two bodies what counts is by how much forces move one against the other, and one that
 //! others hold up they do not move: if a ball that comes back from it had not fallen for the step either, it would gain
-//! m g Δt v. So a body that a pin, or a contact without an impact, and to something else than what strikes it, holds, as it
-//! did in the last step, is moved as it was then. If that contact opens by the impact, nothing has held the body, and the
-//! step is solved again. What strikes is decided by the forces alone.
+//! m g Δt v. So a body that a pin holds, or a contact without an impact and with something else than what strikes it,
+//! as it did in the last step, is moved as it was then. If that contact opens by the impact, nothing has held the body,
+//! and the step is solved again. What strikes is decided by the forces alone.
 
 use super::blow::normal_motion;
 use super::scratch::Scratch;

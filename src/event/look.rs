@@ -85,6 +85,12 @@ impl Look {
         s.min(self.known_s)
     }
 
+    /// The gap cannot close in so short a time, which is all that the least of many asks: without a root.
+    pub(super) fn is_safe_for(&self, s: f64, delta_m: f64) -> bool {
+        let left_m = self.gap_m + (self.rate_m_s - 0.5 * self.toward_m_s2 * s) * s;
+        self.gap_m > delta_m && self.toward_m_s2 >= 0.0 && left_m > 0.0 && s <= self.known_s
+    }
+
     /// What comes nearer by rounding alone, the impact would not see either, however deep it is.
     pub(super) fn is_touching(&self, delta_m: f64, slow_m_s: f64) -> bool {
         self.gap_m <= delta_m && self.rate_m_s < -slow_m_s

@@ -38,8 +38,9 @@ pub fn first(paths: &Paths, held: &[Held], window: Window, work: &mut Work) -> O
     let bodies = &paths.model.bodies;
     if let Some(container) = &paths.model.container {
         for (i, body) in bodies.iter().enumerate().filter(|(_, body)| body.feels_container()) {
+            let bounds = paths.bounds(i, window.to_s);
             for (f, face) in container.faces.iter().enumerate() {
-                note(with_face(paths, (i, body), (f, face), held, window, work), &mut window);
+                note(with_face(paths, (i, body, &bounds), (f, face), held, window, work), &mut window);
             }
         }
     }
@@ -58,13 +59,12 @@ pub fn first(paths: &Paths, held: &[Held], window: Window, work: &mut Work) -> O
 
 fn with_face(
     paths: &Paths,
-    (i, body): (usize, &Body),
+    (i, body, bounds): (usize, &Body, &Bounds),
     (f, face): (usize, &Face),
     held: &[Held],
     window: Window,
     work: &mut Work,
 ) -> Option<f64> {
-    let bounds = paths.bounds(i, window.to_s);
     let radius_m = body.bounding_radius_m;
     let is_held = |node: u32| held.iter().any(|h| is_same_feature(body, h, i, f, node));
     let rest = held.iter().any(|h| h.touch.key().0 == i && h.touch.key().1.is_none() && h.touch.key().2.0 == f as u32);
@@ -87,7 +87,7 @@ fn with_face(
             return Some((centre.safe_s(delta_m, 0.0), false));
         }
         let slow = NO_SLIP * speed_m_s(paths.model, body, &at);
-        let (curvature_m, known_s) = roundness(body, &at, &face.normal, &bounds);
+        let (curvature_m, known_s) = roundness(body, &at, &face.normal, bounds);
         let toward_m_s2 = bounds.toward(&face.normal, arm_m) + bounds.w * bounds.w * curvature_m;
         let flattest = Cap::facing(body, &at, &face.normal).filter(|cap| !is_held(cap.first()));
         // Of all points of the rim, wherever the lowest will be.
@@ -109,7 +109,9 @@ fn with_face(
             let look = Look { gap_m, rate_m_s, toward_m_s2, known_s, is_exact: arm_m == 0.0 && bounds.beside == 0.0 };
             let of =
                 if flat.as_ref().is_some_and(|(_, cap, _)| cap.has(node)) { &mut of_flattest_s } else { &mut safe_s };
-            *of = of.min(look.safe_s(delta_m, slow));
+            if !look.is_safe_for(*of, delta_m) {
+                *of = of.min(look.safe_s(delta_m, slow));
+            }
             touching |= look.is_touching(delta_m, slow);
         });
         if let Some((look, cap, down)) = &flat {

@@ -98,7 +98,9 @@ impl Approach {
     /// not there in this step.
     pub fn least(&self, model: &Model, contact: &Contact, motion: NormalMotion, step_s: f64) -> Option<f64> {
         let NormalMotion { before, gained, turning } = motion;
-        let gap_m = if is_closed_to_rounding(model, contact) { 0.0 } else { contact.gap_m };
+        // (How large a gap is matters to nothing at an instant.)
+        let is_closed = *self == Approach::Touching || is_closed_to_rounding(model, contact);
+        let gap_m = if is_closed { 0.0 } else { contact.gap_m };
         // The new velocity lasts until the next step's contacts are seen: the gap may close until then.
         let closing = -gap_m / step_s;
         let rebound = -contact.restitution * before.min(0.0);

@@ -10,6 +10,7 @@ use super::law::{Law, MANY, ROUNDING, by_law, goes_on};
 use super::slip;
 use super::touch::Touch;
 use crate::collide::Key;
+use crate::math::few::Few;
 use crate::math::full_pivot::Selection;
 use crate::model::Model;
 use crate::solve::block::Block;
@@ -349,13 +350,18 @@ pub fn margin(model: &Model, state: &State, held: &[Held], gathered: &mut Gather
         (Mode::Stick, p) => p.x.min(held[i].touch.friction() * p.x - p.yz().norm()),
         (Mode::Slide(_), p) => p.x,
     };
+    let all = (0..held.len()).map(of).fold(f64::INFINITY, f64::min) / largest;
+    if all >= PULL || held.len() == 1 {
+        return Margin { least: all, solved };
+    }
     let least_of = |island: &[usize]| island.iter().copied().map(of).fold(f64::INFINITY, f64::min) / largest;
     let mut least = f64::INFINITY;
     let mut p = solved.p.clone();
     for island in &gathered.islands {
         let own: Vec<usize> = island.iter().copied().filter(|i| *i < held.len()).collect();
         let of_own = least_of(&own);
-        let law = if of_own < PULL && own.len() > 1 { law_of(model, state, held, &own, gathered, work) } else { None };
+        let may_share = of_own < PULL && own.len() > 1 && !surely_changes(held, gathered, (island, &own), &solved);
+        let law = if may_share { law_of(model, state, held, &own, gathered, work) } else { None };
         least = least.min(law.as_ref().map_or(of_own, |(_, left)| *left));
         law.iter().for_each(|(of, _)| own.iter().zip(of).for_each(|(i, of)| p[*i] = *of));
     }
@@ -363,6 +369,18 @@ pub fn margin(model: &Model, state: &State, held: &[Held], gathered: &mut Gather
         return Margin { least, solved };
     }
     Margin { least, solved: gathered.solved(p, true) }
+}
+
+/// Whether some contact of an island pulls, or is outside of its cone, however these share their forces.
+fn surely_changes(held: &[Held], gathered: &Gathered, (island, own): (&[usize], &[usize]), solved: &Solved) -> bool {
+    let least = PULL * solved.largest();
+    let known = gathered.known(held, island);
+    let changes = |i: &usize| {
+        let (p, [normal, all]) = (&solved.p[*i], known[island.iter().position(|block| block == i)?]);
+        let slips = held[*i].mode == Mode::Stick && held[*i].touch.friction() * p.x - p.yz().norm() < least;
+        Some((normal && p.x < least) || (all && slips))
+    };
+    own.iter().any(|i| changes(i) == Some(true))
 }
 
 /// Forces by the law of contacts that share bodies, and how far they are from a change: the least force that presses
@@ -375,7 +393,7 @@ fn law_of(
     island: &[usize],
     gathered: &Gathered,
     work: &mut Work,
-) -> Option<(Vec<Impulse>, f64)> {
+) -> Option<(Few<Impulse>, f64)> {
     let part: Vec<Held> = island.iter().map(|i| held[*i].clone()).collect();
     let mut own = Gathered::until(gathered.deadline);
     own.gather(model, state, part.iter().map(|held| &held.touch));

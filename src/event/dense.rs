@@ -8,13 +8,14 @@
 use super::field::Field;
 use super::forces::{Gathered, Held};
 use super::motion::Bounds;
-use super::radau_tableau::{NODES, STAGES};
+use super::radau_tableau::STAGES;
 use super::stiff;
 use crate::integrate::dop853_tableau::{D, EXTRA};
 use crate::integrate::dop853_try;
 use crate::integrate::field::{advanced, sum};
 use crate::integrate::phase::{Phase, phase, state};
 use crate::integrate::rotation::exponential;
+use crate::math::few::Few;
 use crate::model::{Body, Model};
 use crate::solve::Impulse;
 use crate::state::{BodyState, State};
@@ -30,13 +31,14 @@ pub struct Dense {
     pub h: f64,
     /// The next step to try.
     wanted_s: f64,
+    /// Forces have changed since the last step: how long that was says nothing of the next one.
+    pub is_new: bool,
     y: Vec<Phase>,
     end: Vec<Phase>,
     k: Vec<Vec<Phase>>,
-    /// Coefficients of the continuous extension.
+    /// Coefficients of the continuous extension, and the length that it is of: a step that ended earlier keeps it.
     spline: Vec<[Phase; 8]>,
-    /// Of a stiff step; else empty.
-    stages: Vec<Vec<Phase>>,
+    spline_s: f64,
 }
 
 /// A step shorter than this part of the time is none.
@@ -46,6 +48,12 @@ const SHORTEST: f64 = 1e-13;
 /// hardly moves counts as one of so many rad/s.
 const FIRST_RAD: f64 = 0.1;
 const SLOWEST_RAD_S: f64 = 1e-3;
+
+/// After a change: a short way, relative to the size; the error that is asked for, over the tolerance; and the longest
+/// step, over the short way.
+const SHORT: f64 = 0.01;
+const FIRST: f64 = 0.01;
+const LONGEST_FIRST: f64 = 100.0;
 
 /// What a point turns about, m, and what flight counts beside turning: by its own size it changes nothing.
 const LEAST_SIZE_M: f64 = 1e-3;
@@ -78,12 +86,13 @@ impl Dense {
             tolerance,
             t_s: at.time_s,
             h: 0.0,
+            is_new: true,
             wanted_s: FIRST_RAD / fastest.max(SLOWEST_RAD_S),
             y,
             end: vec![Phase::zeros(); n],
             k: vec![vec![Phase::zeros(); n]; 16],
             spline: vec![[Phase::zeros(); 8]; n],
-            stages: Vec::new(),
+            spline_s: 0.0,
         }
     }
 
@@ -106,9 +115,11 @@ impl Dense {
     pub fn step(&mut self, field: &mut Field, end_s: f64, (most_s, stiff_hz): (f64, f64)) -> bool {
         let left_s = end_s - self.t_s;
         let is_stiff = stiff_hz * self.wanted_s.min(most_s).min(left_s) > STIFF && field.can_be_stiff();
-        self.stages.clear();
         if !is_stiff {
             field.at(self.t_s, &self.bodies, &self.y, &mut self.k[0]);
+        }
+        if !is_stiff && std::mem::take(&mut self.is_new) {
+            self.wanted_s = self.wanted_s.min(self.first_s(field));
         }
         let mut failed = false;
         loop {
@@ -122,7 +133,10 @@ impl Dense {
                 if tried_s == wanted_s || factor < 1.0 {
                     self.wanted_s = tried_s * factor;
                 }
-                self.finish(field, tried_s);
+                (self.h, self.spline_s) = (tried_s, tried_s);
+                if !is_stiff {
+                    self.finish(field, tried_s);
+                }
                 return true;
             }
             if field.gathered.deadline.is_over() {
@@ -136,17 +150,34 @@ impl Dense {
         }
     }
 
-    /// The same step, ended earlier.
-    pub fn shorten(&mut self, field: &mut Field, end_s: f64) {
-        let h = end_s - self.t_s;
-        if !self.stages.is_empty() {
-            // The same polynomial.
-            self.stages = NODES.map(|x| (0..self.y.len()).map(|i| self.phase(i, x * h / self.h)).collect()).to_vec();
-            self.end.clone_from(&self.stages[STAGES - 1]);
-        } else {
-            self.attempt(field, h);
+    /// The same step, ended earlier: where its continuous extension is then, as what ends it was found there.
+    pub fn shorten(&mut self, end_s: f64) {
+        self.h = end_s - self.t_s;
+        for place in 0..self.y.len() {
+            self.end[place] = self.phase(place, self.h / self.spline_s);
         }
-        self.finish(field, h);
+    }
+
+    /// The first step to try after a change, from how much the slopes differ over a short way (Hairer & al., II.4): a
+    /// try that fails costs eleven looks at all contacts, this one.
+    fn first_s(&mut self, field: &mut Field) -> f64 {
+        let Dense { bodies, tolerance, t_s, y, end, k, .. } = self;
+        let (y, tolerance) = (&*y, *tolerance);
+        let scale = |y: f64| tolerance * (1.0 + y.abs());
+        let norm = |of: &[Phase]| {
+            let squares = of.iter().zip(y).map(|(of, y)| of.component_div(&y.map(scale)).norm_squared());
+            (squares.sum::<f64>() / (y.len() * Phase::zeros().len()) as f64).sqrt()
+        };
+        let (size, slope) = (norm(y), norm(&k[0]));
+        if slope == 0.0 {
+            return f64::INFINITY;
+        }
+        let short_s = SHORT * size / slope;
+        advanced(y, &[1.0], k, short_s, end);
+        field.at(*t_s + short_s, bodies, end, &mut k[1]);
+        let bends: Vec<Phase> = k[1].iter().zip(&k[0]).map(|(after, before)| after - before).collect();
+        let most = slope.max(norm(&bends) / short_s);
+        libm::pow(FIRST / most, 1.0 / 8.0).min(LONGEST_FIRST * short_s)
     }
 
     /// The same of a step that is stiff. Infinite: there is none so long.
@@ -156,7 +187,7 @@ impl Dense {
         let tried = stiff::attempt(field, &self.bodies, [self.t_s, h], &self.y, scale);
         let Some((stages, error)) = tried else { return f64::INFINITY };
         self.end.clone_from(&stages[STAGES - 1]);
-        self.stages = stages;
+        stiff::polynomial(&self.y, &stages, &mut self.spline);
         error
     }
 
@@ -169,10 +200,6 @@ impl Dense {
 
     /// The continuous extension.
     fn finish(&mut self, field: &mut Field, h: f64) {
-        self.h = h;
-        if !self.stages.is_empty() {
-            return stiff::polynomial(&self.y, &self.stages, &mut self.spline);
-        }
         field.at(self.t_s + h, &self.bodies, &self.end, &mut self.k[12]);
         let mut place = vec![Phase::zeros(); self.y.len()];
         for (i, row) in EXTRA.iter().enumerate() {
@@ -191,8 +218,12 @@ impl Dense {
 
     /// The body at a place of this integrator, within the last step.
     pub fn at(&self, place: usize, t_s: f64) -> BodyState {
-        let x = if self.h > 0.0 { ((t_s - self.t_s) / self.h).clamp(0.0, 1.0) } else { 0.0 };
-        if x == 1.0 { state(&self.end[place]) } else { state(&self.phase(place, x)) }
+        let into_s = t_s - self.t_s;
+        if self.h > 0.0 && into_s >= self.h {
+            return state(&self.end[place]);
+        }
+        let x = if self.h > 0.0 { (into_s / self.spline_s).max(0.0) } else { 0.0 };
+        state(&self.phase(place, x))
     }
 
     /// By the continuous extension.
@@ -210,11 +241,11 @@ impl Dense {
         let series = self.series(place);
         let part = |k: usize, row: usize| series[k].fixed_rows::<3>(row).norm();
         let half = |k: usize| 0.5_f64.powi(k as i32);
-        let h2 = self.h * self.h;
+        let h2 = self.spline_s * self.spline_s;
         let acceleration: Vector3<f64> = series[2].fixed_rows::<3>(0) * (2.0 / h2);
         let beside = (3..8).map(|k| (k * (k - 1)) as f64 * part(k, 0) * half(k - 2)).sum::<f64>() / h2;
         let w = (0..8).map(|k| part(k, 6) * half(k)).sum();
-        let alpha = (1..8).map(|k| k as f64 * part(k, 6) * half(k - 1)).sum::<f64>() / self.h;
+        let alpha = (1..8).map(|k| k as f64 * part(k, 6) * half(k - 1)).sum::<f64>() / self.spline_s;
         Bounds { acceleration, beside, w, alpha }
     }
 
@@ -241,7 +272,7 @@ pub struct Projected {
     /// Something had to be moved.
     pub moved: bool,
     /// Impulses of the contacts and pins gathered; none: no velocity had to change.
-    pub p: Vec<Impulse>,
+    pub p: Few<Impulse>,
 }
 
 /// Puts what is held back in place: gaps closed by the smallest change in the metric of the masses, and no velocity
@@ -252,10 +283,9 @@ pub fn project(model: &Model, state: &mut State, held: &[Held], gathered: &mut G
         return Projected::default();
     }
     let moved = close_gaps(model, state, held, gathered);
-    gathered.gather_velocities(model, state, held.iter().map(|held| &held.touch));
     let speed = state.bodies.iter().map(|at| at.v_WB.amax()).fold(0.0, f64::max);
     let Some(solved) = gathered.stop(held, ROUNDING_OF_SPEED * speed) else {
-        return Projected { moved, p: Vec::new() };
+        return Projected { moved, p: Few::new() };
     };
     if solved.holds {
         for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
@@ -273,27 +303,27 @@ const ROUNDING_OF_PLACE: f64 = 4.0 * f64::EPSILON;
 /// Displacements that follow each other, as turns are not displacements: what the second leaves is rounding.
 const TRIES: u32 = 3;
 
-/// Whether there was any gap.
+/// Whether there was any gap. Velocities are gathered where the bodies are then.
 fn close_gaps(model: &Model, state: &mut State, held: &[Held], gathered: &mut Gathered) -> bool {
     for tries in 0..TRIES {
         gathered.gather_velocities(model, state, held.iter().map(|held| &held.touch));
-        let mut largest = 0.0_f64;
+        let gaps_m = gathered.here.iter().map(|here| here.contact.gap_m.abs()).fold(0.0, f64::max);
+        let apart_m = model.pins.iter().map(|pin| pin.apart_W(&state.bodies).norm()).fold(0.0, f64::max);
+        let extent = |(at, body): (&BodyState, &Body)| at.p_WB.amax() + body.bounding_radius_m;
+        let extent_m = state.bodies.iter().zip(&model.bodies).map(extent).fold(0.0, f64::max);
+        let least_m = ROUNDING_OF_PLACE * extent_m;
+        if gaps_m.max(apart_m) <= least_m {
+            return tries > 0;
+        }
         for (block, here) in gathered.problem.blocks.iter_mut().zip(&gathered.here) {
             block.b = Vector3::new(here.contact.gap_m, 0.0, 0.0);
-            largest = largest.max(here.contact.gap_m.abs());
         }
         for (block, pin) in gathered.problem.blocks.iter_mut().skip(held.len()).zip(&model.pins) {
             block.b = pin.apart_W(&state.bodies);
-            largest = largest.max(block.b.norm());
         }
-        let extent = |(at, body): (&BodyState, &Body)| at.p_WB.amax() + body.bounding_radius_m;
-        let extent_m = state.bodies.iter().zip(&model.bodies).map(extent).fold(0.0, f64::max);
-        if largest <= ROUNDING_OF_PLACE * extent_m {
-            return tries > 0;
-        }
-        let closed = gathered.close(held.len());
+        let closed = gathered.close(held.len(), least_m);
         if !closed.holds {
-            return true;
+            break;
         }
         for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
             at.p_WB += closed.added[i].v;
@@ -305,5 +335,6 @@ fn close_gaps(model: &Model, state: &mut State, held: &[Held], gathered: &mut Ga
             }
         }
     }
+    gathered.gather_velocities(model, state, held.iter().map(|held| &held.touch));
     true
 }

@@ -11,7 +11,8 @@ use crate::collide::Contact;
 use crate::collide::approach::Approach;
 use crate::deadline::Deadline;
 use crate::integrate::rotation::gyroscopic_torque_B;
-use crate::math::full_pivot::{Eliminated, Selection};
+use crate::math::few::{Few, OneOrTwo};
+use crate::math::full_pivot::{Eliminated, FEW as FEW_UNKNOWNS, Numbers, Selection, Square};
 use crate::model::{Body, Model};
 use crate::solve::Impulse;
 use crate::solve::block::Block;
@@ -19,7 +20,8 @@ use crate::solve::pins::{self, Pin, PinEnd};
 use crate::solve::problem::ContactProblem;
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::Vector3;
+use smallvec::SmallVec;
 
 /// How a contact holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,9 +90,9 @@ pub struct Gathered {
 #[derive(Clone, Debug, Default)]
 pub struct Solved {
     /// f of every contact and pin, in its frame.
-    pub p: Vec<Impulse>,
+    pub p: Few<Impulse>,
     /// Of every body, by the forces.
-    pub added: Vec<Twist>,
+    pub added: OneOrTwo<Twist>,
     /// They keep what was to hold, to rounding.
     pub holds: bool,
 }
@@ -105,6 +107,33 @@ impl Solved {
     /// The norm of the largest force.
     pub fn largest(&self) -> f64 {
         self.p.iter().map(|p| p.norm()).fold(0.0, f64::max)
+    }
+}
+
+/// Forces that the modes of what holds tell, and nothing is left to share.
+pub struct Told<'a> {
+    gathered: &'a Gathered,
+    unknowns: SmallVec<[Unknown; FEW_UNKNOWNS]>,
+    eliminated: Eliminated,
+    normals: Few<f64>,
+}
+
+impl Told<'_> {
+    /// What all bodies' accelerations change by, per radian that a contact's slip turns, its direction by t (unit).
+    /// None: it does not slip, or time is up.
+    pub fn turn(&self, contact: usize, t_W: &Vector3<f64>) -> Option<OneOrTwo<Twist>> {
+        let blocks = &self.gathered.problem.blocks;
+        let block = &blocks[contact];
+        let mut turned = edge(block.friction, &block.frame, t_W) - Vector3::x();
+        turned *= self.normals[contact];
+        let responses = block.responses(&turned);
+        let lacks = |of: &Unknown| -blocks[of.block].row_of(of.row, block, &responses);
+        let lacks: Numbers = self.unknowns.iter().map(lacks).collect();
+        let changes = self.eliminated.solve(&lacks, Selection::Any)?;
+        let mut p = self.gathered.no_forces();
+        p[contact] = turned;
+        self.unknowns.iter().zip(&changes).for_each(|(of, x)| p[of.block] += of.along * *x);
+        Some(self.gathered.solved(p, true).added)
     }
 }
 
@@ -170,6 +199,20 @@ impl Gathered {
 
     /// Fills `islands`, in the order of their first blocks.
     fn part(&mut self, model: &Model) {
+        let moved = |block: &Block| -> OneOrTwo<usize> {
+            block.ends().map(|end| end.body).filter(|i| !model.bodies[*i].driven).collect()
+        };
+        let blocks = &self.problem.blocks;
+        let mut bodies = blocks.iter().map(moved);
+        if let Some(first) = bodies.next()
+            && first.len() == 1
+            && bodies.all(|other| other == first)
+        {
+            self.islands.resize_with(1, Vec::new);
+            self.islands[0].clear();
+            self.islands[0].extend(0..blocks.len());
+            return;
+        }
         let mut of_body: Vec<usize> = (0..model.bodies.len()).collect();
         fn root(of_body: &[usize], mut i: usize) -> usize {
             while of_body[i] != i {
@@ -177,11 +220,7 @@ impl Gathered {
             }
             i
         }
-        let moved = |block: &Block| {
-            let bodies: Vec<usize> = block.ends().map(|end| end.body).filter(|i| !model.bodies[*i].driven).collect();
-            bodies
-        };
-        for block in &self.problem.blocks {
+        for block in blocks {
             if let [a, b] = moved(block)[..] {
                 let [a, b] = [a, b].map(|i| root(&of_body, i));
                 of_body[a.max(b)] = a.min(b);
@@ -189,7 +228,7 @@ impl Gathered {
         }
         self.islands.clear();
         let mut place = vec![None; model.bodies.len()];
-        for (k, block) in self.problem.blocks.iter().enumerate() {
+        for (k, block) in blocks.iter().enumerate() {
             let of = moved(block).first().map(|i| root(&of_body, *i));
             match of.and_then(|of| place[of]) {
                 Some(island) => Vec::push(&mut self.islands[island], k),
@@ -238,7 +277,8 @@ impl Gathered {
         self.solve(&self.rows(modes.iter().copied()), Selection::Least)
     }
 
-    /// Changes of velocity that leave none along the rows that hold; none: there is not more than `least`.
+    /// Changes of velocity that leave none along the rows that hold; none: there is not more than `least`, their
+    /// rounding.
     pub fn stop(&self, held: &[Held], least: f64) -> Option<Solved> {
         let rows = self.rows(self.modes(held));
         let off = |(block, rows): (&Block, &Rows)| match rows {
@@ -247,14 +287,14 @@ impl Gathered {
             Rows::All => block.b.amax(),
         };
         let largest = self.problem.blocks.iter().zip(&rows).map(off).fold(0.0, f64::max);
-        (largest > least).then(|| self.solve(&rows, Selection::Any))
+        (largest > least).then(|| self.solve_to(&rows, Selection::Any, least))
     }
 
-    /// Displacements that close b, of so many contacts along their normals, of pins whole.
-    pub fn close(&self, contacts: usize) -> Solved {
-        let mut rows = vec![Rows::Normal(Vector3::x()); contacts];
+    /// Displacements that close b, of so many contacts along their normals, of pins whole; `least`: their rounding.
+    pub fn close(&self, contacts: usize, least: f64) -> Solved {
+        let mut rows = Few::from_elem(Rows::Normal(Vector3::x()), contacts);
         rows.resize(self.problem.blocks.len(), Rows::All);
-        self.solve(&rows, Selection::Any)
+        self.solve_to(&rows, Selection::Any, least)
     }
 
     /// Modes of what is held, slips along what they are now.
@@ -266,19 +306,22 @@ impl Gathered {
     }
 
     /// What the blocks' forces may be: of contacts by their modes, of pins all.
-    fn rows(&self, modes: impl Iterator<Item = Mode>) -> Vec<Rows> {
+    fn rows(&self, modes: impl Iterator<Item = Mode>) -> Few<Rows> {
         let of = |(mode, block): (Mode, &Block)| match mode {
             Mode::Stick => Rows::All,
             Mode::Slide(d) => Rows::Normal(edge(block.friction, &block.frame, &d)),
         };
-        let mut rows: Vec<Rows> = modes.zip(&self.problem.blocks).map(of).collect();
+        let mut rows: Few<Rows> = modes.zip(&self.problem.blocks).map(of).collect();
         rows.resize(self.problem.blocks.len(), Rows::All);
         rows
     }
 
     /// Of contacts that share forces, those that would pull are left out as long as the others can hold them: which of
     /// them press decides how a slab that spins is slowed. Each island by itself.
-    fn push_only(&self, rows: Vec<Rows>, mut all: Solved, contacts: usize) -> Solved {
+    fn push_only(&self, rows: Few<Rows>, mut all: Solved, contacts: usize) -> Solved {
+        if all.p.iter().take(contacts).all(|p| p.x >= 0.0) {
+            return all;
+        }
         let mut changed = false;
         for island in &self.islands {
             let own: Vec<usize> = island.iter().copied().filter(|i| *i < contacts).collect();
@@ -297,9 +340,9 @@ impl Gathered {
     }
 
     /// None: the others cannot hold them.
-    fn push_only_of(&self, island: &[usize], own: &[usize], rows: &[Rows], all: &Solved) -> Option<Vec<Impulse>> {
+    fn push_only_of(&self, island: &[usize], own: &[usize], rows: &[Rows], all: &Solved) -> Option<Few<Impulse>> {
         let scale = island.iter().map(|i| self.problem.blocks[*i].b.norm()).fold(0.0, f64::max);
-        let mut rows = rows.to_vec();
+        let mut rows: Few<Rows> = rows.iter().copied().collect();
         let mut p = all.p.clone();
         for _ in own {
             let worst = own.iter().copied().min_by(|a, b| p[*a].x.total_cmp(&p[*b].x))?;
@@ -307,7 +350,7 @@ impl Gathered {
                 break;
             }
             rows[worst] = Rows::None;
-            p = vec![Impulse::zeros(); self.problem.blocks.len()];
+            p = self.no_forces();
             let holds = solve(&self.problem, island, &rows, Selection::Least, &mut p, self.deadline);
             let now = self.solved(p, holds);
             let lifts = |i: &usize| self.problem.blocks[*i].velocity(&now.added).x.abs() > CONSISTENT * scale;
@@ -319,24 +362,63 @@ impl Gathered {
         Some(p)
     }
 
+    /// Of an island's blocks: whether the normal part of its force, and whether all of it, is the same however they share
+    /// their forces.
+    pub fn known(&self, held: &[Held], island: &[usize]) -> Few<[bool; 2]> {
+        let unknowns = unknowns(island, &self.rows(self.modes(held)));
+        let eliminated =
+            matrix(&self.problem, &unknowns, self.deadline).and_then(|matrix| Eliminated::new(matrix, self.deadline));
+        let is_open = eliminated.map_or_else(|| SmallVec::from_elem(true, unknowns.len()), |it| it.leaves_open());
+        let of_block = |block: usize| {
+            let own = || unknowns.iter().zip(&is_open).filter(move |(of, _)| of.block == block);
+            [own().all(|(of, is_open)| of.row > 0 || !is_open), own().all(|(_, is_open)| !is_open)]
+        };
+        island.iter().map(|block| of_block(*block)).collect()
+    }
+
+    /// The forces of these modes, if the modes alone tell all of them.
+    pub fn told(&self, modes: &[Mode], solved: &Solved) -> Option<Told<'_>> {
+        let [island] = &self.islands[..] else { return None };
+        let slides = |mode: &Mode| matches!(mode, Mode::Slide(_));
+        let is_left_out = |(mode, p): (&Mode, &Impulse)| slides(mode) && p.x == 0.0;
+        if !solved.holds || modes.iter().zip(&solved.p).any(is_left_out) {
+            return None;
+        }
+        let unknowns = unknowns(island, &self.rows(modes.iter().copied()));
+        let eliminated = Eliminated::new(matrix(&self.problem, &unknowns, self.deadline)?, self.deadline)?;
+        let normals = solved.p.iter().map(|p| p.x).collect();
+        eliminated.is_regular().then_some(Told { gathered: self, unknowns, eliminated, normals })
+    }
+
     fn solve(&self, rows: &[Rows], choice: Selection) -> Solved {
-        let mut p = vec![Impulse::zeros(); self.problem.blocks.len()];
+        self.solve_to(rows, choice, 0.0)
+    }
+
+    /// The same; `rounding`: of b, which equations that say the same thing twice differ by.
+    fn solve_to(&self, rows: &[Rows], choice: Selection, rounding: f64) -> Solved {
+        let mut p = self.no_forces();
         let mut holds = true;
         for island in &self.islands {
-            holds &= solve(&self.problem, island, rows, choice, &mut p, self.deadline);
+            let missed = missed(&self.problem, island, rows, choice, &mut p, self.deadline);
+            holds &= missed.is_some_and(|missed| missed.of_all <= CONSISTENT || missed.size <= ROUNDINGS * rounding);
         }
         self.solved(p, holds)
     }
 
     /// No solution.
     pub fn without_forces(&self) -> Solved {
-        self.solved(vec![Impulse::zeros(); self.problem.blocks.len()], false)
+        self.solved(self.no_forces(), false)
+    }
+
+    fn no_forces(&self) -> Few<Impulse> {
+        Few::from_elem(Impulse::zeros(), self.problem.blocks.len())
     }
 
     /// What forces do.
-    pub fn solved(&self, p: Vec<Impulse>, holds: bool) -> Solved {
-        let mut added = Vec::new();
-        self.problem.response(&p, &mut added);
+    pub fn solved(&self, p: impl Into<Few<Impulse>>, holds: bool) -> Solved {
+        let p = p.into();
+        let mut added = OneOrTwo::from_elem(Twist::ZERO, self.free.len());
+        self.problem.add_response(&p, &mut added);
         Solved { p, added, holds }
     }
 }
@@ -387,7 +469,14 @@ fn free_acceleration(model: &Model, state: &State, index: usize) -> Twist {
     Twist { v, w }
 }
 
-/// Forces of an island; the others' are left as they are.
+/// What forces leave of the equations, and that over the terms that it is left of.
+#[derive(Clone, Copy, Debug, Default)]
+struct Missed {
+    size: f64,
+    of_all: f64,
+}
+
+/// Forces of an island, that solve its equations; the others' are left as they are.
 fn solve(
     problem: &ContactProblem,
     island: &[usize],
@@ -396,56 +485,109 @@ fn solve(
     p: &mut [Impulse],
     deadline: Deadline,
 ) -> bool {
+    missed(problem, island, rows, choice, p, deadline).is_some_and(|missed| missed.of_all <= CONSISTENT)
+}
+
+/// Forces of an island, and what they miss. None: there are none.
+fn missed(
+    problem: &ContactProblem,
+    island: &[usize],
+    rows: &[Rows],
+    choice: Selection,
+    p: &mut [Impulse],
+    deadline: Deadline,
+) -> Option<Missed> {
     if let [i] = *island
         && let Rows::Normal(edge) = rows[i]
     {
         let block = &problem.blocks[i];
         let k = block.A.row(0).transpose().dot(&edge);
         p[i] = edge * (-block.b.x / k);
-        return k > 0.0;
+        return (k > 0.0).then(Missed::default);
     }
-    // Unknowns: which block, and the force of one unit of it; equations: which row.
-    let mut unknowns: Vec<(usize, Vector3<f64>, usize)> = Vec::new();
-    for &i in island {
-        match rows[i] {
+    let unknowns = unknowns(island, rows);
+    if unknowns.is_empty() {
+        return Some(Missed::default());
+    }
+    let K = matrix(problem, &unknowns, deadline)?;
+    let rhs: Numbers = unknowns.iter().map(|of| -problem.blocks[of.block].b[of.row]).collect();
+    let (x, size) = solution(&K, &rhs, choice, deadline)?;
+    for (of, x) in unknowns.iter().zip(x.iter()) {
+        p[of.block] += of.along * *x;
+    }
+    let all = amax(&rhs) + K.amax() * amax(&x);
+    Some(Missed { size, of_all: if size == 0.0 { 0.0 } else { size / all } })
+}
+
+/// The smallest impulses that leave no velocity at any contact. None: there are none.
+pub fn stop(problem: &ContactProblem, deadline: Deadline) -> Option<Few<Impulse>> {
+    let contacts = problem.blocks.len();
+    let (island, rows): (Few<usize>, Few<Rows>) = (0..contacts).map(|i| (i, Rows::All)).unzip();
+    let mut p = Few::from_elem(Impulse::zeros(), contacts);
+    solve(problem, &island, &rows, Selection::Least, &mut p, deadline).then_some(p)
+}
+
+/// A force that is looked for, and the equation beside it.
+#[derive(Clone, Copy, Debug)]
+struct Unknown {
+    block: usize,
+    /// One unit of it, in the block's frame.
+    along: Impulse,
+    /// The block's row that it is to close.
+    row: usize,
+}
+
+fn unknowns(island: &[usize], rows: &[Rows]) -> SmallVec<[Unknown; FEW_UNKNOWNS]> {
+    let mut unknowns = SmallVec::new();
+    for &block in island {
+        match rows[block] {
             Rows::None => {}
-            Rows::Normal(edge) => unknowns.push((i, edge, 0)),
-            Rows::All => unknowns.extend((0..3).map(|k| (i, Vector3::ith(k, 1.0), k))),
+            Rows::Normal(along) => unknowns.push(Unknown { block, along, row: 0 }),
+            Rows::All => unknowns.extend((0..3).map(|row| Unknown { block, along: Vector3::ith(row, 1.0), row })),
         }
     }
-    let n = unknowns.len();
-    if n == 0 {
-        return true;
-    }
-    // The matrix alone may be large.
-    if deadline.is_over() {
-        return false;
-    }
-    let mut K = DMatrix::zeros(n, n);
-    for (r, (i, _, k)) in unknowns.iter().enumerate() {
+    unknowns
+}
+
+/// What every unit does to every row. None: out of time, as it may be large.
+fn matrix(problem: &ContactProblem, unknowns: &[Unknown], deadline: Deadline) -> Option<Square> {
+    let blocks = &problem.blocks;
+    let mut K = Square::zeros(unknowns.len());
+    for (c, of) in unknowns.iter().enumerate() {
         if deadline.is_over() {
-            return false;
+            return None;
         }
-        for (c, (j, along, _)) in unknowns.iter().enumerate() {
-            K[(r, c)] = problem.coupling(*i, *j).row(*k).transpose().dot(along);
+        let responses = blocks[of.block].responses(&of.along);
+        for (r, row) in unknowns.iter().enumerate() {
+            K[(r, c)] = blocks[row.block].row_of(row.row, &blocks[of.block], &responses);
         }
     }
-    let rhs = DVector::from_iterator(n, unknowns.iter().map(|(i, _, k)| -problem.blocks[*i].b[*k]));
-    let Some(x) = solution(&K, &rhs, choice, deadline) else { return false };
-    for ((i, along, _), x) in unknowns.iter().zip(x.iter()) {
-        p[*i] += along * *x;
-    }
-    let missed = (&K * &x - &rhs).amax();
-    missed <= CONSISTENT * (rhs.amax() + K.amax() * x.amax())
+    Some(K)
 }
 
 /// Of the right side: what is left of a consistent system.
 const CONSISTENT: f64 = 1e-9;
 
-/// Once more for what rounding has left.
-fn solution(K: &DMatrix<f64>, rhs: &DVector<f64>, choice: Selection, deadline: Deadline) -> Option<DVector<f64>> {
+/// Roundings of one velocity or place that the sum of a few may be wrong by.
+const ROUNDINGS: f64 = 64.0;
+
+fn amax(of: &[f64]) -> f64 {
+    of.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+}
+
+/// What a solution leaves by rounding alone, over the terms that it is left of.
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
+
+/// And what it leaves; once more where that is more than rounding.
+fn solution(K: &Square, rhs: &[f64], choice: Selection, deadline: Deadline) -> Option<(Numbers, f64)> {
+    let left = |x: &[f64]| -> Numbers { rhs.iter().zip(K.times(x)).map(|(rhs, of)| rhs - of).collect() };
     let eliminated = Eliminated::new(K.clone(), deadline)?;
-    let x = eliminated.solve(rhs, choice)?;
-    let again = eliminated.solve(&(rhs - K * &x), choice)?;
-    Some(x + again)
+    let mut x = eliminated.solve(rhs, choice)?;
+    let mut missed = left(&x);
+    if amax(&missed) > ROUNDED * (amax(rhs) + K.amax() * amax(&x)) {
+        let again = eliminated.solve(&missed, choice)?;
+        x.iter_mut().zip(&again).for_each(|(x, again)| *x += again);
+        missed = left(&x);
+    }
+    Some((x, amax(&missed)))
 }

@@ -5,13 +5,13 @@
 //! It works on six numbers a body, and its forces are shared evenly: of many contacts, most of them redundant, this is
 //! what elimination among their forces (`forces`) has no time for.
 
-use super::forces::{Gathered, Held, Mode, Solved};
+use super::forces::{self, Gathered, Held, Mode, Solved};
 use crate::deadline::Deadline;
 use crate::math::full_pivot::Selection;
 use crate::solve::block::Block;
 use crate::solve::island::islands;
 use crate::solve::problem::ContactProblem;
-use crate::solve::{Impulse, newton};
+use crate::solve::{Impulse, exact_contact, newton};
 use crate::work::Work;
 use nalgebra::Vector3;
 
@@ -118,8 +118,40 @@ pub fn by_law(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Law {
     Law::Holds(held, solved)
 }
 
+/// Contacts that one of the simple answers is looked for of.
+const FEW_CONTACTS: usize = 4;
+
+/// Simple answers of the law, of few contacts: all of them stick, or one alone presses. Whether there is one.
+fn solve_at_once(problem: &ContactProblem, p: &mut [Impulse], deadline: Deadline) -> bool {
+    let blocks = &problem.blocks;
+    if blocks.len() > FEW_CONTACTS || blocks.iter().any(|block| block.pin.is_some()) {
+        return false;
+    }
+    if let Some(sticking) = forces::stop(problem, deadline) {
+        let is_lawful = |(block, p): (&Block, &Impulse)| p.x >= 0.0 && p.yz().norm() <= block.friction * p.x;
+        if blocks.iter().zip(&sticking).all(is_lawful) {
+            p.copy_from_slice(&sticking);
+            return true;
+        }
+    }
+    for (i, block) in blocks.iter().enumerate().filter(|(_, block)| block.b.x < 0.0) {
+        let alone = exact_contact::solve(&block.A, &block.b, &Impulse::zeros(), block.friction);
+        let responses = block.responses(&alone);
+        let opens = |other: &Block| other.b.x + other.row_of(0, block, &responses) >= 0.0;
+        if blocks.iter().enumerate().all(|(j, other)| j == i || opens(other)) {
+            p.fill(Impulse::zeros());
+            p[i] = alone;
+            return true;
+        }
+    }
+    false
+}
+
 /// Impulses, or forces, that obey the law, from nothing. Whether they do, to rounding.
 pub(super) fn solve_evenly(problem: &ContactProblem, p: &mut [Impulse], deadline: Deadline, work: &mut Work) -> bool {
+    if solve_at_once(problem, p, deadline) {
+        return true;
+    }
     if newton::solve_evenly(problem, &newton::to_rounding(FEW, deadline), p, work) {
         return true;
     }

@@ -10,6 +10,7 @@ use super::field::Field;
 use super::forces::{Mode, Slip, along};
 use super::radau_tableau::{A, NESTED, NODES, STAGES};
 use crate::integrate::phase::Phase;
+use crate::solve::twist::Twist;
 use nalgebra::{DMatrix, DVector, Quaternion, Vector3, Vector6};
 
 /// Sweeps with directions as they were at the beginning, before Newton's method: velocities differ by the third power
@@ -19,7 +20,7 @@ const AS_BEFORE: u32 = 2;
 /// Newton's steps; half as many is usual.
 const MOST: u32 = 14;
 
-/// Change of a stage in the last of them, over the tolerance; and of a velocity over the largest, which is rounding.
+/// Change of a stage that is left after the last of them, over the tolerance; and of a velocity over the largest, which is rounding.
 const SETTLED: f64 = 1e-3;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -77,6 +78,7 @@ impl Field<'_> {
             return Vec::new();
         }
         let mut turns = Vec::new();
+        let told = self.gathered.told(&modes, &solved);
         for i in self.turning() {
             let (here, Mode::Slide(d)) = (&self.gathered.here[i], modes[i]) else { continue };
             let (slip, t_W) = (here.slip_W(), here.contact.normal.cross(&d));
@@ -84,13 +86,18 @@ impl Field<'_> {
             if speed <= 0.0 {
                 continue;
             }
-            let mut now = modes.clone();
-            now[i] = Mode::Slide(d * libm::cos(TURN_RAD) + t_W * libm::sin(TURN_RAD));
-            let after = self.gathered.hold_as(now.into_iter(), self.choice);
+            let changes = told.as_ref().and_then(|told| told.turn(i, &t_W));
+            let changes = changes.unwrap_or_else(|| {
+                let mut now = modes.clone();
+                now[i] = Mode::Slide(d * libm::cos(TURN_RAD) + t_W * libm::sin(TURN_RAD));
+                let after = self.gathered.hold_as(now.into_iter(), self.choice);
+                let rate = |(a, b): (&Twist, &Twist)| Twist { v: a.v - b.v, w: a.w - b.w }.times(1.0 / TURN_RAD);
+                after.added.iter().zip(&solved.added).map(rate).collect()
+            });
             let does = |b: &usize| {
-                let (v, w) = (after.added[*b].v - solved.added[*b].v, after.added[*b].w - solved.added[*b].w);
+                let (v, w) = (changes[*b].v, changes[*b].w);
                 let w_B = self.state.bodies[*b].q_WB.inverse_transform_vector(&w);
-                Vector6::new(v.x, v.y, v.z, w_B.x, w_B.y, w_B.z) / TURN_RAD
+                Vector6::new(v.x, v.y, v.z, w_B.x, w_B.y, w_B.z)
             };
             let mut from = Vec::new();
             for (b, r_W, sign) in here.contact.ends() {
@@ -160,8 +167,11 @@ pub fn attempt(
         if !size.is_finite() || (tries > AS_BEFORE + 3 && size > 2.0 * last) {
             return None;
         }
+        // What is left falls as these changes do.
+        let falls = size / last;
+        let left = if tries > AS_BEFORE + 1 && falls < 1.0 { size * falls / (1.0 - falls) } else { size };
         last = size;
-        if tries > AS_BEFORE && (size <= SETTLED || largest <= ROUNDING * fastest) {
+        if tries > AS_BEFORE && (left <= SETTLED || largest <= ROUNDING * fastest) {
             follow(y, h, &mut stages, 2 * TURNS_AT_ONCE);
             let error = error(y, &stages, scale);
             return Some((stages, error));

@@ -1,7 +1,8 @@
 //! Linear systems whose equations may say the same thing twice: elimination with full pivoting.
 
 use crate::deadline::Deadline;
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use smallvec::SmallVec;
+use std::ops::{Index, IndexMut};
 
 /// Choice of a solution where a system leaves some of it open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,44 +16,108 @@ pub enum Selection {
 /// Part of the largest pivot below which one is rounding of a redundant contact.
 const RANK: f64 = 1e-11;
 
+/// Part of a solution of K x = 0 that is rounding.
+const TOLD: f64 = 1e-9;
+
+/// Unknowns of a system that needs no allocator: as many as a body has ways to move. (Matrices are copied whole.)
+pub const FEW: usize = 6;
+
+/// The numbers of a small vector, in place.
+pub type Numbers = SmallVec<[f64; FEW]>;
+
+/// A square matrix, column by column; a small one in place.
+#[derive(Clone, Debug)]
+pub struct Square {
+    n: usize,
+    elements: SmallVec<[f64; FEW * FEW]>,
+}
+
+impl Square {
+    pub fn zeros(n: usize) -> Self {
+        Square { n, elements: SmallVec::from_elem(0.0, n * n) }
+    }
+
+    /// The largest absolute value.
+    pub fn amax(&self) -> f64 {
+        self.elements.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+    }
+
+    /// Matrix times vector.
+    pub fn times(&self, x: &[f64]) -> Numbers {
+        let mut product = Numbers::from_elem(0.0, self.n);
+        for (column, x) in self.elements.chunks_exact(self.n.max(1)).zip(x) {
+            product.iter_mut().zip(column).for_each(|(sum, of)| *sum += of * x);
+        }
+        product
+    }
+
+    fn column(&self, j: usize) -> &[f64] {
+        &self.elements[j * self.n..(j + 1) * self.n]
+    }
+
+    /// A column to be changed, and one before it.
+    fn column_after(&mut self, j: usize, before: usize) -> (&mut [f64], &[f64]) {
+        let (left, right) = self.elements.split_at_mut(j * self.n);
+        (&mut right[..self.n], &left[before * self.n..(before + 1) * self.n])
+    }
+}
+
+impl Index<(usize, usize)> for Square {
+    type Output = f64;
+
+    fn index(&self, (i, j): (usize, usize)) -> &f64 {
+        &self.elements[j * self.n + i]
+    }
+}
+
+impl IndexMut<(usize, usize)> for Square {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut f64 {
+        &mut self.elements[j * self.n + i]
+    }
+}
+
 /// Gaussian elimination with full pivoting: P K Q = L U, of which the first `rank` rows mean something.
 pub struct Eliminated {
-    LU: DMatrix<f64>,
-    rows: Vec<usize>,
-    columns: Vec<usize>,
+    LU: Square,
+    rows: SmallVec<[usize; FEW]>,
+    columns: SmallVec<[usize; FEW]>,
     rank: usize,
     deadline: Deadline,
 }
 
 impl Eliminated {
     /// None: out of time.
-    pub fn new(mut LU: DMatrix<f64>, deadline: Deadline) -> Option<Self> {
-        let n = LU.nrows();
-        let (mut rows, mut columns): (Vec<usize>, Vec<usize>) = ((0..n).collect(), (0..n).collect());
+    pub fn new(mut LU: Square, deadline: Deadline) -> Option<Self> {
+        let n = LU.n;
+        let mut rows: SmallVec<[usize; FEW]> = (0..n).collect();
+        let mut columns = rows.clone();
         let largest = LU.amax();
         let mut rank = 0;
+        let all = &mut LU.elements[..];
         while rank < n {
             if deadline.is_over() {
                 return None;
             }
-            let (r, c) = LU.view((rank, rank), (n - rank, n - rank)).icamax_full();
-            let pivot = LU[(rank + r, rank + c)].abs();
-            if pivot.is_nan() || pivot <= RANK * largest {
+            let (r, c) = place_of_pivot(all, n, rank);
+            let pivot = all[c * n + r];
+            if pivot.is_nan() || pivot.abs() <= RANK * largest {
                 break;
             }
-            LU.swap_rows(rank, rank + r);
-            rows.swap(rank, rank + r);
-            LU.swap_columns(rank, rank + c);
-            columns.swap(rank, rank + c);
-            for i in rank + 1..n {
-                LU[(i, rank)] /= LU[(rank, rank)];
+            if r != rank {
+                all.chunks_exact_mut(n).for_each(|column| column.swap(rank, r));
+                rows.swap(rank, r);
             }
-            for j in rank + 1..n {
-                let above = LU[(rank, j)];
-                for i in rank + 1..n {
-                    let factor = LU[(i, rank)];
-                    LU[(i, j)] -= factor * above;
-                }
+            let (before, left) = all.split_at_mut((rank + 1) * n);
+            let column = &mut before[rank * n..];
+            if c != rank {
+                column.swap_with_slice(&mut left[(c - rank - 1) * n..(c - rank) * n]);
+                columns.swap(rank, c);
+            }
+            let factors = &mut column[rank + 1..];
+            factors.iter_mut().for_each(|x| *x /= pivot);
+            for column in left.chunks_exact_mut(n) {
+                let above = column[rank];
+                column[rank + 1..].iter_mut().zip(&*factors).for_each(|(x, factor)| *x -= factor * above);
             }
             rank += 1;
         }
@@ -61,68 +126,106 @@ impl Eliminated {
 
     /// Solution for a right-hand side: unknowns that the others determine are 0, or all are as small as they can be: x
     /// = Uᵀ (U Uᵀ)⁻¹ y. None where it is not finite, or time is up.
-    pub fn solve(&self, rhs: &DVector<f64>, choice: Selection) -> Option<DVector<f64>> {
+    pub fn solve(&self, rhs: &[f64], choice: Selection) -> Option<Numbers> {
         let (LU, rank, n) = (&self.LU, self.rank, self.rows.len());
-        let mut y = DVector::from_fn(rank, |i, _| rhs[self.rows[i]]);
-        for i in 0..rank {
-            y[i] -= (0..i).map(|j| LU[(i, j)] * y[j]).sum::<f64>();
+        let mut y: Numbers = self.rows[..rank].iter().map(|row| rhs[*row]).collect();
+        for j in 0..rank {
+            let known = y[j];
+            y[j + 1..].iter_mut().zip(&LU.column(j)[j + 1..]).for_each(|(y, factor)| *y -= factor * known);
         }
-        let mut own = DVector::zeros(n);
+        let mut own = Numbers::from_elem(0.0, n);
         if choice == Selection::Any || rank == n {
-            for i in (0..rank).rev() {
-                let known: f64 = (i + 1..rank).map(|j| LU[(i, j)] * own[j]).sum();
-                own[i] = (y[i] - known) / LU[(i, i)];
+            for j in (0..rank).rev() {
+                let x = y[j] / LU[(j, j)];
+                own[j] = x;
+                y[..j].iter_mut().zip(LU.column(j)).for_each(|(y, factor)| *y -= factor * x);
             }
         } else {
-            let U = DMatrix::from_fn(rank, n, |i, j| if j >= i { LU[(i, j)] } else { 0.0 });
-            own = U.tr_mul(&cholesky(gram(&U, self.deadline)?, self.deadline)?.solve(&y));
+            let mut z = y;
+            self.divide_by_gram(&mut z)?;
+            for (j, own) in own.iter_mut().enumerate() {
+                *own = LU.column(j)[..rank.min(j + 1)].iter().zip(&z).map(|(u, z)| u * z).sum();
+            }
         }
-        let mut x = DVector::zeros(n);
+        let mut x = Numbers::from_elem(0.0, n);
         own.iter().zip(&self.columns).for_each(|(own, column)| x[*column] = *own);
-        x.iter().all(|x: &f64| x.is_finite()).then_some(x)
+        x.iter().all(|x| x.is_finite()).then_some(x)
+    }
+
+    /// Whether there is one solution, whatever the right-hand side.
+    pub fn is_regular(&self) -> bool {
+        self.rank == self.rows.len()
+    }
+
+    /// Which unknowns the system does not tell: those that some solution of K x = 0 changes.
+    pub fn leaves_open(&self) -> SmallVec<[bool; FEW]> {
+        let (LU, rank, n) = (&self.LU, self.rank, self.rows.len());
+        let mut is_open = SmallVec::from_elem(false, n);
+        for k in rank..n {
+            let mut own = Numbers::from_elem(0.0, n);
+            own[k] = 1.0;
+            let mut left: Numbers = LU.column(k)[..rank].iter().map(|u| -u).collect();
+            for j in (0..rank).rev() {
+                own[j] = left[j] / LU[(j, j)];
+                let x = own[j];
+                left[..j].iter_mut().zip(LU.column(j)).for_each(|(left, u)| *left -= u * x);
+            }
+            let least = TOLD * own.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            own.iter().zip(&self.columns).filter(|(x, _)| x.abs() > least).for_each(|(_, i)| is_open[*i] = true);
+        }
+        is_open
+    }
+
+    /// y becomes (U Uᵀ)⁻¹ y, by Cholesky's factors. None: it is not positive definite, or out of time.
+    fn divide_by_gram(&self, y: &mut [f64]) -> Option<()> {
+        let (LU, rank, n) = (&self.LU, self.rank, self.rows.len());
+        // The lower half of U Uᵀ.
+        let mut L = Square::zeros(rank);
+        for k in 0..n {
+            if self.deadline.is_over() {
+                return None;
+            }
+            let column = &LU.column(k)[..rank.min(k + 1)];
+            for (j, factor) in column.iter().enumerate() {
+                let sums = &mut L.elements[j * rank + j..(j + 1) * rank];
+                sums.iter_mut().zip(&column[j..]).for_each(|(sum, u)| *sum += u * factor);
+            }
+        }
+        for j in 0..rank {
+            if self.deadline.is_over() {
+                return None;
+            }
+            for k in 0..j {
+                let (column, before) = L.column_after(j, k);
+                let factor = before[j];
+                column[j..].iter_mut().zip(&before[j..]).for_each(|(x, of)| *x -= factor * of);
+            }
+            let root = Some(L[(j, j)]).filter(|pivot| *pivot > 0.0)?.sqrt();
+            L.elements[j * rank + j + 1..(j + 1) * rank].iter_mut().for_each(|x| *x /= root);
+            L[(j, j)] = root;
+        }
+        for j in 0..rank {
+            y[j] /= L[(j, j)];
+            let known = y[j];
+            y[j + 1..].iter_mut().zip(&L.column(j)[j + 1..]).for_each(|(y, factor)| *y -= factor * known);
+        }
+        for j in (0..rank).rev() {
+            let known: f64 = L.column(j)[j + 1..].iter().zip(&y[j + 1..]).map(|(factor, y)| factor * y).sum();
+            y[j] = (y[j] - known) / L[(j, j)];
+        }
+        Some(())
     }
 }
 
-/// Columns between two looks at the clock: of fewer, a product or factors take no time that counts.
-const AT_ONCE: usize = 256;
-
-/// U Uᵀ. None: out of time.
-fn gram(U: &DMatrix<f64>, deadline: Deadline) -> Option<DMatrix<f64>> {
-    let (rank, n) = U.shape();
-    let transposed = U.transpose();
-    if rank <= AT_ONCE {
-        return Some(U * transposed);
-    }
-    let mut product = DMatrix::zeros(rank, rank);
-    for first in (0..rank).step_by(AT_ONCE) {
-        if deadline.is_over() {
-            return None;
+/// Place of the largest element of what is not eliminated yet; of equal ones the first, column by column.
+fn place_of_pivot(all: &[f64], n: usize, rank: usize) -> (usize, usize) {
+    let (mut largest, mut place) = (all[rank * n + rank].abs(), (rank, rank));
+    for (j, column) in all.chunks_exact(n).enumerate().skip(rank) {
+        for (i, x) in column.iter().enumerate().skip(rank) {
+            if x.abs() > largest {
+                (largest, place) = (x.abs(), (i, j));
+            }
         }
-        let columns = AT_ONCE.min(rank - first);
-        product.columns_mut(first, columns).gemm(1.0, U, &transposed.view((0, first), (n, columns)), 0.0);
     }
-    Some(product)
-}
-
-/// As nalgebra has it, column by column. None: it is not positive definite, or out of time.
-fn cholesky(mut matrix: DMatrix<f64>, deadline: Deadline) -> Option<Cholesky<f64, Dyn>> {
-    let n = matrix.nrows();
-    if n <= AT_ONCE {
-        return matrix.cholesky();
-    }
-    for j in 0..n {
-        if deadline.is_over() {
-            return None;
-        }
-        for k in 0..j {
-            let factor = -matrix[(j, k)];
-            let (mut column, before) = matrix.columns_range_pair_mut(j, k);
-            column.rows_range_mut(j..).axpy(factor, &before.rows_range(j..), 1.0);
-        }
-        let root = Some(matrix[(j, j)]).filter(|pivot| *pivot > 0.0)?.sqrt();
-        matrix[(j, j)] = root;
-        let mut below = matrix.view_range_mut(j + 1.., j);
-        below /= root;
-    }
-    Some(Cholesky::pack_dirty(matrix))
+    place
 }

@@ -94,10 +94,30 @@ impl Block {
         A
     }
 
+    /// M⁻¹ Jᵀ p of its body, and of its other one.
+    #[inline]
+    pub fn responses(&self, p: &Impulse) -> [Twist; 2] {
+        [self.end.response(p), self.other.as_ref().map_or(Twist::ZERO, |other| other.response(p))]
+    }
+
+    /// One row of J times what a block, this or another, does to its two bodies.
+    #[inline]
+    pub fn row_of(&self, row: usize, with: &Block, responses: &[Twist; 2]) -> f64 {
+        if self.other.is_none() && with.other.is_none() {
+            let is_shared = self.end.body == with.end.body;
+            return if is_shared { self.end.rows[row].along(&responses[0]) } else { 0.0 };
+        }
+        let of = |end: &End| {
+            let on_it = with.ends().zip(responses).filter(|(other, _)| other.body == end.body);
+            on_it.map(|(_, response)| end.rows[row].along(response)).sum::<f64>()
+        };
+        self.ends().map(of).sum()
+    }
+
     pub(super) fn new(
         contact: &Contact,
         model: &Model,
-        before: &[BodyState],
+        states: &[BodyState],
         free: &[Twist],
         inertias: &[Inertia],
         (approach, step_s): (Approach, f64),
@@ -106,13 +126,14 @@ impl Block {
         let frame = contact.frame();
         let own = End::new(contact.body, 1.0, &contact.r_BC_W, &frame, &inertias[contact.body]);
         let other = contact.other.map(|other| End::new(other, -1.0, &contact.r_OC_W, &frame, &inertias[other]));
-        let ends = || std::iter::once(&own).chain(&other);
-        let sum = |of: &dyn Fn(&End) -> Vector3<f64>| ends().map(of).reduce(|a, b| a + b).unwrap_or_default();
-        let mut b = sum(&|end| end.motion(&free[end.body]));
-        let before = sum(&|end| {
-            let at = &before[end.body];
-            end.motion(&Twist::of(at))
-        });
+        let of_free = |end: &End| end.motion(&free[end.body]);
+        let of_before = |end: &End| end.motion(&Twist::of(&states[end.body]));
+        let (mut b, mut before, mut A) = (of_free(&own), of_before(&own), own.coupling(&own));
+        if let Some(other) = &other {
+            b += of_free(other);
+            before += of_before(other);
+            A += other.coupling(other);
+        }
         let motion = NormalMotion { before: before.x, gained: b.x - before.x, turning: 0.0 };
         let least = approach.least_of(model, contact, motion, step_s, hold)?;
         let strikes =
@@ -124,7 +145,6 @@ impl Block {
         if sent_back > 0.0 {
             b += against;
         }
-        let A = ends().map(|end| end.coupling(end)).reduce(|a, b| a + b).unwrap_or_default();
         Some(Block {
             end: own,
             other,

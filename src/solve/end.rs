@@ -16,6 +16,7 @@ pub(super) struct Row {
 }
 
 impl Row {
+    #[inline]
     pub(super) fn along(&self, u: &Twist) -> f64 {
         self.j.v.dot(&u.v) + self.j.w.dot(&u.w)
     }
@@ -37,12 +38,12 @@ impl End {
         frame: &[Vector3<f64>; 3],
         inertia: &Inertia,
     ) -> Self {
-        let rows = frame.map(|e| {
+        let row = |e: &Vector3<f64>| {
             let e = e * sign;
             let j = Twist { v: e, w: r_W.cross(&e) };
             Row { j, response: Twist { v: e / inertia.mass_kg, w: inertia.inverse_W * j.w } }
-        });
-        End { body, rows }
+        };
+        End { body, rows: [row(&frame[0]), row(&frame[1]), row(&frame[2])] }
     }
 
     /// Distance of the contact from the centre of mass: Σ|r×e|² over three orthonormal e is 2 r².
@@ -58,6 +59,13 @@ impl End {
     /// J u.
     pub(super) fn motion(&self, u: &Twist) -> Vector3<f64> {
         Vector3::new(self.rows[0].along(u), self.rows[1].along(u), self.rows[2].along(u))
+    }
+
+    /// M⁻¹ Jᵀ p.
+    #[inline]
+    pub(super) fn response(&self, p: &Impulse) -> Twist {
+        let [n, t1, t2] = [0, 1, 2].map(|k| self.rows[k].response);
+        Twist { v: n.v * p.x + t1.v * p.y + t2.v * p.z, w: n.w * p.x + t1.w * p.y + t2.w * p.z }
     }
 
     /// u += M⁻¹ Jᵀ Δp.

@@ -95,8 +95,9 @@ impl ContactProblem {
         self.speeds.extend(state.bodies.iter().zip(free).map(|(at, free)| Speeds::of(at, free, is_instant)));
         contacts.retain(|contact| {
             let block = Block::new(contact, model, &state.bodies, free, &self.inertias, through, hold(contact));
+            let is_there = block.is_some();
             self.blocks.extend(block);
-            block.is_some()
+            is_there
         });
     }
 
@@ -153,6 +154,11 @@ impl ContactProblem {
     pub fn response(&self, impulses: &[Impulse], u: &mut Vec<Twist>) {
         u.clear();
         u.resize(self.bodies, Twist::ZERO);
+        self.add_response(impulses, u);
+    }
+
+    /// u += M⁻¹ Jᵀ p.
+    pub fn add_response(&self, impulses: &[Impulse], u: &mut [Twist]) {
         for (block, p) in self.blocks.iter().zip(impulses) {
             block.apply(p, u);
         }

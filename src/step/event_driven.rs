@@ -183,6 +183,7 @@ impl EventDriven {
         if !matches!(event, Event::Step | Event::Change(_)) {
             self.opened.clear();
         }
+        self.dense.is_new |= !matches!(event, Event::Step);
         let goes_on = matches!(&event, Event::Step | Event::Change(Change { slips_on: true, .. }));
         self.slow.failed *= u32::from(goes_on);
         match event {
@@ -550,10 +551,7 @@ impl EventDriven {
     /// Puts the state at the end of a stretch within the integrator's last step.
     fn end_at(&mut self, model: &Model, state: &mut State, to_s: f64) {
         if !self.dense.is_empty() && to_s > self.dense.t_s && to_s < self.dense.t_s + self.dense.h {
-            let mut dense = std::mem::take(&mut self.dense);
-            self.scratch.copy_from(state);
-            dense.shorten(&mut self.field(model), to_s);
-            self.dense = dense;
+            self.dense.shorten(to_s);
         }
         state.time_s = to_s;
         self.state_at(model, state);

@@ -18,19 +18,33 @@ const BOUNCED_OUT: f64 = 1e-11;
 
 pub struct Zeno {
     tolerance: f64,
-    /// When a contact had its last impact, if it may have more.
-    struck_s: BTreeMap<Key, f64>,
+    /// Of contacts that have had an impact.
+    struck: BTreeMap<Key, Struck>,
 }
+
+/// A contact's last impact: when it was, and how long it had been open since the one before; at first, for ever.
+#[derive(Clone, Copy, Debug)]
+struct Struck {
+    at_s: f64,
+    open_s: f64,
+}
+
+/// Times for which a contact was open before its last impact: one that opens again so soon after that rattles.
+const RATTLES: f64 = 100.0;
 
 impl Zeno {
     pub fn new(tolerance: f64) -> Self {
-        Zeno { tolerance, struck_s: BTreeMap::new() }
+        Zeno { tolerance, struck: BTreeMap::new() }
     }
 
     /// The bounces that are left after this one do not matter. `is_alone`: nothing else touches.
     pub fn bounces_out(&mut self, model: &Model, state: &State, contact: &Contact, is_alone: bool) -> bool {
         let (approach, scale) = approach_m_s(model, state, contact);
-        if contact.restitution == 0.0 || approach <= 0.0 {
+        if approach <= 0.0 {
+            return false;
+        }
+        let lasted_s = self.note(contact, state.time_s);
+        if contact.restitution == 0.0 {
             return false;
         }
         let falling = falling_m_s2(model, contact);
@@ -39,8 +53,6 @@ impl Zeno {
             return falling > 0.0 && contact.restitution < 1.0 && approach <= BOUNCED_OUT * scale;
         }
         // How high the last bounce was: from how fast it ended, and when it began or what pulls.
-        let last_s = self.struck_s.insert(contact.key(), state.time_s);
-        let lasted_s = last_s.map_or(f64::INFINITY, |at_s| state.time_s - at_s);
         let fallen_m = if falling > 0.0 { approach * approach / (2.0 * falling) } else { f64::INFINITY };
         let height_m = fallen_m.min(approach * lasted_s / 4.0);
         let left = 1.0 - contact.restitution;
@@ -48,12 +60,33 @@ impl Zeno {
         height_m <= left * left * self.negligible_m(model, contact) || height_m <= delta_at_m(model, contact)
     }
 
+    /// Notes an impact. How long the contact had been open.
+    fn note(&mut self, contact: &Contact, at_s: f64) -> f64 {
+        let last = self.struck.get(&contact.key());
+        let lasted_s = last.map_or(f64::INFINITY, |last| at_s - last.at_s);
+        // Of several at one instant the first one counts.
+        let open_s = last.filter(|_| lasted_s <= 0.0).map_or(lasted_s, |last| last.open_s);
+        self.struck.insert(contact.key(), Struck { at_s, open_s });
+        lasted_s
+    }
+
     /// The speed below which a contact that leaves is at rest: what rebounds no more may rock on, by the impulses of
-    /// others, and at last it rests.
-    pub fn rests_m_s(&self, model: &Model, contact: &Contact) -> f64 {
+    /// others, and at last it rests. What pulls it back is gravity, or whatever brought it back the last time.
+    pub fn rests_m_s(&self, model: &Model, state: &State, contact: &Contact) -> f64 {
         let (falling, left) = (falling_m_s2(model, contact), 1.0 - contact.restitution);
-        let rocks = left > 0.0 && falling > 0.0;
-        if rocks { left * (2.0 * falling * self.negligible_m(model, contact)).sqrt() } else { 0.0 }
+        if left <= 0.0 {
+            return 0.0;
+        }
+        let negligible_m = self.negligible_m(model, contact);
+        let at = |falling: f64| left * (2.0 * falling * negligible_m).sqrt();
+        if falling > 0.0 {
+            return at(falling);
+        }
+        let rattles = |last: &&Struck| state.time_s - last.at_s <= RATTLES * last.open_s;
+        // It is open for 2 v/a, v²/2a high; and what is faster than gravity would make it is no rest.
+        let back_m_s = |last: &Struck| left * left * 4.0 * negligible_m / last.open_s;
+        let rattles_m_s = self.struck.get(&contact.key()).filter(rattles).map_or(0.0, back_m_s);
+        rattles_m_s.min(at(model.gravity_m_s2.norm()))
     }
 
     /// A height that does not matter.

@@ -373,7 +373,7 @@ impl EventDriven {
         let zeno = &self.zeno;
         let rests = |contact: &Contact| {
             let (approach, scale) = approach_m_s(model, state, contact);
-            -approach <= zeno.rests_m_s(model, contact).max(NO_SLIP * scale)
+            -approach <= zeno.rests_m_s(model, state, contact).max(NO_SLIP * scale)
         };
         sinking.add(model, state, &mut self.found, (3, rests), (rates, |_: &Contact| least))
     }
@@ -421,7 +421,7 @@ impl EventDriven {
         let mut resting = Vec::new();
         for contact in &self.found {
             let (approach, scale) = approach_m_s(model, state, contact);
-            if -approach > self.zeno.rests_m_s(model, contact).max(NO_SLIP * scale) {
+            if -approach > self.zeno.rests_m_s(model, state, contact).max(NO_SLIP * scale) {
                 continue;
             }
             resting.push(Touch::new(model, state, contact)?);

@@ -100,3 +100,19 @@ fn steps_converge_to_it_at_order_1() {
     // measured: 0.95, from 17 mm to 2.3 mm
     assert!((order - 1.0).abs() < 0.15, "{order} {means:?}");
 }
+
+/// Flush with the floor it slides along a wall and rattles against it between two edges: friction brings them back, not
+/// gravity, and that ends as a rocking on the floor does.
+#[test]
+fn a_rattling_against_a_wall_ends() {
+    let sets = sets(0.0, 0.3, 159);
+    let [a, b, c] = sets.each_ref().map(String::as_str);
+    let ended = run(&experiment(CUBE, &[a, b, c, "method.event-driven.tolerance=1e-6"]));
+    let work = &ended.measured.work;
+    // Measured: 43; it was 1715, and five stretches of equal steps.
+    assert!(work.events < 80, "{}", work.events);
+    assert_eq!((ended.measured.outcome, work.fallbacks), (Outcome::Finished, 0));
+    assert_eq!(ended.state.bodies[0].v_WB.norm(), 0.0);
+    // Measured: 5.4e-10.
+    assert!(ended.measured.energy_drift_rel.unwrap().abs() < 1e-8, "{:?}", ended.measured.energy_drift_rel);
+}

@@ -580,16 +580,13 @@ fn amax(of: &[f64]) -> f64 {
     of.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
-/// What a solution leaves by rounding alone, over the terms that it is left of.
-const ROUNDED: f64 = 4.0 * f64::EPSILON;
-
-/// And what it leaves; once more where that is more than rounding.
+/// Once more for what rounding has left; and what is left then.
 fn solution(K: &Square, rhs: &[f64], choice: Selection, deadline: Deadline) -> Option<(Numbers, f64)> {
     let left = |x: &[f64]| -> Numbers { rhs.iter().zip(K.times(x)).map(|(rhs, of)| rhs - of).collect() };
     let eliminated = Eliminated::new(K.clone(), deadline)?;
     let mut x = eliminated.solve(rhs, choice)?;
     let mut missed = left(&x);
-    if amax(&missed) > ROUNDED * (amax(rhs) + K.amax() * amax(&x)) {
+    if amax(&missed) > 0.0 {
         let again = eliminated.solve(&missed, choice)?;
         x.iter_mut().zip(&again).for_each(|(x, again)| *x += again);
         missed = left(&x);

@@ -31,8 +31,6 @@ pub struct Dense {
     pub h: f64,
     /// The next step to try.
     wanted_s: f64,
-    /// Forces have changed since the last step: how long that was says nothing of the next one.
-    pub is_new: bool,
     y: Vec<Phase>,
     end: Vec<Phase>,
     k: Vec<Vec<Phase>>,
@@ -48,12 +46,6 @@ const SHORTEST: f64 = 1e-13;
 /// hardly moves counts as one of so many rad/s.
 const FIRST_RAD: f64 = 0.1;
 const SLOWEST_RAD_S: f64 = 1e-3;
-
-/// After a change: a short way, relative to the size; the error that is asked for, over the tolerance; and the longest
-/// step, over the short way.
-const SHORT: f64 = 0.01;
-const FIRST: f64 = 0.01;
-const LONGEST_FIRST: f64 = 100.0;
 
 /// What a point turns about, m, and what flight counts beside turning: by its own size it changes nothing.
 const LEAST_SIZE_M: f64 = 1e-3;
@@ -86,7 +78,6 @@ impl Dense {
             tolerance,
             t_s: at.time_s,
             h: 0.0,
-            is_new: true,
             wanted_s: FIRST_RAD / fastest.max(SLOWEST_RAD_S),
             y,
             end: vec![Phase::zeros(); n],
@@ -117,9 +108,6 @@ impl Dense {
         let is_stiff = stiff_hz * self.wanted_s.min(most_s).min(left_s) > STIFF && field.can_be_stiff();
         if !is_stiff {
             field.at(self.t_s, &self.bodies, &self.y, &mut self.k[0]);
-        }
-        if !is_stiff && std::mem::take(&mut self.is_new) {
-            self.wanted_s = self.wanted_s.min(self.first_s(field));
         }
         let mut failed = false;
         loop {
@@ -156,28 +144,6 @@ impl Dense {
         for place in 0..self.y.len() {
             self.end[place] = self.phase(place, self.h / self.spline_s);
         }
-    }
-
-    /// The first step to try after a change, from how much the slopes differ over a short way (Hairer & al., II.4): a
-    /// try that fails costs eleven looks at all contacts, this one.
-    fn first_s(&mut self, field: &mut Field) -> f64 {
-        let Dense { bodies, tolerance, t_s, y, end, k, .. } = self;
-        let (y, tolerance) = (&*y, *tolerance);
-        let scale = |y: f64| tolerance * (1.0 + y.abs());
-        let norm = |of: &[Phase]| {
-            let squares = of.iter().zip(y).map(|(of, y)| of.component_div(&y.map(scale)).norm_squared());
-            (squares.sum::<f64>() / (y.len() * Phase::zeros().len()) as f64).sqrt()
-        };
-        let (size, slope) = (norm(y), norm(&k[0]));
-        if slope == 0.0 {
-            return f64::INFINITY;
-        }
-        let short_s = SHORT * size / slope;
-        advanced(y, &[1.0], k, short_s, end);
-        field.at(*t_s + short_s, bodies, end, &mut k[1]);
-        let bends: Vec<Phase> = k[1].iter().zip(&k[0]).map(|(after, before)| after - before).collect();
-        let most = slope.max(norm(&bends) / short_s);
-        libm::pow(FIRST / most, 1.0 / 8.0).min(LONGEST_FIRST * short_s)
     }
 
     /// The same of a step that is stiff. Infinite: there is none so long.

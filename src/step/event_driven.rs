@@ -183,7 +183,6 @@ impl EventDriven {
         if !matches!(event, Event::Step | Event::Change(_)) {
             self.opened.clear();
         }
-        self.dense.is_new |= !matches!(event, Event::Step);
         let goes_on = matches!(&event, Event::Step | Event::Change(Change { slips_on: true, .. }));
         self.slow.failed *= u32::from(goes_on);
         match event {

@@ -6,7 +6,7 @@
 //! smallest displacement and change of velocity (E. Eich 1993; `project`).
 
 use super::field::Field;
-use super::forces::{Gathered, Held};
+use super::forces::{Gathered, Held, Solved};
 use super::motion::Bounds;
 use super::radau_tableau::STAGES;
 use super::stiff;
@@ -249,17 +249,29 @@ pub fn project(model: &Model, state: &mut State, held: &[Held], gathered: &mut G
         return Projected::default();
     }
     let moved = close_gaps(model, state, held, gathered);
+    match stop(model, state, held, gathered) {
+        Some(solved) => Projected { moved: true, p: solved.p },
+        None => Projected { moved, p: Few::new() },
+    }
+}
+
+/// Leaves no velocity along the rows that hold, places as they are.
+pub fn project_velocities(model: &Model, state: &mut State, held: &[Held], gathered: &mut Gathered) {
+    gathered.gather_velocities(model, state, held.iter().map(|held| &held.touch));
+    stop(model, state, held, gathered);
+}
+
+/// The same of velocities that have been gathered. None: there are not any.
+fn stop(model: &Model, state: &mut State, held: &[Held], gathered: &Gathered) -> Option<Solved> {
     let speed = state.bodies.iter().map(|at| at.v_WB.amax()).fold(0.0, f64::max);
-    let Some(solved) = gathered.stop(held, ROUNDING_OF_SPEED * speed) else {
-        return Projected { moved, p: Few::new() };
-    };
+    let solved = gathered.stop(held, ROUNDING_OF_SPEED * speed)?;
     if solved.holds {
         for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
             at.v_WB += solved.added[i].v;
             at.w_WB += solved.added[i].w;
         }
     }
-    Projected { moved: true, p: solved.p }
+    Some(solved)
 }
 
 /// What is no velocity beside the fastest body's, and no gap beside the farthest coordinate: their own rounding.

@@ -362,8 +362,8 @@ impl Gathered {
         Some(p)
     }
 
-    /// Of an island's blocks: whether the normal part of its force, and whether all of it, is the same however they share
-    /// their forces.
+    /// Of an island's blocks: whether the normal part of its force, and whether all of it, is the same however they
+    /// share their forces.
     pub fn known(&self, held: &[Held], island: &[usize]) -> Few<[bool; 2]> {
         let unknowns = unknowns(island, &self.rows(self.modes(held)));
         let eliminated =

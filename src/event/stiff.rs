@@ -20,7 +20,8 @@ const AS_BEFORE: u32 = 2;
 /// Newton's steps; half as many is usual.
 const MOST: u32 = 14;
 
-/// Change of a stage that is left after the last of them, over the tolerance; and of a velocity over the largest, which is rounding.
+/// Change of a stage that is left after the last of them, over the tolerance; and of a velocity over the largest, which
+/// is rounding.
 const SETTLED: f64 = 1e-3;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 

@@ -30,7 +30,7 @@ use crate::math::full_pivot::Selection;
 use crate::model::Model;
 use crate::outcome::Criterion;
 use crate::plan::Plan;
-use crate::shown::{Acted, Passage};
+use crate::shown::Acted;
 use crate::state::State;
 use crate::work::Work;
 use nalgebra::Vector3;
@@ -553,7 +553,7 @@ impl EventDriven {
             self.dense.shorten(to_s);
         }
         state.time_s = to_s;
-        self.state_at(model, state);
+        self.put(model, state);
         if !self.dense.is_empty() {
             self.scratch.copy_from(state);
             project(model, state, &self.held, &mut self.placing);

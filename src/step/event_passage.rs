@@ -3,6 +3,7 @@
 use super::event_driven::{EventDriven, Span};
 use super::moments::moments;
 use crate::event::decide::{Margin, margin};
+use crate::event::dense::project_velocities;
 use crate::event::forces::{Gathered, Held};
 use crate::event::look::Paths;
 use crate::model::Model;
@@ -13,11 +14,12 @@ use crate::work::Work;
 use nalgebra::Vector3;
 
 impl Passage for EventDriven {
-    /// Within the last stretch.
+    /// Within the last stretch. Velocities are along what holds, as where the stretch ends: what the integrator leaves
+    /// of others is below its tolerance, but not nothing beside what forces do in a moment.
     fn state_at(&self, model: &Model, state: &mut State) {
-        let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
-        if !self.motions.is_empty() {
-            (0..state.bodies.len()).for_each(|i| state.bodies[i] = paths.at(i, state.time_s));
+        self.put(model, state);
+        if !self.dense.is_empty() && !self.held.is_empty() {
+            project_velocities(model, state, &self.held, &mut self.gathered.borrow_mut());
         }
     }
 
@@ -41,6 +43,16 @@ impl Passage for EventDriven {
         let Gathered { here, problem, .. } = &*gathered;
         let of = here.iter().zip(&problem.blocks).zip(&solved.p);
         of.map(|((here, block), p)| ContactForce { contact: here.contact, force_W: block.in_world(p) }).collect()
+    }
+}
+
+impl EventDriven {
+    /// Puts the bodies where the last stretch has them at the state's time.
+    pub(super) fn put(&self, model: &Model, state: &mut State) {
+        let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
+        if !self.motions.is_empty() {
+            (0..state.bodies.len()).for_each(|i| state.bodies[i] = paths.at(i, state.time_s));
+        }
     }
 }
 

@@ -245,7 +245,7 @@ fn solver(bencher: Bencher, word: &str) {
     bencher
         .counter(ItemsCount::new(contacts.len()))
         .with_inputs(|| vec![Impulse::zeros(); contacts.len()])
-        .bench_local_refs(|p| solver.solve(&problem, &sweeps, p, &mut work));
+        .bench_local_refs(|p| solver.solve(&problem, &sweeps, (p, &[]), &mut work));
 }
 
 /// Judges of one step, of bodies at rest.

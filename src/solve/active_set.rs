@@ -107,23 +107,36 @@ enum By {
 /// η where redundant impulses are measured from zero: of |p| squared so much is added to what is least.
 const EVEN_ETA: f64 = 1e-5;
 
+/// How often they are measured again from what they were found to be: every time leaves η of what was left.
+const CENTRES: usize = 2;
+
 /// Of the tolerance: a residual that is enough for contacts that slip, of which no body is at rest.
-const ENOUGH: f64 = 1e-2;
+const ENOUGH: f64 = 1e-3;
 
 /// Of the largest impulse: a change that is none.
 const SAME: f64 = 1e-10;
 
 /// Redundant contacts that slip different ways leave a continuum of solutions, each with velocities of its own. Goes,
 /// within it, to the one with the least Σ|p|² (p with units), that of contacts that give a little, all alike. What
-/// pulls there is left out. The residual, which was `residual`.
-pub fn even(island: &Island, at: &mut Point, mut residual: f64, rounds: usize, tolerance: f64, steps: &mut u64) -> f64 {
+/// pulls there is left out. What is farther from the law after a step than it was, and than `farthest`, is given up.
+/// The residual, which was `residual`.
+pub fn even(
+    island: &Island,
+    at: &mut Point,
+    mut residual: f64,
+    (rounds, farthest, tolerance): (usize, f64, f64),
+    steps: &mut u64,
+) -> f64 {
     for _ in 0..rounds {
         *steps += 1;
         let Some(mut next) = step_even(island, at) else { break };
         let first = island.residual_at(&next);
+        if first > residual.max(farthest) {
+            break;
+        }
         let until = Until { enough: ROUNDING.max(ENOUGH * tolerance), tolerance, keeps_shares: true };
         let reached = improve_with(|_| ETA, island, &mut next, first, until, steps);
-        if reached > residual.max(tolerance).max(island.rounding(&next)) {
+        if reached > residual.max(tolerance) && reached > island.rounding(&next) {
             break;
         }
         let largest = next.p.iter().map(|p| p.norm()).fold(0.0, f64::max);
@@ -215,7 +228,7 @@ fn step(island: &Island, at: &Point, eta: f64) -> Option<Point> {
 }
 
 /// A step toward even shares. Measured from zero with η, normal velocities would be η p; so the impulses that this
-/// makes are a centre to measure from once more (the method of multipliers): it leaves η² of it and changes no shares.
+/// makes are a centre to measure from once more (the method of multipliers), which changes no shares.
 fn step_even(island: &Island, at: &Point) -> Option<Point> {
     let small = island.scales(at).into_iter().map(|scale| ROUNDING.sqrt() * scale);
     let largest = island.touches.iter().map(|touch| touch.scale).fold(0.0, f64::max);
@@ -226,11 +239,13 @@ fn step_even(island: &Island, at: &Point) -> Option<Point> {
     let even = |(((touch, p), u), small)| Linear::even(touch, p, u, eta(touch), small);
     let mut linear: Few<Linear> = island.touches.iter().zip(&at.p).zip(&at.u).zip(small).map(even).collect();
     let factors = island.coupled(linear.iter().map(|linear| &linear.D), 1.0).factors(island.deadline)?;
-    let first = factors.solve(&pulled(island, at, &linear))?;
-    for ((linear, touch), u) in linear.iter_mut().zip(&island.touches).zip(&at.u) {
-        linear.jump += linear.made(&(u + touch.motion(&first)));
+    let mut change = factors.solve(&pulled(island, at, &linear))?;
+    for _ in 0..CENTRES {
+        for ((linear, touch), u) in linear.iter_mut().zip(&island.touches).zip(&at.u) {
+            linear.jump += linear.made(&(u + touch.motion(&change)));
+        }
+        change = factors.solve(&pulled(island, at, &linear))?;
     }
-    let change = factors.solve(&pulled(island, at, &linear))?;
     Some(moved(island, at, &linear, &change))
 }
 

@@ -31,12 +31,14 @@ const MANY_SWEEPS: [u32; 8] = [50; 8];
 /// A residual of impulses that bodies at rest keep for thousands of steps.
 const LASTING: f64 = 1e-13;
 
-/// Improves `p` until the residual of every island is below the tolerance. Whether it is. `u`: M⁻¹ Jᵀ p.
+/// Improves `p` until the residual of every island is below the tolerance. Whether it is. `expected`: where islands
+/// begin whose shares are a part of the answer, or empty: what contacts share otherwise stays as it was, which is no
+/// way to go on. `u`: M⁻¹ Jᵀ p.
 pub(super) fn solve(
     problem: &ContactProblem,
     goal: &Sweeps,
-    p: &mut [Impulse],
-    (start, u): (Start, &mut Vec<Twist>),
+    (p, mut expected): (&mut [Impulse], &[Impulse]),
+    (mut start, u): (Start, &mut Vec<Twist>),
     scratch: &mut Scratch,
     work: &mut Work,
 ) -> bool {
@@ -47,7 +49,8 @@ pub(super) fn solve(
             let sweeps = Sweeps { most: FIRST_SWEEPS, tolerance: LASTING, ..*goal };
             gauss_seidel::iterate(problem, &sweeps, p, &mut scratch.nncg.sweeps, work);
         }
-        if Start::new(problem, p, u).lasts(goal.tolerance) {
+        (start, expected) = (Start::new(problem, p, u), &[]);
+        if start.lasts(goal.tolerance) {
             work.exact_solves += 1;
             return true;
         }
@@ -58,13 +61,16 @@ pub(super) fn solve(
     for island in &mut islands {
         let mut own = island.at(island.impulses(p));
         let is_new = own.p.iter().all(|p| *p == Impulse::zeros());
-        let contacts = island.touches.iter().map(|touch| touch.index);
-        let is_shared = is_new || shares_matter(problem, contacts, p, u);
+        let contacts = || island.touches.iter().map(|touch| touch.index);
+        let is_shared = is_new || if alone { start.is_shared } else { shares_matter(problem, contacts(), p, u) };
         if scratch.keeps && !is_shared && island.is_strictly_met(KEPT * goal.tolerance, &own) {
             work.kept_solves += 1;
             continue;
         }
-        let part = (!alone).then(|| problem.part(island.touches.iter().map(|touch| touch.index)));
+        if is_shared && !expected.is_empty() {
+            own = island.at(island.impulses(expected));
+        }
+        let part = (!alone).then(|| problem.part(contacts()));
         let problem = part.as_ref().unwrap_or(problem);
         let most = (AFFORDABLE_PROBLEMS / island.bodies() as u32).max(FEWEST_PROBLEMS);
         let goal = Sweeps { most, ..*goal };

@@ -172,16 +172,27 @@ pub(super) fn solve_island(
             (*best, *at) = (residual, tried);
         }
     };
-    // What slips and is near goes to its even shares at once, and is solved there.
+    // What slips and is near goes to its even shares at once, or once it is nearer, and is solved there.
     let mut is_even = false;
     if best <= NEAR && active_set::may_be_shared(island, &at.p) {
-        let (mut tried, steps) = (at.clone(), &mut work.newton_steps);
-        let near = active_set::approach(island, &mut tried, best, NEARLY, steps);
-        if near <= NEARLY {
-            let residual = active_set::even(island, &mut tried, near, shares.rounds, goal.tolerance, steps);
+        let (mut from, mut left, steps) = (at.clone(), best, &mut work.newton_steps);
+        for is_nearly in [best <= NEARLY, true] {
+            if is_nearly {
+                left = active_set::approach(island, &mut from, left, NEARLY, steps);
+            }
+            if is_nearly && left > NEARLY {
+                break;
+            }
+            let farthest = if is_nearly { f64::INFINITY } else { NEARLY };
+            let mut tried = from.clone();
+            let until = (shares.rounds, farthest, goal.tolerance);
+            let residual = active_set::even(island, &mut tried, left, until, steps);
             is_even = is_enough(residual, &tried);
             if is_even {
                 (best, *at) = (residual, tried);
+            }
+            if is_even || is_nearly {
+                break;
             }
         }
     }
@@ -217,7 +228,8 @@ pub(super) fn solve_island(
         keep(&mut best, at, tried, residual, work);
     }
     if !is_even && is_enough(best, at) && active_set::may_be_shared(island, &at.p) {
-        best = active_set::even(island, at, best, shares.rounds, goal.tolerance, &mut work.newton_steps);
+        let until = (shares.rounds, f64::INFINITY, goal.tolerance);
+        best = active_set::even(island, at, best, until, &mut work.newton_steps);
     }
     // The shares of what slips are even already, if one round is all that is asked for.
     if shares.rounds == ONCE && is_enough(best, at) && active_set::all_slip(island, &at.p) {

@@ -59,15 +59,22 @@ impl ContactSolver {
         matches!(self.by, By::Pgs(_) | By::Nncg(_))
     }
 
-    /// Improves `p`. Whether it is solved, or has settled.
-    pub fn solve(&mut self, problem: &ContactProblem, sweeps: &Sweeps, p: &mut [Impulse], work: &mut Work) -> bool {
+    /// Improves `p`. Whether it is solved, or has settled. `expected`: what impulses become if they go on as they
+    /// changed, for what is solved anew in every step; may be empty.
+    pub fn solve(
+        &mut self,
+        problem: &ContactProblem,
+        sweeps: &Sweeps,
+        (p, expected): (&mut [Impulse], &[Impulse]),
+        work: &mut Work,
+    ) -> bool {
         let start = Start::new(problem, p, &mut self.u);
         if self.keeps && start.lasts(sweeps.tolerance) {
             work.kept_solves += 1;
             return true;
         }
         match &mut self.by {
-            By::Auto(scratch) => auto::solve(problem, sweeps, p, (start, &mut self.u), scratch, work),
+            By::Auto(scratch) => auto::solve(problem, sweeps, (p, expected), (start, &mut self.u), scratch, work),
             By::Pgs(scratch) => gauss_seidel::iterate(problem, sweeps, p, scratch, work),
             By::Nncg(scratch) => nncg::iterate(problem, sweeps, p, scratch, work),
             By::Newton(scratch) => newton::solve(problem, sweeps, p, scratch, work),

@@ -10,8 +10,9 @@ use crate::model::Model;
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 
-/// Of the speed that the step's forces give a body: what contacts leave of it when they hold it.
-const NOTHING: f64 = 1e-13;
+/// Of the speed that the step's forces give a body: what contacts leave of it when they hold it by impulses that are
+/// kept (`solve::kept`). It would be sent back by the next step, and come again for ever.
+const NOTHING: f64 = 4e-12;
 
 /// Of a place, or of an attitude: what does not move a body.
 const HALF: f64 = f64::EPSILON / 2.0;

@@ -32,6 +32,7 @@ use crate::model::pins::Pin as Joint;
 use crate::model::{Body, Model};
 use crate::plan::Plan;
 use crate::solve::Impulse;
+use crate::solve::block::Block;
 use crate::solve::gauss_seidel::{Sweeps, Variant};
 use crate::solve::missed::strict_residual;
 use crate::solve::pins::{self, Pin};
@@ -68,8 +69,11 @@ pub struct TimeStepping {
     position_correction: PositionCorrection,
     /// Which contact had which impulse in the last step, in world axes and in the order of contacts.
     last: Vec<(Key, Vector3<f64>)>,
-    /// The same of this step, as far as it is solved.
+    /// The same of the step before, and of this step, as far as it is solved.
+    last_but_one: Vec<(Key, Vector3<f64>)>,
     solved: Vec<(Key, Vector3<f64>)>,
+    /// Impulses of this step, if those of the last two go on as they changed.
+    expected: Vec<Impulse>,
     /// Contacts that last into this step, of a scheme whose kick is half-way.
     lasting: Lasting,
     /// Contacts last from step to step; else every step takes them for new ones, and what rocks comes to rest.
@@ -139,7 +143,9 @@ impl TimeStepping {
             reduction: settings.contacts_per_face.map(|most| Reduction::new(most, scratch.contacts())),
             position_correction: settings.position_correction,
             last: Vec::with_capacity(scratch.contacts()),
+            last_but_one: Vec::with_capacity(scratch.contacts()),
             solved: Vec::with_capacity(scratch.contacts()),
+            expected: Vec::with_capacity(scratch.contacts()),
             lasting: Lasting::default(),
             may_last: true,
             last_on: Vec::with_capacity(scratch.contacts()),
@@ -299,8 +305,7 @@ impl TimeStepping {
             return;
         }
         let is_same = still::put_to_rest(model, state, &self.began, (&s.free, &s.response));
-        // Since the solution was taken, `solved` has the impulses of the step before.
-        self.is_at_rest = is_same && self.is_steady && self.skips.has(Skip::Rest) && self.last == self.solved;
+        self.is_at_rest = is_same && self.is_steady && self.skips.has(Skip::Rest) && self.last == self.last_but_one;
     }
 
     /// Whether bodies that are fast hit each other in the step, or turn too far beside each other: a kick half-way
@@ -371,6 +376,7 @@ impl TimeStepping {
     }
 
     fn take_solution(&mut self) {
+        std::mem::swap(&mut self.last_but_one, &mut self.last);
         std::mem::swap(&mut self.last, &mut self.solved);
         self.was_far = self.is_far;
         self.last_pins.clear();
@@ -403,7 +409,7 @@ impl TimeStepping {
         let struck = self.blow.as_mut().filter(|_| !s.found.is_empty()).and_then(|blow| {
             let (solver, work) = (&mut self.solver, &mut s.work);
             let mut plastic =
-                |problem: &ContactProblem, p: &mut [Impulse]| solver.solve(problem, &self.sweeps, p, work);
+                |problem: &ContactProblem, p: &mut [Impulse]| solver.solve(problem, &self.sweeps, (p, &[]), work);
             let may_strike = |contact: &Contact| hold(contact).is_none() && !self.rebounds.is_waived(contact);
             let through = (step_s, self.sweeps.deadline);
             let ended = blow.strike(model, state, &s.free, (&s.found, &may_strike), through, &mut plastic)?;
@@ -429,11 +435,19 @@ impl TimeStepping {
         }
         s.impulses.extend(&self.last_pins);
         s.impulses.resize(s.problem.blocks.len(), Impulse::zeros());
+        self.expected.clear();
+        if self.solved.is_empty() && !self.solver.is_iteration() {
+            warm_start(&s.found, &s.problem, &self.last_but_one, &mut self.expected);
+            go_on(&s.impulses, &s.problem, &mut self.expected);
+            self.expected.extend(&s.impulses[s.found.len()..]);
+        }
         s.work.tangent_rows += if self.sweeps.friction { 2 * s.found.len() as u64 } else { 0 };
         let mut settled = s.problem.blocks.is_empty();
         let enough = self.solver.may_miss(self.sweeps.tolerance);
         for _ in 0..MOST_SOLVES {
-            settled = settled || self.solver.solve(&s.problem, &self.sweeps, &mut s.impulses, &mut s.work);
+            settled =
+                settled || self.solver.solve(&s.problem, &self.sweeps, (&mut s.impulses, &self.expected), &mut s.work);
+            self.expected.clear();
             s.problem.response(&s.impulses, &mut s.response);
             let changes = match self.approach {
                 Approach::Middle => {
@@ -525,5 +539,21 @@ fn warm_start(found: &[Contact], problem: &ContactProblem, last: &[(Key, Vector3
         while last.next_if(|(known, _)| *known < key).is_some() {}
         let same = last.next_if(|(known, _)| *known == key);
         impulses.push(same.map_or_else(Impulse::zeros, |(_, impulse_W)| block.in_frame(impulse_W)));
+    }
+}
+
+/// Of the last impulse, a change that is small.
+const SMALL: f64 = 0.1;
+
+/// Lets impulses of contacts that slip go on from those of the step before (`expected`) to the last ones as they
+/// changed. What sticks comes to rest, where impulses stay the same.
+fn go_on(last: &[Impulse], problem: &ContactProblem, expected: &mut [Impulse]) {
+    let slips = |p: &Impulse, block: &Block| {
+        block.friction > 0.0 && p.x > 0.0 && p.yz().norm() >= block.friction * p.x * (1.0 - 1e-9)
+    };
+    for ((p, last), block) in expected.iter_mut().zip(last).zip(&problem.blocks) {
+        let change = last - *p;
+        let is_small = change.norm() <= SMALL * last.norm();
+        *p = if slips(p, block) && slips(last, block) && is_small { last + change } else { *last };
     }
 }

@@ -156,7 +156,7 @@ impl Gathered {
     pub fn solve_from(&self, mut p: Vec<Impulse>, solver: Solver, most: u32, tolerance: f64) -> Solved {
         let sweeps = sweeps(most, tolerance, self.assembly.friction > 0.0);
         let (mut solver, mut work) = (ContactSolver::new(solver, 0, 0, true), Work::default());
-        let says = solver.solve(&self.problem, &sweeps, &mut p, &mut work);
+        let says = solver.solve(&self.problem, &sweeps, (&mut p, &[]), &mut work);
         Solved { says, p, work }
     }
 

@@ -36,7 +36,7 @@ pub struct Change {
 #[derive(Clone, Debug)]
 pub enum Decision {
     /// These, with their forces.
-    Holds(Vec<Held>, Solved),
+    Holds(Vec<Held>, Box<Solved>),
     /// No force keeps a slip going, and none ends it: an impulse has to (Painlevé).
     Jams,
     Unsolved,
@@ -133,7 +133,7 @@ fn decide_all(
     work: &mut Work,
 ) -> Decision {
     if touches.is_empty() {
-        return Decision::Holds(Vec::new(), Solved::default());
+        return Decision::Holds(Vec::new(), Box::default());
     }
     gathered.gather(model, state, touches.iter());
     if gathered.islands.len() == 1 || !model.pins.is_empty() {
@@ -156,7 +156,7 @@ fn decide_all(
         }
     }
     all.sort_by_key(|(place, _)| *place);
-    Decision::Holds(all.into_iter().map(|(_, held)| held).collect(), gathered.solved(p, true))
+    Decision::Holds(all.into_iter().map(|(_, held)| held).collect(), Box::new(gathered.solved(p, true)))
 }
 
 /// Of contacts that share bodies: the others do not matter to them.
@@ -184,9 +184,9 @@ fn decide_island(
             Alone::Holds(mode) => {
                 let held = Held { touch: touch.clone(), mode, slip: young(0) };
                 let solved = gathered.hold(std::slice::from_ref(&held), Selection::Any);
-                Decision::Holds(vec![held], solved)
+                Decision::Holds(vec![held], Box::new(solved))
             }
-            Alone::Leaves => Decision::Holds(Vec::new(), Solved::default()),
+            Alone::Leaves => Decision::Holds(Vec::new(), Box::default()),
             Alone::Jams => Decision::Jams,
         };
     }
@@ -194,7 +194,7 @@ fn decide_island(
         let held = |(i, mode): (usize, Mode)| Held { touch: touches[i].clone(), mode, slip: young(i) };
         let mut held: Vec<Held> = modes.map(held).collect();
         let aligned = if held.len() == touches.len() { slip::align(gathered, &mut held) } else { None };
-        Decision::Holds(held, aligned.unwrap_or(solved))
+        Decision::Holds(held, Box::new(aligned.unwrap_or(solved)))
     };
     if touches.len() <= MANY
         && let Some((modes, solved)) = goes_on_or_slides(gathered, &modes)
@@ -202,7 +202,7 @@ fn decide_island(
         return hold(&mut modes.into_iter().enumerate(), solved);
     }
     match by_law(gathered, &modes, work) {
-        Law::Holds(now, solved) => hold(&mut now.into_iter(), solved),
+        Law::Holds(now, solved) => hold(&mut now.into_iter(), *solved),
         Law::Jams => Decision::Jams,
         Law::Unsolved => Decision::Unsolved,
     }
@@ -430,7 +430,9 @@ fn leaves(gathered: &Gathered, modes: &[Mode], now: &[(usize, Mode)], solved: &S
 /// Of many contacts only whether they go on.
 fn by_law_alone(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Margin {
     match by_law(gathered, modes, work) {
-        Law::Holds(now, solved) => Margin { least: if goes_on(&now, modes) { NOT_KNOWN } else { -1.0 }, solved },
+        Law::Holds(now, solved) => {
+            Margin { least: if goes_on(&now, modes) { NOT_KNOWN } else { -1.0 }, solved: *solved }
+        }
         Law::Jams | Law::Unsolved => Margin { least: -1.0, solved: gathered.without_forces() },
     }
 }

@@ -44,7 +44,7 @@ const STOPPED: f64 = 1e-6;
 /// What the law of all contacts says.
 pub enum Law {
     /// These contacts hold, by their places, so.
-    Holds(Vec<(usize, Mode)>, Solved),
+    Holds(Vec<(usize, Mode)>, Box<Solved>),
     Jams,
     Unsolved,
 }
@@ -115,7 +115,7 @@ pub fn by_law(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Law {
         };
         held.push((i, mode));
     }
-    Law::Holds(held, solved)
+    Law::Holds(held, Box::new(solved))
 }
 
 /// Contacts that one of the simple answers is looked for of.
@@ -192,7 +192,7 @@ pub fn hold(gathered: &Gathered, held: &[Held], choice: Selection, work: &mut Wo
         if let Law::Holds(now, solved) = by_law(gathered, &modes, work)
             && goes_on(&now, &modes)
         {
-            return solved;
+            return *solved;
         }
     }
     gathered.hold(held, choice)

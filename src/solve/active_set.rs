@@ -10,7 +10,7 @@ use super::island::{Island, Point, Share};
 use super::law::{self, Law};
 use super::modes::{Mode, against, onto_cone, slip, turning};
 use super::slope::Slope;
-use super::{Impulse, complementary};
+use super::{Impulse, complementary, impulse};
 use crate::math::few::{BlockVector, Few};
 use nalgebra::Vector3;
 
@@ -160,10 +160,8 @@ pub fn all_slip(island: &Island, p: &[Impulse]) -> bool {
     island.touches.iter().zip(p).all(|(touch, p)| slips(touch, p) || is_open(touch, p))
 }
 
-/// At the side of the cone.
 fn slips(touch: &Share, p: &Impulse) -> bool {
-    let friction = touch.law.friction();
-    friction > 0.0 && p.x > 0.0 && p.yz().norm() >= friction * p.x * (1.0 - 1e-9)
+    impulse::slips(p, touch.law.friction())
 }
 
 /// What a contact's impulse does when velocities change: Δp = `jump` − D (u + Δu).

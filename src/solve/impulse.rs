@@ -27,3 +27,8 @@ pub fn corrected(p: &Impulse, friction: f64, cone: Cone) -> Impulse {
         Impulse::new(p.x, p.y * scale, p.z * scale)
     }
 }
+
+/// Whether it is at the side of the cone.
+pub fn slips(p: &Impulse, friction: f64) -> bool {
+    friction > 0.0 && p.x > 0.0 && p.yz().norm() >= friction * p.x * (1.0 - 1e-9)
+}

@@ -30,4 +30,4 @@ mod speeds;
 pub mod start;
 pub mod twist;
 
-pub use impulse::{Impulse, corrected};
+pub use impulse::{Impulse, corrected, slips};

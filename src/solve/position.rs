@@ -90,9 +90,7 @@ impl Push {
     /// left to a contact; `late_m`: one that it has come to in this step.
     pub fn find(
         &mut self,
-        problem: &ContactProblem,
-        contacts: &[Contact],
-        model: &Model,
+        (problem, contacts, model): (&ContactProblem, &[Contact], &Model),
         (impulses, response, step_s): (&[Impulse], &[Twist], f64),
         (taken_j, lost_j_kg): (impl FnOnce(&mut Vec<f64>), f64),
         (left_m, late_m): (impl Fn(&Contact) -> f64, impl Fn(&Contact) -> f64),

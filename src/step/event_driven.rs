@@ -330,7 +330,7 @@ impl EventDriven {
                 return;
             }
             match decide(model, state, touches, change, self.gathered.get_mut(), &mut self.work) {
-                Decision::Holds(held, forces) => (self.held, solved) = (held, forces),
+                Decision::Holds(held, forces) => (self.held, solved) = (held, *forces),
                 Decision::Jams => {
                     self.next = Event::Jam;
                     return;

@@ -31,8 +31,6 @@ use crate::experiment::types::{
 use crate::model::pins::Pin as Joint;
 use crate::model::{Body, Model};
 use crate::plan::Plan;
-use crate::solve::Impulse;
-use crate::solve::block::Block;
 use crate::solve::gauss_seidel::{Sweeps, Variant};
 use crate::solve::missed::strict_residual;
 use crate::solve::pins::{self, Pin};
@@ -40,6 +38,7 @@ use crate::solve::position::Push;
 use crate::solve::problem::ContactProblem;
 use crate::solve::solver::ContactSolver;
 use crate::solve::twist::Twist;
+use crate::solve::{self, Impulse};
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
@@ -488,13 +487,14 @@ impl TimeStepping {
         let lost_j_kg = if is_half_way { 0.0 } else { (model.gravity_m_s2 * step_s).norm_squared() / 2.0 };
         let free = is_half_way.then_some(&s.free[..]);
         let taken_j = |taken: &mut Vec<f64>| s.problem.taken_j(state, free, (&s.impulses, &s.response), taken);
+        let of = (&s.problem, &s.found[..], model);
         let through = (&s.impulses[..], &s.response[..], step_s);
         let left_m = |contact: &Contact| if self.is_far { left_m(contact, state, &s.free, step_s) } else { 0.0 };
         // A kick half-way sees an impact when its gap has closed already.
         let late_s = if is_half_way { step_s } else { 0.0 };
         let late_m = |contact: &Contact| -late_s * normal_motion(contact, state, &s.free).before.min(0.0);
         self.position_correction == PositionCorrection::Projection
-            && self.push.find(&s.problem, &s.found, model, through, (taken_j, lost_j_kg), (left_m, late_m), &mut s.work)
+            && self.push.find(of, through, (taken_j, lost_j_kg), (left_m, late_m), &mut s.work)
     }
 }
 
@@ -548,12 +548,10 @@ const SMALL: f64 = 0.1;
 /// Lets impulses of contacts that slip go on from those of the step before (`expected`) to the last ones as they
 /// changed. What sticks comes to rest, where impulses stay the same.
 fn go_on(last: &[Impulse], problem: &ContactProblem, expected: &mut [Impulse]) {
-    let slips = |p: &Impulse, block: &Block| {
-        block.friction > 0.0 && p.x > 0.0 && p.yz().norm() >= block.friction * p.x * (1.0 - 1e-9)
-    };
     for ((p, last), block) in expected.iter_mut().zip(last).zip(&problem.blocks) {
         let change = last - *p;
         let is_small = change.norm() <= SMALL * last.norm();
-        *p = if slips(p, block) && slips(last, block) && is_small { last + change } else { *last };
+        let slips = [*p, *last].iter().all(|p| solve::slips(p, block.friction));
+        *p = if slips && is_small { last + change } else { *last };
     }
 }

@@ -87,20 +87,19 @@ impl Push {
     /// Finds every body's displacement; false if no contact will be inside (then `moved` means nothing). `response`:
     /// what the impulses did to the velocities, which last until the next step's contacts are seen. `taken_j`: what
     /// every contact of this step took; `lost_j_kg`: what every body has lost beside that. `left_m`: a depth that is
-    /// left to a contact; `late_m`: one that it has come to in this step.
+    /// left to a contact.
     pub fn find(
         &mut self,
         (problem, contacts, model): (&ContactProblem, &[Contact], &Model),
         (impulses, response, step_s): (&[Impulse], &[Twist], f64),
-        (taken_j, lost_j_kg): (impl FnOnce(&mut Vec<f64>), f64),
-        (left_m, late_m): (impl Fn(&Contact) -> f64, impl Fn(&Contact) -> f64),
+        (taken_j, lost_j_kg, left_m): (impl FnOnce(&mut Vec<f64>), f64, impl Fn(&Contact) -> f64),
         work: &mut Work,
     ) -> bool {
         let wanted_m = |block: &Block, contact: &Contact| {
             let moves_m = step_s * (block.velocity(response).x + block.least + block.turning);
             let inside_m = -(contact.gap_m + moves_m.max(0.0)) - block.swing(step_s) - left_m(contact);
             let is_pushed = contact.restitution < 1.0 && inside_m > rounding_m(model, contact);
-            let at_once_m = late_m(contact).max(SHALLOW * size_m(model, contact));
+            let at_once_m = SHALLOW * size_m(model, contact);
             if is_pushed { inside_m.min(at_once_m.max(PART * inside_m)) } else { -(contact.gap_m + moves_m).max(0.0) }
         };
         self.wanted_m.clear();
@@ -121,7 +120,7 @@ impl Push {
             }
         }
         taken_j(&mut self.taken_j);
-        self.settle(contacts, impulses, model, lost_j_kg, late_m);
+        self.settle(contacts, impulses, model, lost_j_kg);
         if !is_settled {
             self.hold_back(problem);
         }
@@ -129,14 +128,7 @@ impl Push {
     }
 
     /// What islands have in common.
-    fn settle(
-        &mut self,
-        contacts: &[Contact],
-        impulses: &[Impulse],
-        model: &Model,
-        lost_j_kg: f64,
-        late_m: impl Fn(&Contact) -> f64,
-    ) {
+    fn settle(&mut self, contacts: &[Contact], impulses: &[Impulse], model: &Model, lost_j_kg: f64) {
         let Push { wanted_m, multipliers, first, islands, accounts, taken_j, .. } = self;
         let joins = |(contact, (p, multiplier)): &(&Contact, (&Impulse, &f64))| {
             p.x > 0.0 || **multiplier > 0.0 || contact.gap_m <= rounding_m(model, contact)
@@ -161,7 +153,7 @@ impl Push {
         for ((contact, (wanted_m, multiplier)), taken_j) in contacts.iter().zip(pushes).zip(&*taken_j) {
             let account = &mut accounts[islands.of(model, contact)];
             account.taken_j += taken_j;
-            if *wanted_m > late_m(contact).max(PART * DEEP * size_m(model, contact)) {
+            if *wanted_m > PART * DEEP * size_m(model, contact) {
                 account.least = PART;
             }
             account.is_pushed |= *multiplier > 0.0;

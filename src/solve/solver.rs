@@ -20,6 +20,8 @@ pub struct ContactSolver {
     by: By,
     /// Whether impulses of the last step that still obey the law are taken as they are.
     keeps: bool,
+    /// As `left` says.
+    left: f64,
     u: Vec<Twist>,
 }
 
@@ -43,7 +45,7 @@ impl ContactSolver {
             Solver::Nncg => By::Nncg(nncg::Scratch::with_capacity(contacts, bodies)),
             Solver::Newton => By::Newton(gauss_seidel::Scratch::with_capacity(contacts, bodies)),
         };
-        ContactSolver { by, keeps, u: Vec::with_capacity(bodies) }
+        ContactSolver { by, keeps, left: 0.0, u: Vec::with_capacity(bodies) }
     }
 
     /// Residual up to which impulses need not be improved where something next to nothing else is asked for.
@@ -59,6 +61,11 @@ impl ContactSolver {
         matches!(self.by, By::Pgs(_) | By::Nncg(_))
     }
 
+    /// The residual of the last impulses, if they were kept as they were; else 0.
+    pub fn left(&self) -> f64 {
+        self.left
+    }
+
     /// Improves `p`. Whether it is solved, or has settled. `expected`: what impulses become if they go on as they
     /// changed, for what is solved anew in every step; may be empty.
     pub fn solve(
@@ -69,7 +76,9 @@ impl ContactSolver {
         work: &mut Work,
     ) -> bool {
         let start = Start::new(problem, p, &mut self.u);
-        if self.keeps && start.lasts(sweeps.tolerance) {
+        let is_kept = self.keeps && start.lasts(sweeps.tolerance);
+        self.left = if is_kept { start.residual } else { 0.0 };
+        if is_kept {
             work.kept_solves += 1;
             return true;
         }

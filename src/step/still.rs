@@ -10,9 +10,10 @@ use crate::model::Model;
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 
-/// Of the speed that the step's forces give a body: what contacts leave of it when they hold it by impulses that are
-/// kept (`solve::kept`). It would be sent back by the next step, and come again for ever.
-const NOTHING: f64 = 4e-12;
+/// Of the speed that the step's forces give a body: what contacts leave of it when they hold it. And of a residual that
+/// kept impulses leave: that speed would be sent back by the next step, and come again for ever.
+const NOTHING: f64 = 1e-13;
+const OF_RESIDUAL: f64 = 4.0;
 
 /// Of a place, or of an attitude: what does not move a body.
 const HALF: f64 = f64::EPSILON / 2.0;
@@ -26,13 +27,16 @@ pub(super) fn is_steady(model: &Model, start: &State) -> bool {
 }
 
 /// Puts to rest what stands still. `began`: before the step; `free`: velocities with its forces; `response`: what
-/// contacts did to them. Whether all bodies are as they were, to the last bit.
+/// contacts did to them, by impulses that were kept with that `residual`. Whether all bodies are as they were, to the
+/// last bit.
 pub(super) fn put_to_rest(
     model: &Model,
     state: &mut State,
     began: &[BodyState],
     (free, response): (&[Twist], &[Twist]),
+    residual: f64,
 ) -> bool {
+    let nothing = NOTHING.max(OF_RESIDUAL * residual);
     let mut is_same = true;
     for (i, (at, before)) in state.bodies.iter_mut().zip(began).enumerate() {
         let body = &model.bodies[i];
@@ -46,7 +50,7 @@ pub(super) fn put_to_rest(
         if is_placed && response[i] != Twist::ZERO {
             let speed = |v: f64, w: f64| v + w * body.bounding_radius_m;
             let gained = speed((free[i].v - before.v_WB).norm(), (free[i].w - before.w_WB).norm());
-            if speed(at.v_WB.norm(), at.w_WB.norm()) <= NOTHING * gained {
+            if speed(at.v_WB.norm(), at.w_WB.norm()) <= nothing * gained {
                 *at = BodyState { v_WB: Twist::ZERO.v, w_WB: Twist::ZERO.w, ..*before };
             }
         }

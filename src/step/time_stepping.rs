@@ -303,7 +303,7 @@ impl TimeStepping {
             }
             return;
         }
-        let is_same = still::put_to_rest(model, state, &self.began, (&s.free, &s.response));
+        let is_same = still::put_to_rest(model, state, &self.began, (&s.free, &s.response), self.solver.left());
         self.is_at_rest = is_same && self.is_steady && self.skips.has(Skip::Rest) && self.last == self.last_but_one;
     }
 
@@ -490,11 +490,8 @@ impl TimeStepping {
         let of = (&s.problem, &s.found[..], model);
         let through = (&s.impulses[..], &s.response[..], step_s);
         let left_m = |contact: &Contact| if self.is_far { left_m(contact, state, &s.free, step_s) } else { 0.0 };
-        // A kick half-way sees an impact when its gap has closed already.
-        let late_s = if is_half_way { step_s } else { 0.0 };
-        let late_m = |contact: &Contact| -late_s * normal_motion(contact, state, &s.free).before.min(0.0);
         self.position_correction == PositionCorrection::Projection
-            && self.push.find(of, through, (taken_j, lost_j_kg), (left_m, late_m), &mut s.work)
+            && self.push.find(of, through, (taken_j, lost_j_kg, left_m), &mut s.work)
     }
 }
 

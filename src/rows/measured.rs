@@ -85,8 +85,8 @@ columns! {
         pub pin_gap_max_m: Option<f64>,
         /// Distance of the worst contact of the worst step from the law of contact that was asked for, relative to the
         /// impulse that does to the lighter of its bodies what the step does to it. Rounding gives 1e-16 to 1e-13,
-        /// times the ratio of masses; a wrong impulse O(1). Null for `free` and `penalty`, and where nothing has
-        /// touched.
+        /// times the ratio of masses; a wrong impulse O(1), one where nothing may push the largest number there is.
+        /// Null for `free` and `penalty`, and where nothing has touched.
         #[column(small = 1e-9)]
         pub residual_max: Option<f64>,
         /// Largest kinetic energy after one contact solve over that before it. Above 1 contacts have made energy.

@@ -96,7 +96,8 @@ fn summarize(model: &Model, advance: &Advance, judge: &mut Judge, diverged: Opti
         passed_through: judge.geometry.passed_through,
         ghost_impulse_max_rel: judge.geometry.ghost_impulse_max_rel.and_then(finite),
         pin_gap_max_m: judge.pin_gap_max_m.and_then(finite),
-        residual_max: judge.residual.max.and_then(finite),
+        // What has touched is judged: a force held against nothing is no missing number.
+        residual_max: judge.residual.max.map(|residual| finite(residual).unwrap_or(f64::MAX)),
         contact_gain_max: judge.energy.contact_gain_max.and_then(finite),
         contacts_max: judge.contacts_max,
         work: *advance.work(),

@@ -32,8 +32,8 @@ const MANY_SWEEPS: [u32; 8] = [50; 8];
 const LASTING: f64 = 1e-13;
 
 /// Improves `p` until the residual of every island is below the tolerance. Whether it is. `expected`: where islands
-/// begin whose shares are a part of the answer, or empty: what contacts share otherwise stays as it was, which is no
-/// way to go on. `u`: M⁻¹ Jᵀ p.
+/// begin whose shares are a part of the answer, if that is nearer, or empty: what contacts share otherwise stays as it
+/// was, which is no way to go on. `u`: M⁻¹ Jᵀ p.
 pub(super) fn solve(
     problem: &ContactProblem,
     goal: &Sweeps,
@@ -68,7 +68,10 @@ pub(super) fn solve(
             continue;
         }
         if is_shared && !expected.is_empty() {
-            own = island.at(island.impulses(expected));
+            let on = island.at(island.impulses(expected));
+            if island.residual_at(&on) < island.residual_at(&own) {
+                own = on;
+            }
         }
         let part = (!alone).then(|| problem.part(contacts()));
         let problem = part.as_ref().unwrap_or(problem);

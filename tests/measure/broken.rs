@@ -1,7 +1,7 @@
 //! The judges of energy, momentum and the law of contact see what a broken solver does: right steps of `newton`, of
 //! which one is broken by hand, with the state that follows from it.
 
-use crate::yaml::experiment;
+use crate::yaml::{experiment, measured};
 use gotai::collide::SolvedContact;
 use gotai::experiment::types::Diverge;
 use gotai::measure::Judge;
@@ -149,4 +149,23 @@ fn friction_that_is_turned_is_seen() {
     });
     // measured: 0.98
     assert!(along.drift > 0.1 && along.rise > 0.1 && along.residual > 0.1, "{along:?}");
+}
+
+/// A ball hits the upper of two crates. Whatever becomes of it, that they touched is judged.
+#[test]
+fn what_touches_has_a_residual() {
+    let text = "
+scene:
+  friction: 0.4
+  restitution: 0
+  container: { plane: { normal: [0, 1, 0] } }
+  bodies:
+    - { name: lower, shape: { box: { size_m: [1, 0.5, 1] } }, mass_kg: 1, position_m: [0, 0.25, 0] }
+    - { name: upper, shape: { box: { size_m: [1, 0.5, 0.9] } }, mass_kg: 1, position_m: [0.05, 0.75, 0] }
+    - { name: ball, shape: { sphere: { radius_m: 0.2 } }, mass_kg: 2, position_m: [-2, 0.8, 0.05], velocity_m_s: [5, 0, 0] }
+method: event-driven
+time: { end_s: 1 }
+";
+    // measured: not a number by 1, for a force where nothing may push: the largest there is
+    assert!(measured(text, &[]).residual_max.is_some());
 }

@@ -351,7 +351,8 @@ impl Gathered {
             }
             rows[worst] = Rows::None;
             p = self.no_forces();
-            let holds = solve(&self.problem, island, &rows, Selection::Least, &mut p, self.deadline);
+            let missed = missed(&self.problem, island, &rows, Selection::Least, &mut p, self.deadline);
+            let holds = missed.is_some_and(|missed| missed.is_nothing());
             let now = self.solved(p, holds);
             let lifts = |i: &usize| self.problem.blocks[*i].velocity(&now.added).x.abs() > CONSISTENT * scale;
             if !now.holds || own.iter().any(lifts) {
@@ -402,7 +403,7 @@ impl Gathered {
             let missed = missed(&self.problem, island, rows, choice, &mut p, self.deadline);
             // What is rounding itself is not put right by rounding.
             let is_rounding = |missed: Missed| missed.size <= ROUNDINGS * rounding && missed.of_all <= PUT_RIGHT;
-            holds &= missed.is_some_and(|missed| missed.of_all <= CONSISTENT || is_rounding(missed));
+            holds &= missed.is_some_and(|missed| missed.is_nothing() || is_rounding(missed));
         }
         self.solved(p, holds)
     }
@@ -478,19 +479,14 @@ struct Missed {
     of_all: f64,
 }
 
-/// Forces of an island, that solve its equations; the others' are left as they are.
-fn solve(
-    problem: &ContactProblem,
-    island: &[usize],
-    rows: &[Rows],
-    choice: Selection,
-    p: &mut [Impulse],
-    deadline: Deadline,
-) -> bool {
-    missed(problem, island, rows, choice, p, deadline).is_some_and(|missed| missed.of_all <= CONSISTENT)
+impl Missed {
+    /// The forces solve the equations.
+    fn is_nothing(&self) -> bool {
+        self.of_all <= CONSISTENT
+    }
 }
 
-/// Forces of an island, and what they miss. None: there are none.
+/// Forces of an island, the others' left as they are, and what they miss. None: there are none.
 fn missed(
     problem: &ContactProblem,
     island: &[usize],
@@ -526,7 +522,7 @@ pub fn stop(problem: &ContactProblem, deadline: Deadline) -> Option<Few<Impulse>
     let contacts = problem.blocks.len();
     let (island, rows): (Few<usize>, Few<Rows>) = (0..contacts).map(|i| (i, Rows::All)).unzip();
     let mut p = Few::from_elem(Impulse::zeros(), contacts);
-    solve(problem, &island, &rows, Selection::Least, &mut p, deadline).then_some(p)
+    missed(problem, &island, &rows, Selection::Least, &mut p, deadline)?.is_nothing().then_some(p)
 }
 
 /// A force that is looked for, and the equation beside it.

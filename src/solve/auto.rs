@@ -11,7 +11,7 @@
 use super::block::Block;
 use super::gauss_seidel::{self, Sweeps};
 use super::island::{Island, Point, islands_without_pattern};
-use super::kept::{KEPT, Start};
+use super::kept::{AT_REST, KEPT, Start};
 use super::missed::shares_matter;
 use super::problem::ContactProblem;
 use super::twist::Twist;
@@ -28,9 +28,6 @@ const SWEEPS: [u32; 2] = [0, 20];
 /// The same of an island that is too large for anything else.
 const MANY_SWEEPS: [u32; 8] = [50; 8];
 
-/// A residual of impulses that bodies at rest keep for thousands of steps.
-const LASTING: f64 = 1e-13;
-
 /// Improves `p` until the residual of every island is below the tolerance. Whether it is. `expected`: where islands
 /// begin whose shares are a part of the answer, if that is nearer, or empty: what contacts share otherwise stays as it
 /// was, which is no way to go on. `u`: M⁻¹ Jᵀ p.
@@ -46,7 +43,7 @@ pub(super) fn solve(
         if let Some(alone) = alone(problem) {
             p[0] = exact_contact::solve(&alone.A, &alone.b, &Impulse::zeros(), alone.friction);
         } else {
-            let sweeps = Sweeps { most: FIRST_SWEEPS, tolerance: LASTING, ..*goal };
+            let sweeps = Sweeps { most: FIRST_SWEEPS, tolerance: AT_REST, ..*goal };
             gauss_seidel::iterate(problem, &sweeps, p, &mut scratch.nncg.sweeps, work);
         }
         (start, expected) = (Start::new(problem, p, u), &[]);
@@ -135,7 +132,7 @@ impl Part<'_> {
             return true;
         }
         let goal = self.goal;
-        let within = if self.is_shared { goal.tolerance } else { LASTING };
+        let within = if self.is_shared { goal.tolerance } else { AT_REST };
         let sweeps = newton::more_sweeps(&goal);
         let more = |own: &mut Few<Impulse>, work: &mut Work| {
             let mut p = island.with_units(own);

@@ -9,8 +9,9 @@ use super::twist::Twist;
 /// tips with e^(t √(m g/I r))): what they leave must be nothing beside the gaps that are closed, 1e-12 of a body.
 pub(super) const KEPT: f64 = 1e-2;
 
-/// A residual that is rounding to bodies that rest: no method need do better, if its tolerance does not say so.
-const AT_REST: f64 = 1e-13;
+/// A residual that is rounding to bodies that rest, which keep their impulses for thousands of steps: no method need do
+/// better, if its tolerance does not say so.
+pub(super) const AT_REST: f64 = 1e-13;
 
 /// Impulses that are to be improved.
 #[derive(Clone, Copy, Debug)]

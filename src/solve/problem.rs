@@ -265,15 +265,6 @@ impl ContactProblem {
         part
     }
 
-    /// The 3×3 block of A between two contacts.
-    pub fn coupling(&self, i: usize, j: usize) -> Matrix3<f64> {
-        if self.is_dense() {
-            self.dense().A_blocks[i * self.blocks.len() + j]
-        } else {
-            self.blocks[i].coupling(&self.blocks[j])
-        }
-    }
-
     /// A as a dense matrix, 3L × 3L.
     pub fn A(&self) -> DMatrix<f64> {
         let n = self.blocks.len();

@@ -13,7 +13,7 @@
 use super::Contact;
 use super::closed::{closed_m, unresolved_m};
 use super::two::of_pair;
-use crate::model::{Model, pose_of_solid};
+use crate::model::{Body, Model, pose_of_solid};
 use crate::shape::band::BAND;
 use crate::shape::pair::{Apart, along, apart, touches};
 use crate::shape::solid::{Meeting, Pose, Solid};
@@ -46,6 +46,8 @@ pub struct DoubtfulPair {
     pub pair: [usize; 2],
     /// Whether its points are asked to stay apart.
     pub is_imposed: bool,
+    /// Whether its points were found by a motion without any impulse of its own.
+    pub is_sure: bool,
     pub points: Vec<Contact>,
 }
 
@@ -96,7 +98,7 @@ impl Doubts {
         }
 
         if self.used == self.all.len() {
-            self.all.push(DoubtfulPair { pair, is_imposed: false, points: Vec::new() });
+            self.all.push(DoubtfulPair { pair, is_imposed: false, is_sure: false, points: Vec::new() });
         }
         let doubt = &mut self.all[self.used];
         self.used += 1;
@@ -104,6 +106,7 @@ impl Doubts {
         doubt.points.clear();
         doubt.points.extend(points);
         doubt.is_imposed = touches && apart.second_m < -band_m(model, pair, at);
+        doubt.is_sure = false;
         true
     }
 }
@@ -308,8 +311,9 @@ impl<'a> Way<'a> {
     }
 
     /// Fills `points` with the contacts of the two as they meet, or of smooth bodies, whose axis turns steadily, at the
-    /// end of the step: arms from one point as the step begins, so that momentum is kept, the lighter body's as it will
-    /// be; gaps such that at the end of the step none is left below zero.
+    /// end of the step: arms from one point as the step begins, so that momentum is kept, a ball's as it will be, which
+    /// no normal impulse turns, or else the lighter body's; gaps such that at the end of the step none is left below
+    /// zero.
     pub fn points(&self, meet_s: f64, points: &mut Vec<Contact>, work: &mut Work) {
         let is_smooth = self.solids.iter().all(|(solid, _)| solid.is_smooth()) && !self.is_deep(meet_s);
         let is_same_axis = |work: &mut Work| {
@@ -323,11 +327,13 @@ impl<'a> Way<'a> {
         let mut found = Vec::new();
         touches(self.solids[0].0, &pose_a, self.solids[1].0, &pose_b, left_m, &mut found);
         let moved = [0, 1].map(|k| self.moving[k][0] * time_s);
-        let lightness = |k: usize| {
-            let body = &self.model.bodies[self.pair[k]];
-            if body.driven { 0.0 } else { 1.0 / body.mass_kg }
+        let bodies = self.pair.map(|i| &self.model.bodies[i]);
+        let lightness = |k: usize| if bodies[k].driven { 0.0 } else { 1.0 / bodies[k].mass_kg };
+        let [a, b] = match bodies.map(Body::is_centred_ball) {
+            [true, false] => [1.0, 0.0],
+            [false, true] => [0.0, 1.0],
+            _ => [lightness(0), lightness(1)],
         };
-        let [a, b] = [lightness(0), lightness(1)];
         let back = (moved[0] * a + moved[1] * b) / (a + b);
         points.clear();
         points.extend(found.iter().map(|touch| {

@@ -47,8 +47,22 @@ fn is_at_rest(model: &Model, state: &State, i: usize, forces: Forces) -> bool {
     let arms_m = model.pins.iter().filter(|pin| pin.body == i).map(|pin| pin.r_B.norm());
     let (radius_m, fall) = (arms_m.fold(body.bounding_radius_m, f64::max), model.gravity_m_s2.norm());
     let still = at.v_WB.norm() + radius_m * at.w_WB.norm() <= NO_SLIP * (fall * radius_m).sqrt();
-    let stays = a.v.norm() + radius_m * a.w.norm() <= NONE * forces.gathered.free[i].v.norm();
-    still && (body.driven || (stays && model.constant_pull(i).is_some()))
+    let left = a.v.norm() + radius_m * a.w.norm();
+    let stays = || left <= NONE * forces.gathered.free[i].v.norm() || left <= rounding_m_s2(model, i, forces);
+    still && (body.driven || (stays() && model.constant_pull(i).is_some()))
+}
+
+/// Acceleration of a body that the rounding of all forces of its island may leave, though they cancel: what is light
+/// under what is heavy.
+fn rounding_m_s2(model: &Model, i: usize, Forces { gathered, solved }: Forces) -> f64 {
+    let blocks = &gathered.problem.blocks;
+    let is_own = |block: &usize| blocks[*block].ends().any(|end| end.body == i);
+    let Some(island) = gathered.islands.iter().find(|island| island.iter().any(is_own)) else { return 0.0 };
+    let gives = |k: &usize| {
+        let compliance_1_kg = blocks[*k].ends().map(|end| model.bodies[end.body].compliance_1_kg()).sum::<f64>();
+        compliance_1_kg * solved.p.get(*k).map_or(0.0, |p| p.norm())
+    };
+    f64::EPSILON * island.iter().map(gives).sum::<f64>()
 }
 
 struct Settling<'a> {

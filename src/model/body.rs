@@ -88,7 +88,11 @@ impl Body {
         const MOST: u32 = 20;
         const LARGEST_RAD: f64 = 0.5;
         let turn_rad = w_WB.norm() * span_s;
-        if self.isotropic || self.driven || turn_rad == 0.0 || turn_rad.is_nan() || turn_rad > LARGEST_RAD {
+        if self.isotropic || self.driven || turn_rad.is_nan() || turn_rad > LARGEST_RAD {
+            return Vector3::zeros();
+        }
+        // Of what rounding turns, as of a slab that slides, it is none.
+        if turn_rad * self.I_B.norm() * self.I_B_inverse.norm() <= f64::EPSILON {
             return Vector3::zeros();
         }
         let w_B = state.q_WB.inverse_transform_vector(w_WB);
@@ -132,6 +136,14 @@ impl Body {
             _ => false,
         };
         self.isotropic && at_centre(&self.geometry)
+    }
+
+    /// Bound of what an impulse changes the velocity of any point of the body by, 1/kg; 0 of what moves as it is told.
+    pub fn compliance_1_kg(&self) -> f64 {
+        if self.driven {
+            return 0.0;
+        }
+        1.0 / self.mass_kg + self.bounding_radius_m * self.bounding_radius_m * self.I_B_inverse.norm()
     }
 
     /// Solid that other bodies touch, and its centre from the centre of mass, in body axes.

@@ -232,6 +232,7 @@ impl Foreseen {
             if let Ok(at) = same {
                 let earlier = &self.earlier.list()[at];
                 doubt.is_imposed = earlier.is_imposed;
+                doubt.is_sure = earlier.is_sure;
                 doubt.points.clone_from(&earlier.points);
             }
         }
@@ -301,6 +302,7 @@ impl Foreseen {
             let Some(meet_s) = way.meet_s(band_m, work) else {
                 if doubt.is_imposed && *round < SETTLING {
                     doubt.is_imposed = false;
+                    doubt.is_sure = false;
                     changed = true;
                 }
                 continue;
@@ -319,7 +321,8 @@ impl Foreseen {
             if points.is_empty() {
                 continue;
             }
-            let is_same = doubt.is_imposed && doubt.normal().cross(&points[0].normal).norm() <= SAME_AXIS;
+            let is_same =
+                doubt.is_sure || doubt.is_imposed && doubt.normal().cross(&points[0].normal).norm() <= SAME_AXIS;
             if is_same || (doubt.is_imposed && *round >= SETTLING) {
                 continue;
             }
@@ -327,6 +330,7 @@ impl Foreseen {
                 points.iter_mut().filter(|point| point.restitution > 0.0).for_each(|point| point.gap_m = 0.0);
             }
             doubt.points.clone_from(points);
+            doubt.is_sure = !doubt.is_imposed;
             doubt.is_imposed = true;
             changed = true;
         }
@@ -347,9 +351,9 @@ impl Foreseen {
             let work = &mut scratch.work;
             let Some(way) = Way::new(model, state, doubt.pair, moving, step_s) else { continue };
             let is_far = if approach == Approach::Middle { way.is_through(0.0) } else { way.is_deep(0.0) };
-            let deep_s = || (doubt.is_imposed && is_far).then(|| way.deep_s(work)).flatten();
-            let turned_s = way.turned_s().or_else(deep_s);
-            turned_s.into_iter().for_each(|turned_s| note_earlier(&mut self.turned_s, turned_s));
+            // What slides far along a face that turns is inside it before that has turned far.
+            let deep_s = (doubt.is_imposed && is_far).then(|| way.deep_s(work)).flatten();
+            way.turned_s().into_iter().chain(deep_s).for_each(|turned_s| note_earlier(&mut self.turned_s, turned_s));
         }
     }
 }

@@ -5,8 +5,9 @@
 //! before over again, and needs not be made. A body in flight is not held against the faces before it can have come to
 //! one.
 
+use crate::collide::SolvedContact;
 use crate::collide::closed::MARGIN;
-use crate::model::Model;
+use crate::model::{Body, Model};
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 
@@ -20,23 +21,32 @@ const HALF: f64 = f64::EPSILON / 2.0;
 
 /// Whether nothing changes with time but what moves freely.
 pub(super) fn is_steady(model: &Model, start: &State) -> bool {
-    let moves = |(body, at): (&crate::model::Body, &BodyState)| body.driven && (at.v_WB.norm() + at.w_WB.norm()) > 0.0;
+    let moves = |(body, at): (&Body, &BodyState)| body.driven && (at.v_WB.norm() + at.w_WB.norm()) > 0.0;
     model.pins.is_empty()
         && model.forces.iter().all(|force| force.cosine.is_none())
         && !model.bodies.iter().zip(&start.bodies).any(moves)
 }
 
 /// Puts to rest what stands still. `began`: before the step; `free`: velocities with its forces; `response`: what
-/// contacts did to them, by impulses that were kept with that `residual`. Whether all bodies are as they were, to the
-/// last bit.
+/// contacts did to them, by impulses `solved`, which were kept with that `residual`. Whether all bodies are as they
+/// were, to the last bit.
 pub(super) fn put_to_rest(
     model: &Model,
     state: &mut State,
     began: &[BodyState],
     (free, response): (&[Twist], &[Twist]),
-    residual: f64,
+    (solved, residual): (&[SolvedContact], f64),
 ) -> bool {
     let nothing = NOTHING.max(OF_RESIDUAL * residual);
+    // Impulses that cancel, as those on a light body under a heavy one, leave what rounding is of them.
+    let mut all_n_s = None;
+    let mut is_rounding = |i: usize, speed_m_s: f64| {
+        let part = f64::EPSILON * model.bodies[i].compliance_1_kg();
+        let all_n_s = *all_n_s.get_or_insert_with(|| solved.iter().map(|of| of.impulse_W.norm()).sum::<f64>());
+        let is_of = |of: &&SolvedContact| of.contact.body == i || of.contact.other == Some(i);
+        let own_n_s = || solved.iter().filter(is_of).map(|of| of.impulse_W.norm()).sum::<f64>();
+        speed_m_s <= part * all_n_s && speed_m_s <= part * own_n_s()
+    };
     let mut is_same = true;
     for (i, (at, before)) in state.bodies.iter_mut().zip(began).enumerate() {
         let body = &model.bodies[i];
@@ -47,10 +57,13 @@ pub(super) fn put_to_rest(
         let moved_m = (at.p_WB - before.p_WB).amax();
         let is_placed = moved_m <= HALF * before.p_WB.amax().max(body.bounding_radius_m)
             && (at.q_WB.coords - before.q_WB.coords).amax() <= HALF;
-        if is_placed && response[i] != Twist::ZERO {
+        // What stood still, and was not left alone, is not led on by rounding, however long the step.
+        let stood = before.v_WB == Twist::ZERO.v && before.w_WB == Twist::ZERO.w;
+        if (is_placed || stood) && response[i] != Twist::ZERO {
             let speed = |v: f64, w: f64| v + w * body.bounding_radius_m;
             let gained = speed((free[i].v - before.v_WB).norm(), (free[i].w - before.w_WB).norm());
-            if speed(at.v_WB.norm(), at.w_WB.norm()) <= nothing * gained {
+            let left = speed(at.v_WB.norm(), at.w_WB.norm());
+            if (is_placed && left <= nothing * gained) || is_rounding(i, left) {
                 *at = BodyState { v_WB: Twist::ZERO.v, w_WB: Twist::ZERO.w, ..*before };
             }
         }

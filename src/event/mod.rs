@@ -6,7 +6,8 @@
 //! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once
 //! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion, `field`: its equations;
 //!   `slip`: where that is stiff; `stiff`: its steps there
-//! - `caps`: of cylinders, that lie flat, fall flat and tip; `descent`, `rolling`: how a rim comes nearer
+//! - `caps`: of cylinders, that lie flat, fall flat and tip, `pressing`: over which point; `descent`, `rolling`: how a
+//!   rim comes nearer
 //! - `change`: when a contact that holds stops doing so
 //! - `watch`: when the next gap closes, and the proof that none was missed, of two bodies in `pairs`, from `look` to
 //!   look
@@ -34,6 +35,7 @@ pub mod look;
 pub mod motion;
 mod pairs;
 pub mod patience;
+pub mod pressing;
 pub mod radau_tableau;
 mod rolling;
 pub mod settle;

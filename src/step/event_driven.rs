@@ -19,6 +19,7 @@ use crate::event::impact;
 use crate::event::look::{Paths, Window};
 use crate::event::motion::Motion;
 use crate::event::patience::Patience;
+use crate::event::pressing::{Pressed, pressed, turn};
 use crate::event::settle::{Forces, settle};
 use crate::event::slip::{self, Pace, Slow};
 use crate::event::touch::Touch;
@@ -198,12 +199,13 @@ impl EventDriven {
                 }
             }
             Event::Struck => {
-                caps::turn(model, state, &mut self.found);
+                turn(model, state, &mut self.found, (&[], &mut Change::default()));
                 self.regroup(model, state, &Change::default());
             }
             Event::Change(change) => {
-                self.detect(model, state);
-                let change = Change { opened: self.opened.clone(), ..change };
+                let mut change = Change { opened: self.opened.clone(), ..change };
+                let pressed = pressed(model, state, &self.held, self.gathered.get_mut(), &mut self.work);
+                self.detect_as(model, state, (&pressed, &mut change));
                 self.regroup(model, state, &change);
                 self.opened.extend_from_slice(&change.opening);
             }
@@ -259,6 +261,11 @@ impl EventDriven {
 
     /// Fills `found` with what touches now.
     fn detect(&mut self, model: &Model, state: &mut State) {
+        self.detect_as(model, state, (&[], &mut Change::default()));
+    }
+
+    /// The same, as caps are pressed.
+    fn detect_as(&mut self, model: &Model, state: &mut State, pressed: (&[Pressed], &mut Change)) {
         self.found.clear();
         if self.contact {
             caps::level(model, state);
@@ -269,7 +276,7 @@ impl EventDriven {
             if model.touching_pairs {
                 which::choose(model, state, &mut self.found, self.gathered.get_mut(), &mut self.work);
             }
-            caps::turn(model, state, &mut self.found);
+            turn(model, state, &mut self.found, pressed);
         }
     }
 
@@ -351,7 +358,9 @@ impl EventDriven {
             // Those of the law, where redundant contacts could share them otherwise.
             Margin { solved, .. } = margin(model, state, &self.held, gathered, &mut self.work);
         }
-        if ending::changes(model, [&self.kicked, state], ending::NOTHING) {
+        // However slowly: else that would strike at once, and open again what has been put to rest.
+        let is_pushed = ending::pushes(model, [&self.kicked, state], &self.found);
+        if is_pushed || ending::changes(model, [&self.kicked, state], ending::NOTHING) {
             self.ending_s = Some(ending::lasts_s(model, (&self.placing, &placed.p), (gathered, &solved)));
         }
         self.steady_W = steady(gathered, &solved, self.held.len());
@@ -386,7 +395,8 @@ impl EventDriven {
         }
         let over_s = ending_s.or(self.pace.ends_s);
         let at_once = over_s.is_some_and(|over_s| from_s + over_s <= from_s);
-        let mut others = Vec::new();
+        // What is pushed takes part.
+        let mut others = if at_once { ending::coming(model, state, &self.held, &self.found) } else { Vec::new() };
         if !at_once {
             let to_s = over_s.map_or(end_s, |over_s| end_s.min(from_s + over_s));
             self.advance(model, state, to_s);

@@ -196,3 +196,45 @@ fn a_larger_can_falls_alike() {
         assert!((fallen(k) - one).norm() < 1e-6, "{k}: {:e}", (fallen(k) - one).norm());
     }
 }
+
+/// A can slides from under a slab, the faster the longer: what presses its cap goes back from the middle to the rim.
+/// `turned_deg`: the can's, about its axis.
+fn under_a_slab(turned_deg: f64, end_s: f64) -> Measured {
+    let text = format!(
+        "
+scene:
+  friction: 0.1
+  container: {{ plane: {{ normal: [0, 1, 0] }} }}
+  bodies:
+    - {{ name: can, shape: {{ cylinder: {{ radius_m: 0.1, height_m: 0.2 }} }}, mass_kg: 2, position_m: [0, 0.1, 0],
+        orientation: {{ axis: [0, 1, 0], angle_deg: {turned_deg} }}, velocity_m_s: [1, 0, 0] }}
+    - {{ name: slab, shape: {{ box: {{ size_m: [0.5, 0.3, 0.5] }} }}, mass_kg: 1, position_m: [0, 0.35, 0] }}
+method: {{ event-driven: {{ tolerance: 1e-8 }} }}
+time: {{ end_s: {end_s} }}
+measure: [state]
+"
+    );
+    measured(&text, &[])
+}
+
+/// The slab's friction presses it μ h behind its middle, and 3 μ g brake the can against it: the middle of what presses
+/// is at the rim when v t − 3 μ g t²/2 = r − μ h, and the slab tips from then on, wherever the can's own points are.
+#[test]
+fn what_slides_off_a_cap_tips_when_its_weight_is_over_the_rim() {
+    let (v, a, way) = (1.0, 3.0 * 0.1 * 9.8, 0.1 - 0.1 * 0.15);
+    let tips_s = (v - f64::sqrt(v * v - 2.0 * a * way)) / a;
+    let tilt_rad = |of: &Measured| of.more["slab.orientation_xyzw.z"].as_f64().unwrap() * 2.0;
+    let straight_rad = tilt_rad(&under_a_slab(0.0, tips_s + 2e-3));
+    for turned_deg in [20.0, 45.0] {
+        let [before, after] = [-1e-5, 2e-3].map(|later_s| under_a_slab(turned_deg, tips_s + later_s));
+        // measured: 2e-16; 1.2e-6 where it tipped over a side of the square of the can's four points
+        assert!(tilt_rad(&before).abs() < 1e-14, "{turned_deg}: {}", tilt_rad(&before));
+        // measured: 1.1e-14 of 3.3e-7
+        assert!((tilt_rad(&after) - straight_rad).abs() < 1e-12, "{turned_deg}: {}", tilt_rad(&after));
+        for of in [before, after] {
+            assert_eq!((of.outcome, of.work.fallbacks), (Outcome::Finished, 0));
+            // measured: 9e-14; 1.9e-7 over a side of the square
+            assert!(of.penetration_max_m.unwrap() < 1e-11, "{:?}", of.penetration_max_m);
+        }
+    }
+}

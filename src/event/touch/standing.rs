@@ -3,6 +3,8 @@
 use super::Touch;
 use super::parts::Parts;
 use crate::event::shown::Part;
+use crate::model::Model;
+use crate::shape::solid::Solid;
 use crate::state::State;
 use nalgebra::Vector3;
 
@@ -14,6 +16,14 @@ pub struct Standing {
     pub normal_rate_W: Vector3<f64>,
     /// From the centre of mass, body axes. None: a rim.
     pub corner_B: Option<Vector3<f64>>,
+}
+
+impl Standing {
+    /// It stands with a cylinder's corner.
+    pub fn is_on_rim(&self, model: &Model) -> bool {
+        let is_cylinder = matches!(model.bodies[self.of].solid(), Some((Solid::Cylinder { .. }, _)));
+        is_cylinder && self.corner_B.is_some()
+    }
 }
 
 impl Touch {

@@ -36,9 +36,6 @@ const NARROWER: u32 = 12;
 /// Of the first difference between two looks over the time between them: a steeper one is a step and no slope.
 const STEEP: f64 = 8.0;
 
-/// Looks for the moment of a change after which it is looked at once whether it was at the beginning.
-const FEW: u32 = 6;
-
 /// Looks at forces that are remembered.
 const REMEMBERED: usize = 4;
 
@@ -208,13 +205,7 @@ impl Looking<'_> {
         let steep = STEEP * (low - high) / (high_s - low_s);
         // What the last look has left in its place may hold the secant back.
         let mut weights = [1.0, 1.0];
-        let (first_s, mut looks) = (low_s, 0);
         while high_s - low_s > width_s && !self.is_over() {
-            looks += 1;
-            // What changes at once has no slope to tell it.
-            if looks == FEW && low_s == first_s && self.left(first_s + width_s) < 0.0 {
-                return first_s + width_s;
-            }
             let middle_s = 0.5 * (low_s + high_s);
             let is_slope = low.is_finite() && low > 0.0 && low - high <= steep * (high_s - low_s);
             let (a, b) = (low * weights[0], high * weights[1]);

@@ -17,7 +17,8 @@
 //!
 //! Errors. A gap beyond δ = 1e-13 of the body (and rounding of its coordinates) is never stepped over. Impacts that
 //! would never end (Zeno) end when the height of the bounces left, times 1/(1 − e)², is below a millionth of the
-//! tolerance, or what is left stays within δ: the contact then holds. What is left of a rocking is ended with the
+//! tolerance, or what is left stays within δ: the contact then holds. A body between two others that come nearer loses
+//! its restitution on both sides then, however fast these are. What is left of a rocking is ended with the
 //! friction that comes with it; that its contacts have to pull for this is seen in the residual of that blow.
 
 pub mod caps;

@@ -3,8 +3,8 @@
 //!
 //! - `touch`: a point of contact in any state, and its rates; `shown`: which parts of two bodies meet there
 //! - `forces`: the forces that keep what is in contact together
-//! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once; `proportion`: of what slides
-//!   as one
+//! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once; `proportion`: the forces of
+//!   a pile that slides as one
 //! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion, `field`: its equations;
 //!   `slip`: where that is stiff; `stiff`: its steps there
 //! - `caps`: of cylinders, that lie flat, fall flat and tip; `descent`, `rolling`: how a rim comes nearer

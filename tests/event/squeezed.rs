@@ -56,7 +56,6 @@ fn after_all_impacts(masses: [f64; 2], restitution: f64, end_s: f64) -> [[f64; 2
 
 #[test]
 fn what_is_squeezed_at_a_wall_comes_to_rest_with_what_squeezes_it() {
-    let mut worst = 0.0_f64;
     for law in ["newton", "poisson", "sequential"] {
         for mass_kg in [0.05, 2.0, 5.0, 20.0, 100.0, 1000.0] {
             for restitution in [0.1, 0.3, 0.5, 0.7, 0.9] {
@@ -70,14 +69,13 @@ fn what_is_squeezed_at_a_wall_comes_to_rest_with_what_squeezes_it() {
                 for i in 0..2 {
                     let at = ended.state.bodies[i];
                     let error = (at.p_WB.x - wanted[0][i]).abs().max((at.v_WB.x - wanted[1][i]).abs());
-                    worst = worst.max(error);
+                    // measured: 2.3e-13; up to 0.2 where the last impacts were one
                     assert!(error < 1e-10, "{what}, {i}: {error:e}, {wanted:?}");
                 }
                 assert!(ended.measured.residual_max.unwrap() < 1e-6, "{what}: {:?}", ended.measured.residual_max);
             }
         }
     }
-    println!("worst: {worst:e}");
 }
 
 /// A light ball between two heavy ones, far from everything.
@@ -106,7 +104,7 @@ fn what_squeezes_goes_on_with_what_is_squeezed() {
     let wanted = (40.0 * 0.5 + 1.0 - 60.0 * 0.4) / 101.0;
     for law in ["newton", "poisson", "sequential"] {
         for speed in speeds_m_s(BETWEEN_TWO, &[&format!("method={{event-driven: {{impact: {law}}}}}")]) {
-            // measured: XX
+            // measured: 3.8e-17
             assert!((speed - wanted).abs() < 1e-12, "{law}: {speed} {wanted}");
         }
     }
@@ -122,7 +120,7 @@ fn boxes_are_squeezed_as_balls_are_and_across_gravity() {
     for text in [&boxes, &on_floor(&boxes), &on_floor(AT_A_WALL)] {
         for restitution in [0.1, 0.5] {
             for speed in speeds_m_s(text, &[&format!("scene.restitution={restitution}")]) {
-                // measured: XX
+                // measured: 1.6e-64
                 assert!(speed.abs() < 1e-10, "{restitution}: {speed:e} of {text}");
             }
         }

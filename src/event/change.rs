@@ -5,6 +5,7 @@ use super::caps;
 use super::decide::{Change, Margin, PULL, margin};
 use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, Solved, meeting_m_s};
 use super::look::Paths;
+use super::proportion::are_beside;
 use crate::collide::Key;
 use crate::state::State;
 use crate::work::Work;
@@ -20,14 +21,14 @@ const NEAR: f64 = 1e-6;
 /// How closely a change is found, relative to the time between two looks: to the last bit but some.
 const WIDTH: f64 = 1e-14;
 
-/// Normals that differ by less are one.
-const SAME_NORMAL: f64 = 1e-9;
-
 /// Of the time between two looks: for slopes.
 const BESIDE: f64 = 1e-3;
 
 /// A grip that is not lost between two looks, of the most that there could be.
 const FIRM: f64 = 0.1;
+
+/// A grip that is none but for rounding.
+const AT_EDGE: f64 = 1e-9;
 
 /// Times that the interval of a least grip is made smaller.
 const NARROWER: u32 = 12;
@@ -97,7 +98,8 @@ impl Looking<'_> {
         let beside_s = (high_s - low_s) * BESIDE;
         for _ in 0..NARROWER {
             let [low, high] = [self.grip(low_s), self.grip(high_s)];
-            if low.min(high) > FIRM || high_s - low_s <= 4.0 * beside_s {
+            // What needs all of its friction at both looks slides as one with others.
+            if low.min(high) > FIRM || low.max(high) <= AT_EDGE || high_s - low_s <= 4.0 * beside_s {
                 return None;
             }
             let falls = (self.grip(low_s + beside_s) - low) / beside_s;
@@ -140,13 +142,7 @@ impl Looking<'_> {
     /// of all. It changes smoothly however they share it.
     fn grip_of(&self, solved: &Solved) -> f64 {
         let Gathered { here, problem, .. } = &*self.gathered;
-        let beside = |i: usize, j: usize| {
-            let [(of, other, _), with] = [i, j].map(|k| self.held[k].touch.key());
-            self.held[j].mode == Mode::Stick
-                && (of, other) == (with.0, with.1)
-                && here[i].contact.friction == here[j].contact.friction
-                && (here[i].contact.normal - here[j].contact.normal).norm() <= SAME_NORMAL
-        };
+        let beside = |i: usize, j: usize| self.held[j].mode == Mode::Stick && are_beside(self.gathered, [i, j]);
         let contacts = self.held.len();
         let mut least = 1.0_f64;
         for i in (0..contacts).filter(|i| self.held[*i].mode == Mode::Stick) {

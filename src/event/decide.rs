@@ -7,6 +7,7 @@
 
 use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, Solved, edge, meeting_m_s};
 use super::law::{Law, MANY, ROUNDING, by_law, goes_on};
+use super::proportion::in_proportion;
 use super::slip;
 use super::touch::Touch;
 use crate::collide::Key;
@@ -273,6 +274,9 @@ fn goes_on_or_slides(gathered: &Gathered, modes: &[Mode]) -> Option<(Vec<Mode>, 
     if is_pressing(&as_it_was, modes) && failing.is_empty() {
         return Some((modes.to_vec(), as_it_was));
     }
+    if let Some(solved) = in_proportion(gathered, modes, &as_it_was) {
+        return Some((modes.to_vec(), solved));
+    }
     let sliding = made_to_slide(gathered, &as_it_was, modes, &failing);
     let solved = gathered.try_modes(&sliding);
     let holds = solved.holds && is_pressing(&solved, &sliding) && slide_on(gathered, &solved, modes, &sliding);
@@ -398,6 +402,10 @@ fn law_of(
     let mut own = Gathered::until(gathered.deadline);
     own.gather(model, state, part.iter().map(|held| &held.touch));
     let modes: Vec<Mode> = own.modes(&part).collect();
+    if let Some(solved) = in_proportion(&own, &modes, &own.try_modes(&modes)) {
+        let left = least_left(&part, &solved);
+        return Some((solved.p, left));
+    }
     let Law::Holds(now, solved) = by_law(&own, &modes, work) else { return None };
     let left = if goes_on(&now, &modes) { least_left(&part, &solved) } else { -leaves(&own, &modes, &now, &solved) };
     Some((solved.p, left))

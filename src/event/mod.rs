@@ -3,7 +3,8 @@
 //!
 //! - `touch`: a point of contact in any state, and its rates; `shown`: which parts of two bodies meet there
 //! - `forces`: the forces that keep what is in contact together
-//! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once
+//! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once; `proportion`: the forces of
+//!   a pile that slides as one
 //! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion, `field`: its equations;
 //!   `slip`: where that is stiff; `stiff`: its steps there
 //! - `caps`: of cylinders, that lie flat, fall flat and tip, `pressing`: over which point; `descent`, `rolling`: how a
@@ -17,7 +18,8 @@
 //!
 //! Errors. A gap beyond δ = 1e-13 of the body (and rounding of its coordinates) is never stepped over. Impacts that
 //! would never end (Zeno) end when the height of the bounces left, times 1/(1 − e)², is below a millionth of the
-//! tolerance, or what is left stays within δ: the contact then holds. What is left of a rocking is ended with the
+//! tolerance, or what is left stays within δ: the contact then holds. A body between two others that come nearer loses
+//! its restitution on both sides then, however fast these are. What is left of a rocking is ended with the
 //! friction that comes with it; that its contacts have to pull for this is seen in the residual of that blow.
 
 pub mod caps;
@@ -36,6 +38,7 @@ pub mod motion;
 mod pairs;
 pub mod patience;
 pub mod pressing;
+mod proportion;
 pub mod radau_tableau;
 mod rolling;
 pub mod settle;

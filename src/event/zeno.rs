@@ -5,6 +5,7 @@ use crate::collide::closed::{SOME, delta_at_m, is_closed_to_delta};
 use crate::collide::{Contact, Key};
 use crate::model::Model;
 use crate::state::State;
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
 /// Height of the bounces that are left out, relative to the tolerance.
@@ -27,18 +28,102 @@ pub struct Zeno {
 struct Struck {
     at_s: f64,
     open_s: f64,
+    /// It was the last of its bounces, between which others brought the bodies back sooner than gravity.
+    is_squeezed_out: bool,
 }
 
 /// Times for which a contact was open before its last impact: one that opens again so soon after that rattles.
 const RATTLES: f64 = 100.0;
+
+/// Height of a bounce over that by which gravity would bring it back, of one that others bring back.
+const SQUEEZED: f64 = 0.1;
+
+/// Times for which a contact was open that has ended so: what closes again within that has bounced with it. Gaps of a
+/// body between two others fall by e² from bounce to bounce, e ≥ 0.01.
+const SQUEEZED_WITH: f64 = 1e4;
 
 impl Zeno {
     pub fn new(tolerance: f64) -> Self {
         Zeno { tolerance, struck: BTreeMap::new() }
     }
 
+    /// Takes the restitution of what strikes, and whose bounces that are left do not matter: of each contact by itself,
+    /// then of those that bounce on between it and others. `is_all`: nothing else is closed.
+    pub fn end_bounces(&mut self, model: &Model, state: &State, found: &mut [Contact], is_all: bool) {
+        let has_just_struck =
+            |contact: &Contact| self.struck.get(&contact.key()).is_some_and(|s| s.at_s == state.time_s);
+        // To and fro at one moment: the gap between the two cannot be told from none.
+        let is_once_more = |contact: &Contact, other: &Contact| {
+            push_against(model, contact, other) && strikes(model, state, contact) && has_just_struck(other)
+        };
+        let once_more: Vec<bool> = (0..found.len())
+            .map(|k| found.iter().any(|other| is_once_more(&found[k], other) || is_once_more(other, &found[k])))
+            .collect();
+        for k in 0..found.len() {
+            let contact = found[k];
+            if self.bounces_out(model, state, &contact, found.len() == 1 && is_all) || once_more[k] {
+                self.lose(model, state, &mut found[k]);
+            }
+        }
+        while let Some(k) = (0..found.len()).find(|k| self.is_lost_to_another(model, state, found, *k)) {
+            self.lose(model, state, &mut found[k]);
+        }
+        // What the last of these impacts presses together does not spring apart.
+        let has_just_ended = |contact: &Contact| {
+            let ended = self.squeezed_out(contact);
+            ended.is_some_and(|with| state.time_s - with.at_s <= SQUEEZED_WITH * with.open_s)
+        };
+        found.iter_mut().filter(|contact| has_just_ended(contact)).for_each(|contact| contact.restitution = 0.0);
+    }
+
+    fn squeezed_out(&self, contact: &Contact) -> Option<&Struck> {
+        self.struck.get(&contact.key()).filter(|struck| struck.is_squeezed_out)
+    }
+
+    fn lose(&mut self, model: &Model, state: &State, contact: &mut Contact) {
+        let (approach, _) = approach_m_s(model, state, contact);
+        let fallen_m = fallen_m(falling_m_s2(model, contact), approach);
+        contact.restitution = 0.0;
+        if let Some(struck) = self.struck.get_mut(&contact.key()) {
+            struck.is_squeezed_out = approach * struck.open_s / 4.0 <= SQUEEZED * fallen_m;
+        }
+    }
+
+    /// A body between two others bounces to and fro while these come nearer to each other, infinitely often in the time
+    /// in which the gap between them closes: at the end of it none of the three moves along a normal. Where the bounces
+    /// of one of its contacts have ended so, those of the other one have as well, however fast they still are: a
+    /// contact that rebounded alone would send back what the sequence of impacts brings to rest.
+    fn is_lost_to_another(&self, model: &Model, state: &State, found: &[Contact], k: usize) -> bool {
+        let contact = &found[k];
+        if contact.restitution == 0.0 || !strikes(model, state, contact) {
+            return false;
+        }
+        let Some(own) = self.struck.get(&contact.key()) else { return false };
+        found.iter().filter(|other| push_against(model, contact, other)).any(|other| {
+            self.squeezed_out(other)
+                .is_some_and(|with| own.open_s.max(state.time_s - with.at_s) <= SQUEEZED_WITH * with.open_s)
+        })
+    }
+
+    /// Takes away what leaves, where another contact of the same body strikes from the other side: the gap that opens
+    /// is there, if only within what is closed, and the body crosses it before it strikes there. Not what has struck at
+    /// this very moment.
+    pub fn set_apart(&self, model: &Model, state: &State, found: &mut Vec<Contact>) -> Vec<Contact> {
+        let leaves = |contact: &Contact| {
+            let (approach, scale) = approach_m_s(model, state, contact);
+            -approach > self.rests_m_s(model, state, contact).max(NO_SLIP * scale)
+        };
+        let was_open = |contact: &Contact| self.struck.get(&contact.key()).is_none_or(|s| s.at_s < state.time_s);
+        let is_struck_against =
+            |of: &Contact| found.iter().any(|other| push_against(model, of, other) && strikes(model, state, other));
+        let is_apart = |of: &Contact| leaves(of) && was_open(of) && is_struck_against(of);
+        let apart: Vec<Contact> = found.iter().filter(|contact| is_apart(contact)).copied().collect();
+        found.retain(|contact| !apart.iter().any(|other| other.key() == contact.key()));
+        apart
+    }
+
     /// The bounces that are left after this one do not matter. `is_alone`: nothing else touches.
-    pub fn bounces_out(&mut self, model: &Model, state: &State, contact: &Contact, is_alone: bool) -> bool {
+    fn bounces_out(&mut self, model: &Model, state: &State, contact: &Contact, is_alone: bool) -> bool {
         let (approach, scale) = approach_m_s(model, state, contact);
         if approach <= 0.0 {
             return false;
@@ -53,8 +138,7 @@ impl Zeno {
             return falling > 0.0 && contact.restitution < 1.0 && approach <= BOUNCED_OUT * scale;
         }
         // How high the last bounce was: from how fast it ended, and when it began or what pulls.
-        let fallen_m = if falling > 0.0 { approach * approach / (2.0 * falling) } else { f64::INFINITY };
-        let height_m = fallen_m.min(approach * lasted_s / 4.0);
+        let height_m = fallen_m(falling, approach).min(approach * lasted_s / 4.0);
         let left = 1.0 - contact.restitution;
         // What stays within δ cannot be followed, however elastic.
         height_m <= left * left * self.negligible_m(model, contact) || height_m <= delta_at_m(model, contact)
@@ -66,7 +150,7 @@ impl Zeno {
         let lasted_s = last.map_or(f64::INFINITY, |last| at_s - last.at_s);
         // Of several at one instant the first one counts.
         let open_s = last.filter(|_| lasted_s <= 0.0).map_or(lasted_s, |last| last.open_s);
-        self.struck.insert(contact.key(), Struck { at_s, open_s });
+        self.struck.insert(contact.key(), Struck { at_s, open_s, is_squeezed_out: false });
         lasted_s
     }
 
@@ -98,7 +182,6 @@ impl Zeno {
 /// Between two bodies, or a body and a face, what rests in one point has lost its restitution with the others, where
 /// all that come nearer have: it rocks on without it, and at last it rests.
 pub fn lose_together(found: &mut [Contact], approaches: impl Fn(&Contact) -> bool) {
-    let between = |contact: &Contact| (contact.body, contact.other, contact.other.map_or(contact.feature.0, |_| 0));
     let mut from = 0;
     while from < found.len() {
         let len = found[from..].iter().take_while(|other| between(other) == between(&found[from])).count();
@@ -109,6 +192,11 @@ pub fn lose_together(found: &mut [Contact], approaches: impl Fn(&Contact) -> boo
         }
         from += len;
     }
+}
+
+/// The two bodies of a contact, or the body and the face.
+fn between(contact: &Contact) -> (usize, Option<usize>, u32) {
+    (contact.body, contact.other, contact.other.map_or(contact.feature.0, |_| 0))
 }
 
 /// Gravity, that presses the two together: of a body on what does not move against the normal from there, whichever
@@ -122,10 +210,32 @@ fn falling_m_s2(model: &Model, contact: &Contact) -> f64 {
     }
 }
 
+/// How high a bounce was that gravity has brought back, from how fast it ended.
+fn fallen_m(falling_m_s2: f64, approach_m_s: f64) -> f64 {
+    if falling_m_s2 > 0.0 { approach_m_s * approach_m_s / (2.0 * falling_m_s2) } else { f64::INFINITY }
+}
+
+/// Whether two contacts push a body that they share, and move, against each other.
+fn push_against(model: &Model, contact: &Contact, other: &Contact) -> bool {
+    let against = |(i, _, sign): (usize, Vector3<f64>, f64)| {
+        let is_it = |(j, _, other_sign): (usize, Vector3<f64>, f64)| {
+            i == j && sign * other_sign * contact.normal.dot(&other.normal) < 0.0
+        };
+        !model.bodies[i].driven && other.ends().any(is_it)
+    };
+    between(contact) != between(other) && contact.ends().any(against)
+}
+
 /// Of a contact, and what it is compared with.
 pub fn approach_m_s(model: &Model, state: &State, contact: &Contact) -> (f64, f64) {
     let speed = contact.normal.dot(&contact.velocity(|i| [state.bodies[i].v_WB, state.bodies[i].w_WB]));
     (-speed, meeting_m_s(model, state, contact.ends().map(|(i, ..)| i)))
+}
+
+/// Whether a contact comes nearer.
+pub fn strikes(model: &Model, state: &State, contact: &Contact) -> bool {
+    let (approach, scale) = approach_m_s(model, state, contact);
+    approach > NO_SLIP * scale
 }
 
 /// Leaves what is closed, and what strikes with it, however long its lever: what closes within the time in which it is

@@ -51,6 +51,10 @@ pub(super) struct Moved {
 /// heavy is judged by its own weight.
 const CANCELLING: f64 = 1e-4;
 
+/// In an impact nothing but rounding may reach a body that others shield, which is then at rest before and after: it is
+/// judged by at least this part of the most that any body is pressed by. Rounding is some 1e-8 of that.
+const AMONG: f64 = 1e-8;
+
 /// How long it takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Over {
@@ -185,6 +189,11 @@ impl Exchange {
         }
         self.moved.clear();
         self.moved.extend(self.pushes.iter().enumerate().map(|(i, push)| Moved::new(model, i, states, push, over)));
+        let (Over::Step(span_s) | Over::Moment(span_s)) = over;
+        if span_s == 0.0 {
+            let largest = self.moved.iter().map(|moved| moved.pressed_m_s).fold(0.0, f64::max);
+            self.moved.iter_mut().for_each(|moved| moved.pressed_m_s = moved.pressed_m_s.max(AMONG * largest));
+        }
         self.islands.find(model, contacts.iter().map(|solved| solved.contact));
         self.met.clear();
         for SolvedContact { contact, .. } in contacts {

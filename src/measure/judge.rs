@@ -11,6 +11,7 @@ use super::more::Watched;
 use super::pinned;
 use super::residual::ResidualLedger;
 use super::springs::Springs;
+use super::squeezed::Squeezed;
 use super::work::{self, Done};
 use crate::collide::SolvedContact;
 use crate::collide::approach::Approach;
@@ -50,6 +51,7 @@ pub struct Judge {
     exchange: Exchange,
     dissipation: Dissipation,
     impacts: Impacts,
+    squeezed: Squeezed,
     /// None: loads, pins or springs make something of every step.
     again: Option<Again>,
     /// What contacts took in the last step.
@@ -82,7 +84,11 @@ impl Impacts {
         }
         for more in contacts {
             match self.contacts.iter_mut().find(|known| known.contact.key() == more.contact.key()) {
-                Some(known) => known.impulse_W += more.impulse_W,
+                Some(known) => {
+                    known.impulse_W += more.impulse_W;
+                    // Of several impacts of one contact the last one says whether it rebounds.
+                    known.contact.restitution = more.contact.restitution;
+                }
                 None => self.contacts.push(*more),
             }
         }
@@ -113,6 +119,7 @@ impl Judge {
             exchange: Exchange::with_capacity(bodies, plan.contacts),
             dissipation: Dissipation::with_capacity(bodies),
             impacts: Impacts { is_empty: true, before: start.clone(), contacts: Vec::new() },
+            squeezed: Squeezed::default(),
             again: (!model.has_loads() && model.pins.is_empty() && plan.stiffness_n_m.is_none())
                 .then(|| Again::with_capacity(bodies, plan.contacts)),
             taken: Taken::default(),
@@ -225,8 +232,11 @@ impl Judge {
     /// The impacts of an instant that is over.
     fn end_instant(&mut self, model: &Model, after: &State) {
         if !std::mem::replace(&mut self.impacts.is_empty, true) {
-            let Impacts { before, contacts, .. } = &self.impacts;
+            let Impacts { before, contacts, .. } = &mut self.impacts;
             self.exchange.look(model, [before, after], contacts, Over::Step(0.0));
+            for k in self.squeezed.look(model, before.time_s, contacts, &self.exchange.met) {
+                contacts[k].contact.restitution = 0.0;
+            }
             self.residual.observe(model, contacts, &self.exchange, AT_ONCE);
         }
     }

@@ -23,6 +23,7 @@ mod push;
 pub mod reference;
 pub mod residual;
 mod springs;
+mod squeezed;
 mod work;
 
 pub use judge::Judge;

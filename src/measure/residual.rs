@@ -30,6 +30,10 @@ use nalgebra::Vector3;
 /// last digit. The rounding of velocities, 1e-15, is then 1e-10 of them.
 const SMALL: f64 = 1e-5;
 
+/// Least change of a body's velocity, of the fastest that any has been: where nothing presses, what has come to rest is
+/// left with the rounding of what it was.
+const LEFT: f64 = 1e-10;
+
 /// Of what forces do to a body in a step: what they do to one that is held, at most, as one that pivots.
 const HELD: f64 = 3.0;
 
@@ -81,6 +85,7 @@ impl<'a> Seen<'a> {
         model: &'a Model,
         (contact, met): (&'a Contact, &'a Met),
         (moved, pressing): (&[Moved], &[Pressing]),
+        least_m_s: f64,
         through: (Approach, f64),
         hold: Option<Hold>,
     ) -> Self {
@@ -95,7 +100,7 @@ impl<'a> Seen<'a> {
             if compliance > 0.0 {
                 let speed = |motion: &Motion| motion.reach(r_m);
                 let acted = speed(&of.changed).max(speed(&of.gained)).max(of.pressed_m_s);
-                let changes = acted.max(SMALL * speed(&of.free));
+                let changes = acted.max(SMALL * speed(&of.free)).max(least_m_s);
                 scale = scale.min(changes / compliance);
             }
         }
@@ -226,6 +231,8 @@ pub struct ResidualLedger {
     /// None: no contact does, whatever a step shows.
     lasting: Option<Lasting>,
     last_on: Vec<(Key, Hold)>,
+    /// The fastest that a body has been at a contact.
+    fastest_m_s: f64,
     pub max: Option<f64>,
 }
 
@@ -233,7 +240,7 @@ impl ResidualLedger {
     /// `lasting`: what is closed and at rest at the start, of a method whose steps kick half-way.
     pub fn new(judged: bool, newton: bool, bodies: usize, lasting: Option<Lasting>) -> Self {
         let (struck, pressing) = (Vec::with_capacity(bodies), Vec::with_capacity(bodies));
-        ResidualLedger { judged, newton, struck, pressing, lasting, last_on: Vec::new(), max: None }
+        ResidualLedger { judged, newton, struck, pressing, lasting, last_on: Vec::new(), fastest_m_s: 0.0, max: None }
     }
 
     /// Contacts with their impulses; how the step went through them, and its length.
@@ -248,6 +255,8 @@ impl ResidualLedger {
             return;
         }
         let is_half_way = through.0 == Approach::Middle;
+        self.fastest_m_s = exchange.moved.iter().map(|moved| moved.free.v.norm()).fold(self.fastest_m_s, f64::max);
+        let least_m_s = LEFT * self.fastest_m_s;
         let ResidualLedger { newton, struck, pressing, lasting, last_on, max, .. } = self;
         pressing.clear();
         pressing.resize(exchange.moved.len(), Pressing::Nothing);
@@ -262,7 +271,7 @@ impl ResidualLedger {
         let pressing = &*pressing;
         let seen = |contact, met| {
             let hold = lasting.as_ref().and_then(|lasting| lasting.of(contact)).filter(|_| is_half_way);
-            Seen::new(model, (contact, met), (&exchange.moved, pressing), through, hold)
+            Seen::new(model, (contact, met), (&exchange.moved, pressing), least_m_s, through, hold)
         };
         last_on.clear();
         struck.clear();

@@ -19,6 +19,14 @@ use crate::math::six::{self, Six};
 use nalgebra::{Matrix3, Vector3};
 use std::borrow::Borrow;
 
+/// At one moment nothing but rounding may reach a body that others shield: what is done to it counts as at least this
+/// part of the most that is done to one of its island, as the judge has it.
+const AMONG: f64 = 1e-8;
+
+fn largest_pressed(all: &[Acted]) -> f64 {
+    all.iter().map(|acted| acted.pressed).fold(0.0, f64::max)
+}
+
 /// The rows of G of one of a contact's bodies.
 #[derive(Clone, Copy, Debug)]
 struct Side {
@@ -358,20 +366,31 @@ impl Island {
             for (acted, Mover { whitened, .. }) in all.iter_mut().zip(&self.bodies) {
                 acted.pressed = cancelling * acted.pressed * whitened.linear * whitened.linear;
             }
+            if self.is_instant() {
+                let least = AMONG * largest_pressed(&all);
+                all.iter_mut().for_each(|acted| acted.pressed = acted.pressed.max(least));
+            }
         }
         all
     }
 
+    /// Impulses of one moment, as `ContactProblem` says.
+    fn is_instant(&self) -> bool {
+        self.cancelling == 1.0
+    }
+
     /// A residual that rounding of the velocities leaves: impulses may be next to nothing beside the speed of a body,
-    /// which slips past or rolls.
+    /// which slips past or rolls, and at one moment beside those of others that it is joined to.
     pub fn rounding(&self, at: &Point) -> f64 {
-        let scales = self.scales(at);
-        let of = |(touch, scale): (&Share, &f64)| {
+        let acted = self.acted_with(self.cancelling, at);
+        let beside = if self.is_instant() { largest_pressed(&acted) } else { 0.0 };
+        let of = |touch: &Share| {
             let sides = touch.sides.iter().flatten();
-            let speeds = sides.map(|side| touch.scale * self.bodies[side.body].speeds.at(side.arm_m));
-            relative(4.0 * f64::EPSILON * speeds.fold(touch.b.norm(), f64::max), *scale)
+            let speeds = sides.map(|side| self.bodies[side.body].speeds.at(side.arm_m));
+            let fastest = touch.b.norm().max(touch.scale * speeds.fold(beside, f64::max));
+            relative(4.0 * f64::EPSILON * fastest, touch.least(&acted))
         };
-        self.touches.iter().zip(&scales).map(of).fold(0.0, f64::max)
+        self.touches.iter().map(of).fold(0.0, f64::max)
     }
 
     /// How far the worst contact is from the law: the judge's residual.

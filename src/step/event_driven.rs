@@ -25,7 +25,7 @@ use crate::event::slip::{self, Pace, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch;
 use crate::event::which;
-use crate::event::zeno::{Zeno, approach_m_s, keep_closed, lose_together};
+use crate::event::zeno::{self, Zeno, approach_m_s, keep_closed, lose_together};
 use crate::experiment::types::{EventDriven as Settings, Impact};
 use crate::math::full_pivot::Selection;
 use crate::model::Model;
@@ -288,19 +288,12 @@ impl EventDriven {
 
     /// An impact, if something comes nearer.
     fn strike(&mut self, model: &Model, state: &mut State) -> bool {
-        let strikes = |contact: &Contact| {
-            let (approach, scale) = approach_m_s(model, state, contact);
-            approach > NO_SLIP * scale
-        };
+        let strikes = |contact: &Contact| zeno::strikes(model, state, contact);
         if !self.found.iter().any(strikes) {
             return false;
         }
-        for k in 0..self.found.len() {
-            let contact = self.found[k];
-            if self.zeno.bounces_out(model, state, &contact, self.found.len() == 1) {
-                self.found[k].restitution = 0.0;
-            }
-        }
+        let apart = self.zeno.set_apart(model, state, &mut self.found);
+        self.zeno.end_bounces(model, state, &mut self.found, apart.is_empty());
         lose_together(&mut self.found, strikes);
         for contact in self.found.iter_mut().filter(|contact| contact.restitution == 0.0) {
             contact.tangential_restitution = 0.0;
@@ -318,6 +311,9 @@ impl EventDriven {
             }
         }
         self.work.unsolved += u64::from(!ended);
+        // What strikes next is found as any other gap that closes.
+        self.found.extend(apart.into_iter().filter(|contact| !zeno::strikes(model, state, contact)));
+        self.found.sort_by_key(Contact::key);
         true
     }
 

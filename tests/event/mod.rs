@@ -14,6 +14,7 @@ mod same;
 mod seams;
 mod sharing;
 mod spinning;
+mod squeezed;
 mod symmetries;
 mod tolerance;
 

@@ -9,6 +9,7 @@ mod geometry;
 mod inertia;
 mod overlap;
 mod sensitivity;
+mod squeezed;
 
 use crate::yaml::experiment;
 use gotai::experiment::types::Experiment;

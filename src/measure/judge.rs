@@ -84,11 +84,7 @@ impl Impacts {
         }
         for more in contacts {
             match self.contacts.iter_mut().find(|known| known.contact.key() == more.contact.key()) {
-                Some(known) => {
-                    known.impulse_W += more.impulse_W;
-                    // Of several impacts of one contact the last one says whether it rebounds.
-                    known.contact.restitution = more.contact.restitution;
-                }
+                Some(known) => known.impulse_W += more.impulse_W,
                 None => self.contacts.push(*more),
             }
         }

@@ -52,10 +52,20 @@ impl Squeezed {
                 rebounding.push((k, open_s));
             }
         }
+        // Of more bodies than these the others may go on.
+        let is_disturbed = |own: [&Contact; 2], since_s: f64| {
+            let keys = own.map(Contact::key);
+            let is_of_own =
+                |i: usize| own.iter().flat_map(|c| c.ends()).any(|(j, ..)| i == j && !model.bodies[i].driven);
+            let mut later = self.struck.iter().filter(|(key, struck)| !keys.contains(key) && struck.at_s >= since_s);
+            later.any(|(key, _)| is_of_own(key.0) || key.1.is_some_and(is_of_own))
+        };
         let is_of_ended = |(k, open_s): &(usize, f64)| {
-            contacts.iter().filter(|other| push_against(model, &contacts[*k].contact, &other.contact)).any(|other| {
-                let ended = self.struck.get(&other.contact.key()).filter(|struck| struck.has_ended);
-                ended.is_some_and(|ended| open_s.max(at_s - ended.at_s) <= OF_ONE * ended.open_s)
+            let own = &contacts[*k].contact;
+            contacts.iter().map(|other| &other.contact).filter(|other| push_against(model, own, other)).any(|other| {
+                let ended = self.struck.get(&other.key()).filter(|struck| struck.has_ended);
+                let is_with = |ended: &&Struck| open_s.max(at_s - ended.at_s) <= OF_ONE * ended.open_s;
+                ended.filter(is_with).is_some_and(|ended| !is_disturbed([own, other], ended.at_s - ended.open_s))
             })
         };
         rebounding.into_iter().filter(is_of_ended).map(|(k, _)| k).collect()

@@ -5,6 +5,7 @@ use super::motion::{ClosedMotion, Motion};
 use crate::exact::arc::Arc;
 use crate::experiment::types::Skip;
 use crate::model::Model;
+use crate::solve::block::Block;
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
@@ -29,7 +30,7 @@ pub fn settle(
     motions: &mut Vec<Motion>,
 ) -> Option<f64> {
     let bodies = if held.is_empty() { 0 } else { model.bodies.len() };
-    let resting: Vec<bool> = (0..bodies).map(|i| is_at_rest(model, state, i, forces)).collect();
+    let resting: Vec<bool> = (0..bodies).map(|i| is_at_rest(model, state, i, held, forces)).collect();
     let is_closed = model.skips.has(Skip::ClosedForms);
     let mut settling = Settling { model, held, forces, resting: &resting, ends_s: f64::INFINITY, is_closed };
     motions.clear();
@@ -41,15 +42,26 @@ pub fn settle(
     Some(settling.ends_s).filter(|ends_s| ends_s.is_finite())
 }
 
-fn is_at_rest(model: &Model, state: &State, i: usize, forces: Forces) -> bool {
+fn is_at_rest(model: &Model, state: &State, i: usize, held: &[Held], forces: Forces) -> bool {
     let (body, at) = (&model.bodies[i], &state.bodies[i]);
     let a = forces.solved.acceleration(forces.gathered, i);
     let arms_m = model.pins.iter().filter(|pin| pin.body == i).map(|pin| pin.r_B.norm());
     let (radius_m, fall) = (arms_m.fold(body.bounding_radius_m, f64::max), model.gravity_m_s2.norm());
     let still = at.v_WB.norm() + radius_m * at.w_WB.norm() <= NO_SLIP * (fall * radius_m).sqrt();
     let left = a.v.norm() + radius_m * a.w.norm();
-    let stays = || left <= NONE * forces.gathered.free[i].v.norm() || left <= rounding_m_s2(model, i, forces);
+    let none = NONE * forces.gathered.free[i].v.norm();
+    let is_rounding = || left <= rounding_m_s2(model, i, forces) && !slips_off(i, held, forces, none);
+    let stays = || left <= none || is_rounding();
     still && (body.driven || (stays() && model.constant_pull(i).is_some()))
+}
+
+/// Whether a body begins to slip faster than that where nothing grips.
+fn slips_off(i: usize, held: &[Held], Forces { gathered, solved }: Forces, none: f64) -> bool {
+    let slips = |(held, block): (&Held, &Block)| {
+        let grips = block.friction > 0.0 && held.slides().is_none();
+        !grips && block.ends().any(|end| end.body == i) && block.velocity(&solved.added).yz().norm() > none
+    };
+    held.iter().zip(&gathered.problem.blocks).any(slips)
 }
 
 /// Acceleration of a body that the rounding of all forces of its island may leave, though they cancel: what is light

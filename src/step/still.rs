@@ -10,11 +10,15 @@ use crate::collide::closed::MARGIN;
 use crate::model::{Body, Model};
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
+use nalgebra::Vector3;
 
 /// Of the speed that the step's forces give a body: what contacts leave of it when they hold it. And of a residual that
 /// kept impulses leave: that speed would be sent back by the next step, and come again for ever.
 const NOTHING: f64 = 1e-13;
 const OF_RESIDUAL: f64 = 4.0;
+
+/// Of Coulomb's cone: within this no rounding makes a slip.
+const WITHIN: f64 = 1.0 - 1e-6;
 
 /// Of a place, or of an attitude: what does not move a body.
 const HALF: f64 = f64::EPSILON / 2.0;
@@ -38,14 +42,19 @@ pub(super) fn put_to_rest(
     (solved, residual): (&[SolvedContact], f64),
 ) -> bool {
     let nothing = NOTHING.max(OF_RESIDUAL * residual);
-    // Impulses that cancel, as those on a light body under a heavy one, leave what rounding is of them.
+    // Impulses that cancel, as those on a light body under a heavy one, leave what rounding is of them; along what grips
+    // nothing that is not.
     let mut all_n_s = None;
-    let mut is_rounding = |i: usize, speed_m_s: f64| {
+    let mut is_rounding = |i: usize, speed_m_s: f64, gained_m_s: f64| {
         let part = f64::EPSILON * model.bodies[i].compliance_1_kg();
         let all_n_s = *all_n_s.get_or_insert_with(|| solved.iter().map(|of| of.impulse_W.norm()).sum::<f64>());
-        let is_of = |of: &&SolvedContact| of.contact.body == i || of.contact.other == Some(i);
-        let own_n_s = || solved.iter().filter(is_of).map(|of| of.impulse_W.norm()).sum::<f64>();
-        speed_m_s <= part * all_n_s && speed_m_s <= part * own_n_s()
+        if speed_m_s > part * all_n_s {
+            return false;
+        }
+        let own = || solved.iter().filter(|of| of.contact.body == i || of.contact.other == Some(i));
+        let after = |i: usize| [free[i].v + response[i].v, free[i].w + response[i].w];
+        let stays = |of: &SolvedContact| grips(of) || slip_W(of, after).norm() <= nothing * gained_m_s;
+        speed_m_s <= part * own().map(|of| of.impulse_W.norm()).sum::<f64>() && own().all(stays)
     };
     let mut is_same = true;
     for (i, (at, before)) in state.bodies.iter_mut().zip(began).enumerate() {
@@ -63,13 +72,24 @@ pub(super) fn put_to_rest(
             let speed = |v: f64, w: f64| v + w * body.bounding_radius_m;
             let gained = speed((free[i].v - before.v_WB).norm(), (free[i].w - before.w_WB).norm());
             let left = speed(at.v_WB.norm(), at.w_WB.norm());
-            if (is_placed && left <= nothing * gained) || is_rounding(i, left) {
+            if (is_placed && left <= nothing * gained) || is_rounding(i, left, gained) {
                 *at = BodyState { v_WB: Twist::ZERO.v, w_WB: Twist::ZERO.w, ..*before };
             }
         }
         is_same &= at.has_bits_of(before);
     }
     is_same
+}
+
+/// Whether friction holds a contact, with some of it left.
+fn grips(SolvedContact { contact, impulse_W }: &SolvedContact) -> bool {
+    let presses = contact.normal.dot(impulse_W);
+    (impulse_W - contact.normal * presses).norm() < WITHIN * contact.friction * presses
+}
+
+fn slip_W(of: &SolvedContact, velocities: impl Fn(usize) -> [Vector3<f64>; 2]) -> Vector3<f64> {
+    let (n, relative) = (of.contact.normal, of.contact.velocity(velocities));
+    relative - n * n.dot(&relative)
 }
 
 /// Number of steps from a state in which no body can come to a face of the container: by gravity alone, whatever way

@@ -39,6 +39,9 @@ const BEYOND: f64 = 1e3;
 /// Of the speed: a change of velocity that shows in the motion itself.
 const SHOWS: f64 = 1e-3;
 
+/// Of the largest impulse of a blow: what rounding brings to bodies that others shield from it.
+const AMONG: f64 = 1e-8;
+
 /// Of what an impulse should have kept two bodies apart by: they come nearer without it.
 const NEARER: f64 = 0.25;
 
@@ -185,8 +188,11 @@ impl GhostJudge<'_> {
         }
     }
 
-    /// A blow, which changed velocities alone.
-    pub fn struck(&mut self, group: &Group, [before, after]: [&State; 2]) -> f64 {
+    /// A blow, which changed velocities alone; the largest of its impulses in N s.
+    pub fn struck(&mut self, group: &Group, [before, after]: [&State; 2], largest_n_s: f64) -> f64 {
+        if group.impulse_W.norm() <= AMONG * largest_n_s {
+            return 0.0;
+        }
         let gains = self.gains(group, before);
         let speed = |i: usize| {
             let (at, was) = (&after.bodies[i], &before.bodies[i]);

@@ -157,7 +157,8 @@ impl GeometryLedger {
                 self.each_group(model, contacts, |judge, group| judge.kicked(group, [kicked, after], step_s, more_s));
             }
             Acted::Blow { contacts } => {
-                self.each_group(model, contacts, |judge, group| judge.struck(group, [before, after]));
+                let largest_n_s = contacts.iter().map(|of| of.impulse_W.norm()).fold(0.0, f64::max);
+                self.each_group(model, contacts, |judge, group| judge.struck(group, [before, after], largest_n_s));
             }
             Acted::Motion(_) => {
                 if let Some(way) = shown.way {

@@ -42,8 +42,8 @@ pub(super) fn put_to_rest(
     (solved, residual): (&[SolvedContact], f64),
 ) -> bool {
     let nothing = NOTHING.max(OF_RESIDUAL * residual);
-    // Impulses that cancel, as those on a light body under a heavy one, leave what rounding is of them; along what grips
-    // nothing that is not.
+    // Impulses that cancel, as those on a light body under a heavy one, leave what rounding is of them; along what does
+    // not grip they do nothing.
     let mut all_n_s = None;
     let mut is_rounding = |i: usize, speed_m_s: f64, gained_m_s: f64| {
         let part = f64::EPSILON * model.bodies[i].compliance_1_kg();

@@ -5,9 +5,9 @@
 //! forces that hold make a push of every one of them, in one step of that length: free motion, then all impulses where
 //! it ends, by the law of contact.
 
-use super::forces::{Gathered, Held, NO_SLIP, Solved, speed_m_s};
+use super::forces::{Gathered, Held, Solved, speed_m_s};
 use super::impact::plastic;
-use super::zeno::approach_m_s;
+use super::zeno::strikes;
 use crate::collide::{Contact, SolvedContact};
 use crate::integrate::momentum::{momentum_W, velocity_W};
 use crate::model::Model;
@@ -140,20 +140,15 @@ pub fn changes(model: &Model, [before, after]: [&State; 2], part: f64) -> bool {
     (0..model.bodies.len()).any(changes)
 }
 
-fn comes(model: &Model, state: &State, contact: &Contact) -> bool {
-    let (approach, scale) = approach_m_s(model, state, contact);
-    approach > NO_SLIP * scale
-}
-
 /// Whether something that touches comes nearer in the second of two states, and not in the first.
 pub fn pushes(model: &Model, [before, after]: [&State; 2], found: &[Contact]) -> bool {
-    found.iter().any(|contact| comes(model, after, contact) && !comes(model, before, contact))
+    found.iter().any(|contact| strikes(model, after, contact) && !strikes(model, before, contact))
 }
 
 /// What touches, is not held, and comes nearer.
 pub fn coming(model: &Model, state: &State, held: &[Held], found: &[Contact]) -> Vec<Contact> {
     let is_held = |contact: &Contact| held.iter().any(|held| held.touch.key() == contact.key());
-    found.iter().filter(|contact| comes(model, state, contact) && !is_held(contact)).copied().collect()
+    found.iter().filter(|contact| strikes(model, state, contact) && !is_held(contact)).copied().collect()
 }
 
 /// Forces of contacts, world axes; none if one of them pulls or is outside of its cone.

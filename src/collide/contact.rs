@@ -56,6 +56,14 @@ impl Contact {
         std::iter::once((self.body, self.r_BC_W, 1.0)).chain(other)
     }
 
+    /// Whether it and another contact push a body that they share, and that forces move, against each other.
+    pub fn pushes_against(&self, other: &Contact, model: &Model) -> bool {
+        self.ends().filter(|(i, ..)| !model.bodies[*i].driven).any(|(i, _, sign)| {
+            let facing = |other_sign: f64| sign * other_sign * self.normal.dot(&other.normal) < 0.0;
+            other.ends().any(|(j, _, other_sign)| i == j && facing(other_sign))
+        })
+    }
+
     /// What a body that the contact pushes touches there.
     pub fn partner_of(&self, body: usize) -> Partner {
         match self.other {

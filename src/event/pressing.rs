@@ -37,8 +37,8 @@ const PRESSES: f64 = 1e-6;
 /// A flat cap that is pressed near its rim.
 #[derive(Clone, Debug)]
 pub struct Pressed {
-    pub of: usize,
-    pub base: Option<usize>,
+    of: usize,
+    base: Option<usize>,
     /// Of the container.
     face: u32,
     /// Number of its cap's first point.
@@ -108,8 +108,7 @@ pub fn turn(model: &Model, state: &State, found: &mut Vec<Contact>, (pressed, ch
         let at = &state.bodies[footing.of];
         let along_B = if turns { at.q_WB.inverse_transform_vector(&descent).normalize() } else { Vector3::zeros() };
         let is_it = |of: &&Pressed| {
-            of.is_of((model, state), footing.of, footing.base, first.feature.0, first.feature.1)
-                && (!turns || of.tips())
+            of.is_of((model, state), footing.of, footing.base, first.feature.0, first.feature.1) && (!turns || of.tips)
         };
         let pressed = pressed.iter().find(is_it);
         let directions_B = pressed.map_or_else(|| rim_directions(&along_B), Pressed::directions_B);
@@ -131,14 +130,7 @@ pub fn turn(model: &Model, state: &State, found: &mut Vec<Contact>, (pressed, ch
 
 impl Pressed {
     /// Whether it is this cap's, of a contact with this base, or this face of the container.
-    pub fn is_of(
-        &self,
-        (model, state): (&Model, &State),
-        of: usize,
-        base: Option<usize>,
-        face: u32,
-        node: u32,
-    ) -> bool {
+    fn is_of(&self, (model, state): (&Model, &State), of: usize, base: Option<usize>, face: u32, node: u32) -> bool {
         let is_its_base = match (self.base, base) {
             (Some(own), Some(base)) => is_one_base(model, state, [own, base]),
             (None, None) => self.face == face && self.has(node),
@@ -151,20 +143,15 @@ impl Pressed {
         node % POINTS / 4 * 4 == self.first
     }
 
-    /// What tips may turn.
-    pub fn tips(&self) -> bool {
-        self.tips
-    }
-
     /// Directions of the four points, from the centre of the cap.
-    pub fn directions_B(&self) -> [Vector3<f64>; 4] {
+    fn directions_B(&self) -> [Vector3<f64>; 4] {
         let turned = |by_rad: f64| UnitQuaternion::from_axis_angle(&Vector3::y_axis(), by_rad) * self.toward_B;
         [self.beside_rad, -self.beside_rad, PI - FRAC_PI_4, PI + FRAC_PI_4].map(turned)
     }
 
     /// Leaves out of a change what it says of the points that stood for this cap before: nothing of it opens, but
     /// what is opposite to where it tips. `laid`: the four points that stand for it now.
-    pub fn follow(&self, model: &Model, state: &State, laid: &[Contact], change: &mut Change) {
+    fn follow(&self, model: &Model, state: &State, laid: &[Contact], change: &mut Change) {
         let is_other = |(key, _): &(Key, Vector3<f64>)| {
             let (body, other, feature) = *key;
             let base = if body == self.of { other } else { Some(body) };

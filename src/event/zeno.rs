@@ -5,7 +5,6 @@ use crate::collide::closed::{SOME, delta_at_m, is_closed_to_delta};
 use crate::collide::{Contact, Key};
 use crate::model::Model;
 use crate::state::State;
-use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
 /// Height of the bounces that are left out, relative to the tolerance.
@@ -105,18 +104,20 @@ impl Zeno {
         })
     }
 
+    /// Whether a contact opens, faster than what rests.
+    pub fn leaves(&self, model: &Model, state: &State, contact: &Contact) -> bool {
+        let (approach, scale) = approach_m_s(model, state, contact);
+        -approach > self.rests_m_s(model, state, contact).max(NO_SLIP * scale)
+    }
+
     /// Takes away what leaves, where another contact of the same body strikes from the other side: the gap that opens
     /// is there, if only within what is closed, and the body crosses it before it strikes there. Not what has struck at
     /// this very moment.
     pub fn set_apart(&self, model: &Model, state: &State, found: &mut Vec<Contact>) -> Vec<Contact> {
-        let leaves = |contact: &Contact| {
-            let (approach, scale) = approach_m_s(model, state, contact);
-            -approach > self.rests_m_s(model, state, contact).max(NO_SLIP * scale)
-        };
         let was_open = |contact: &Contact| self.struck.get(&contact.key()).is_none_or(|s| s.at_s < state.time_s);
         let is_struck_against =
             |of: &Contact| found.iter().any(|other| push_against(model, of, other) && strikes(model, state, other));
-        let is_apart = |of: &Contact| leaves(of) && was_open(of) && is_struck_against(of);
+        let is_apart = |of: &Contact| self.leaves(model, state, of) && was_open(of) && is_struck_against(of);
         let apart: Vec<Contact> = found.iter().filter(|contact| is_apart(contact)).copied().collect();
         found.retain(|contact| !apart.iter().any(|other| other.key() == contact.key()));
         apart
@@ -156,7 +157,7 @@ impl Zeno {
 
     /// The speed below which a contact that leaves is at rest: what rebounds no more may rock on, by the impulses of
     /// others, and at last it rests. What pulls it back is gravity, or whatever brought it back the last time.
-    pub fn rests_m_s(&self, model: &Model, state: &State, contact: &Contact) -> f64 {
+    fn rests_m_s(&self, model: &Model, state: &State, contact: &Contact) -> f64 {
         let (falling, left) = (falling_m_s2(model, contact), 1.0 - contact.restitution);
         if left <= 0.0 {
             return 0.0;
@@ -215,15 +216,9 @@ fn fallen_m(falling_m_s2: f64, approach_m_s: f64) -> f64 {
     if falling_m_s2 > 0.0 { approach_m_s * approach_m_s / (2.0 * falling_m_s2) } else { f64::INFINITY }
 }
 
-/// Whether two contacts push a body that they share, and move, against each other.
+/// Whether two contacts, of other pairs, push a body that they share, and move, against each other.
 fn push_against(model: &Model, contact: &Contact, other: &Contact) -> bool {
-    let against = |(i, _, sign): (usize, Vector3<f64>, f64)| {
-        let is_it = |(j, _, other_sign): (usize, Vector3<f64>, f64)| {
-            i == j && sign * other_sign * contact.normal.dot(&other.normal) < 0.0
-        };
-        !model.bodies[i].driven && other.ends().any(is_it)
-    };
-    between(contact) != between(other) && contact.ends().any(against)
+    between(contact) != between(other) && contact.pushes_against(other, model)
 }
 
 /// Of a contact, and what it is compared with.

@@ -62,7 +62,7 @@ impl Squeezed {
         };
         let is_of_ended = |(k, open_s): &(usize, f64)| {
             let own = &contacts[*k].contact;
-            contacts.iter().map(|other| &other.contact).filter(|other| push_against(model, own, other)).any(|other| {
+            contacts.iter().map(|other| &other.contact).filter(|other| own.pushes_against(other, model)).any(|other| {
                 let ended = self.struck.get(&other.key()).filter(|struck| struck.has_ended);
                 let is_with = |ended: &&Struck| open_s.max(at_s - ended.at_s) <= OF_ONE * ended.open_s;
                 ended.filter(is_with).is_some_and(|ended| !is_disturbed([own, other], ended.at_s - ended.open_s))
@@ -70,13 +70,4 @@ impl Squeezed {
         };
         rebounding.into_iter().filter(is_of_ended).map(|(k, _)| k).collect()
     }
-}
-
-/// Whether two contacts push a body that they share, and move, against each other.
-fn push_against(model: &Model, contact: &Contact, other: &Contact) -> bool {
-    let mut own = contact.ends().filter(|(i, ..)| !model.bodies[*i].driven);
-    own.any(|(i, _, sign)| {
-        let facing = |other_sign: f64| sign * other_sign * contact.normal.dot(&other.normal) < 0.0;
-        other.ends().any(|(j, _, other_sign)| i == j && facing(other_sign))
-    })
 }

@@ -14,7 +14,7 @@ use crate::event::decide::{Change, Decision, Margin, decide, margin};
 use crate::event::dense::{Dense, project};
 use crate::event::ending::{self, steady};
 use crate::event::field::Field;
-use crate::event::forces::{Gathered, Held, NO_SLIP, Solved};
+use crate::event::forces::{Gathered, Held, Solved};
 use crate::event::impact;
 use crate::event::look::{Paths, Window};
 use crate::event::motion::Motion;
@@ -25,7 +25,7 @@ use crate::event::slip::{self, Pace, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch;
 use crate::event::which;
-use crate::event::zeno::{self, Zeno, approach_m_s, keep_closed, lose_together};
+use crate::event::zeno::{self, Zeno, keep_closed, lose_together};
 use crate::experiment::types::{EventDriven as Settings, Impact};
 use crate::math::full_pivot::Selection;
 use crate::model::Model;
@@ -375,10 +375,7 @@ impl EventDriven {
             [of.v + of.w.cross(arm_W) + w.cross(&w.cross(arm_W)), of.w]
         };
         let zeno = &self.zeno;
-        let rests = |contact: &Contact| {
-            let (approach, scale) = approach_m_s(model, state, contact);
-            -approach <= zeno.rests_m_s(model, state, contact).max(NO_SLIP * scale)
-        };
+        let rests = |contact: &Contact| !zeno.leaves(model, state, contact);
         sinking.add(model, state, &mut self.found, (3, rests), (rates, |_: &Contact| least))
     }
 
@@ -425,8 +422,7 @@ impl EventDriven {
     fn resting(&self, model: &Model, state: &State) -> Option<Vec<Touch>> {
         let mut resting = Vec::new();
         for contact in &self.found {
-            let (approach, scale) = approach_m_s(model, state, contact);
-            if -approach > self.zeno.rests_m_s(model, state, contact).max(NO_SLIP * scale) {
+            if self.zeno.leaves(model, state, contact) {
                 continue;
             }
             resting.push(Touch::new(model, state, contact)?);

@@ -6,6 +6,9 @@ use crate::model::Model;
 use crate::state::State;
 use nalgebra::Vector3;
 
+/// A turn in radians from which angular velocities do not stay as they are.
+const FAR: f64 = 0.25;
+
 /// Ways of all bodies through a step from where they stand.
 pub struct Ahead<'a> {
     pub model: &'a Model,
@@ -21,7 +24,14 @@ impl Ahead<'_> {
     /// The way of a body's points beside its centre's free way.
     fn beside_m(&self, body: usize) -> f64 {
         let [_, w] = (self.free)(body);
-        self.step_s * self.model.bodies[body].turning_m_s(&w) + self.slack_m[body]
+        let of = &self.model.bodies[body];
+        // What turns far without a torque may come to turn faster.
+        let is_far = w.norm() * self.step_s > FAR && !of.is_centred_ball();
+        let turning_m_s = match is_far {
+            true => of.fastest_turn_rad_s(&self.state.bodies[body], &w) * of.bounding_radius_m,
+            false => of.turning_m_s(&w),
+        };
+        self.step_s * turning_m_s + self.slack_m[body]
     }
 
     fn margin_m(&self, body: usize) -> f64 {

@@ -18,6 +18,7 @@ pub mod lasting;
 mod limits;
 pub mod reduce;
 mod two;
+pub mod way;
 
 pub use ahead::Ahead;
 pub use contact::{Contact, Key, Partner, SolvedContact, pinned_to};

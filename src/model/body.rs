@@ -81,6 +81,29 @@ impl Body {
         -(self.I_W_inverse(state) * w_WB.cross(&(self.I_W(state) * w_WB)))
     }
 
+    /// The largest angular velocity, in rad/s, that the body comes to without a torque. Energy and momentum are linear in
+    /// the squares of its components along the principal axes, of which one is none where their sum is largest.
+    pub fn fastest_turn_rad_s(&self, state: &BodyState, w_WB: &Vector3<f64>) -> f64 {
+        const EQUAL: f64 = 1e-9;
+        let now = w_WB.norm();
+        if self.isotropic || self.driven {
+            return now;
+        }
+        let w_B = state.q_WB.inverse_transform_vector(w_WB);
+        let (energy, momentum) = (w_B.dot(&(self.I_B * w_B)), (self.I_B * w_B).norm_squared());
+        let I = self.I_B.symmetric_eigenvalues();
+        let square = [(0, 1), (1, 2), (2, 0)].into_iter().filter_map(|(i, j)| {
+            let apart = I[i] - I[j];
+            if apart.abs() <= EQUAL * I[i] {
+                return None;
+            }
+            let [one, other] = [(I[i], I[j], apart), (I[j], I[i], -apart)]
+                .map(|(own, other, apart)| (momentum - other * energy) / (own * apart));
+            Some(one + other).filter(|square| square.is_finite() && one.min(other) >= -EQUAL * now * now)
+        });
+        square.fold(now * now, f64::max).sqrt()
+    }
+
     /// What a free turn's mean angular velocity is beyond that at its start, in rad/s, world axes: of the implicit
     /// midpoint rule, half of the gyroscopic term's gain and the higher orders. Nothing of a turn by more than half a
     /// radian.

@@ -11,11 +11,13 @@
 use super::scratch::Scratch;
 use crate::collide::approach::{Approach, foresee};
 use crate::collide::closed::rounding_m;
-use crate::collide::doubt::{Doubts, Way, band_m};
+use crate::collide::doubt::{Doubts, band_m};
+use crate::collide::way::{FreeTurn, Moving, Way};
 use crate::collide::{Ahead, Contact, Key};
-use crate::model::Model;
+use crate::exact::free_rotation::FreeRotation;
+use crate::model::{Body, Model};
 use crate::solve::twist::Twist;
-use crate::state::State;
+use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
 /// Sine of the angle by which an axis may turn that stays the same.
@@ -83,6 +85,8 @@ pub(super) struct Foreseen {
     hit_s: Option<f64>,
     /// The first time at which bodies have turned too far beside each other for their way to be known.
     turned_s: Option<f64>,
+    /// Of every body: it turns so far beside another one that its turn is to be one in closed form.
+    pub(super) turns_far: Vec<bool>,
     /// The step ends where bodies hit each other: what meets then is the next one's.
     pub(super) is_up_to_hit: bool,
     /// The step is not to be cut any more: what hits is asked to stay apart from afar.
@@ -95,14 +99,24 @@ fn note_earlier(hit_s: &mut Option<f64>, other_s: f64) {
 }
 
 /// Mean velocities of a body through the step, with its forces and impulses.
-fn moving(Scratch { free, response, turning, .. }: &Scratch, body: usize) -> [Vector3<f64>; 2] {
-    let (free, u) = (&free[body], &response[body]);
-    [free.v + u.v, free.w + u.w + turning[body]]
+fn moving(Scratch { free, response, turning, .. }: &Scratch, body: usize) -> Moving {
+    let (free, u, turning) = (&free[body], &response[body], turning[body]);
+    Moving { v: free.v + u.v, w: free.w + u.w + turning, turning }
+}
+
+/// How a body turns on without a torque.
+fn freely<'a>(body: &'a Body, at: &'a BodyState, w_WB: &Vector3<f64>) -> FreeTurn<'a> {
+    let rotation = FreeRotation::new(&body.I_B, &at.q_WB, w_WB);
+    Box::new(move |time_s| rotation.at(time_s).0)
 }
 
 /// How far a gap opens in the step, in metres.
 fn opens_m(scratch: &Scratch, contact: &Contact, step_s: f64) -> f64 {
-    step_s * contact.normal.dot(&contact.velocity(|i| moving(scratch, i)))
+    let velocities = |i: usize| {
+        let Moving { v, w, .. } = moving(scratch, i);
+        [v, w]
+    };
+    step_s * contact.normal.dot(&contact.velocity(velocities))
 }
 
 impl Foreseen {
@@ -115,6 +129,7 @@ impl Foreseen {
             fall_m: Vec::with_capacity(bodies),
             slack_m: Vec::with_capacity(bodies),
             depths: Vec::with_capacity(bodies),
+            turns_far: vec![false; bodies],
             ..Foreseen::default()
         }
     }
@@ -198,7 +213,7 @@ impl Foreseen {
             self.measure_depths(model, scratch, step_s);
             changed |= self.judge(model, state, scratch, (approach, step_s));
         }
-        if !changed {
+        if !changed || self.round == MOST {
             self.watch_what_turns(model, state, scratch, (approach, step_s));
         }
         self.is_given_up = changed && self.round == MOST;
@@ -276,7 +291,7 @@ impl Foreseen {
         scratch: &mut Scratch,
         (approach, step_s): (Approach, f64),
     ) -> bool {
-        let Foreseen { doubts, depths, points, hit_s, is_whole, is_up_to_hit, round, .. } = self;
+        let Foreseen { doubts, depths, points, hit_s, is_whole, is_up_to_hit, round, turns_far, .. } = self;
         *hit_s = None;
         let Scratch { free, response, turning, problem, found, impulses, work, .. } = scratch;
         let mut changed = false;
@@ -295,8 +310,12 @@ impl Foreseen {
             if doubt.is_imposed && !pushed {
                 continue;
             }
-            let moving = [0, 1].map(|end| [without[end].v, without[end].w + turning[doubt.pair[end]]]);
-            let Some(way) = Way::new(model, state, doubt.pair, moving, step_s) else { continue };
+            let moving = [0, 1].map(|end| {
+                let turning = turning[doubt.pair[end]];
+                Moving { v: without[end].v, w: without[end].w + turning, turning }
+            });
+            let Some(way) = Way::new(model, state, doubt.pair, moving, step_s, freely) else { continue };
+            note_far(turns_far, &way, doubt.pair);
             let beside_m = depths[a].beside(Some(b)).max(depths[b].beside(Some(a)));
             let band_m = band_m(model, doubt.pair, &state.bodies[a]).max(AS_DEEP * beside_m);
             let Some(meet_s) = way.meet_s(band_m, work) else {
@@ -337,8 +356,8 @@ impl Foreseen {
         changed
     }
 
-    /// Bodies that turn too far beside each other for their way to be known, and pairs that are asked to stay apart
-    /// where they meet, and turn through each other elsewhere.
+    /// Pairs that are asked to stay apart where they meet, or along the face that parts them, and turn through each
+    /// other elsewhere, or too far for what they are asked.
     fn watch_what_turns(
         &mut self,
         model: &Model,
@@ -346,14 +365,29 @@ impl Foreseen {
         scratch: &mut Scratch,
         (approach, step_s): (Approach, f64),
     ) {
-        for doubt in self.doubts.list() {
-            let moving = doubt.pair.map(|i| moving(scratch, i));
+        let Foreseen { contacts, doubts, turned_s, turns_far, .. } = self;
+        let pairs = contacts.chunk_by(|a, b| (a.body, a.other) == (b.body, b.other));
+        let asked = pairs.filter_map(|group| Some(([group[0].body, group[0].other?], false)));
+        let doubted = doubts.list().iter().filter(|doubt| doubt.is_imposed).map(|doubt| (doubt.pair, true));
+        for (pair, is_doubted) in asked.chain(doubted) {
+            let moving = pair.map(|i| moving(scratch, i));
             let work = &mut scratch.work;
-            let Some(way) = Way::new(model, state, doubt.pair, moving, step_s) else { continue };
+            if !is_doubted && !Way::may_be_deep(model, pair, &moving, step_s) {
+                continue;
+            }
+            let Some(way) = Way::new(model, state, pair, moving, step_s, freely) else { continue };
+            note_far(turns_far, &way, pair);
             let is_far = if approach == Approach::Middle { way.is_through(0.0) } else { way.is_deep(0.0) };
             // What slides far along a face that turns is inside it before that has turned far.
-            let deep_s = (doubt.is_imposed && is_far).then(|| way.deep_s(work)).flatten();
-            way.turned_s().into_iter().chain(deep_s).for_each(|turned_s| note_earlier(&mut self.turned_s, turned_s));
+            let deep_s = is_far.then(|| way.deep_s(work)).flatten();
+            let too_far_s = way.turned_s().filter(|_| is_doubted);
+            too_far_s.into_iter().chain(deep_s).for_each(|other_s| note_earlier(turned_s, other_s));
         }
+    }
+}
+
+fn note_far(turns_far: &mut [bool], way: &Way, pair: [usize; 2]) {
+    for (i, far) in pair.into_iter().zip(way.turns_far()) {
+        turns_far[i] |= far;
     }
 }

@@ -203,6 +203,7 @@ impl TimeStepping {
                 self.lasting = Lasting::at_start(model, state);
             }
         }
+        self.foreseen.turns_far.fill(false);
         let left_s = self.left_s.unwrap_or(clock.step_s);
         let mut before_s = 0.0;
         let is_half_way = self.parts == 0 && self.scheme == Approach::Middle && !self.is_hit(model, state, left_s);
@@ -211,7 +212,7 @@ impl TimeStepping {
         if self.approach == Approach::Middle {
             before_s = self.before_s.take().map_or(left_s / 2.0, |hit_s| hit_s.min(left_s / 2.0));
         }
-        drift(model, state, before_s, &mut self.scratch.work);
+        drift(model, state, before_s, &self.foreseen.turns_far, &mut self.scratch.work);
         if let Some(kicked) = &mut self.kicked {
             kicked.copy_from(state);
         }
@@ -249,7 +250,7 @@ impl TimeStepping {
             at.v_WB = s.free[i].v + s.response[i].v;
             at.w_WB = s.free[i].w + s.response[i].w;
         }
-        drift(model, state, after_s, &mut s.work);
+        drift(model, state, after_s, &self.foreseen.turns_far, &mut s.work);
         if pushed {
             push_out(model, state, &self.push);
         }
@@ -282,7 +283,7 @@ impl TimeStepping {
             for (at, free) in state.bodies.iter_mut().zip(&s.free) {
                 (at.v_WB, at.w_WB) = (free.v + Twist::ZERO.v, free.w + Twist::ZERO.w);
             }
-            drift(model, state, clock.step_s, &mut s.work);
+            drift(model, state, clock.step_s, &self.foreseen.turns_far, &mut s.work);
             self.began.copy_from_slice(&state.bodies);
             clock.advance(state);
         }

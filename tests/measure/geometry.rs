@@ -4,11 +4,13 @@
 use crate::yaml::{experiment, measured};
 use gotai::collide::approach::Approach;
 use gotai::collide::{Contact, SolvedContact};
-use gotai::measure::geometry::GeometryLedger;
+use gotai::exact::free_rotation::FreeRotation;
+use gotai::measure::geometry::{GeometryLedger, overlap};
 use gotai::model::Model;
 use gotai::scene::build;
+use gotai::shape::solid::Pose;
 use gotai::shown::{Acted, Shown};
-use gotai::state::State;
+use gotai::state::{BodyState, State};
 use nalgebra::{UnitQuaternion, Vector3};
 
 const H: f64 = 0.01;
@@ -327,4 +329,49 @@ time: { step_s: 0.016666666666666666, end_s: 1 }
             assert!(row.ghost_impulse_max_rel.unwrap() <= 1e-6, "{what}, {method}: {:?}", row.ghost_impulse_max_rel);
         }
     }
+}
+
+/// A plate that tumbles for many turns in a step, past a ball that it hits or not: as a thousand looks a turn have it.
+#[test]
+fn what_tumbles_for_many_turns_in_a_step_is_followed() {
+    let text = "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  bodies:
+    - { name: ball, shape: { sphere: { radius_m: 0.01 } }, mass_kg: 1, fixed: true }
+    - { name: plate, shape: { box: { size_m: [0.2, 0.004, 0.3] } }, mass_kg: 1, position_m: [0, 0, 1],
+        velocity_m_s: [0, 0, 0], angular_velocity_rad_s: [400, 900, 1700] }
+";
+    let (model, start) = scene(text);
+    let solid = |i: usize| model.bodies[i].solid().unwrap().0;
+    let mut said = [0, 0];
+    for i in 0..40 {
+        let mut before = start.clone();
+        // It comes within its radius of 0.18 m and goes on as far.
+        before.bodies[1].p_WB = Vector3::new(0.02 + 0.004 * f64::from(i), 0.05, -0.25);
+        before.bodies[1].v_WB = Vector3::new(0.0, 0.0, 0.5 / H);
+        let (from, mut after) = (before.bodies[1], before.clone());
+        let turn = FreeRotation::new(&model.bodies[1].I_B, &from.q_WB, &from.w_WB);
+        let at = |time_s: f64| {
+            let (q_WB, w_WB) = turn.at(time_s);
+            BodyState { p_WB: from.p_WB + from.v_WB * time_s, q_WB, w_WB, ..from }
+        };
+        after.bodies[1] = at(H);
+        after.time_s += H;
+        let ball = Pose { p_W: Vector3::zeros(), q_W: UnitQuaternion::identity() };
+        let gap_m = |look: u32| {
+            let at = at(H * f64::from(look) / 4000.0);
+            overlap(solid(0), &ball, solid(1), &Pose { p_W: at.p_WB, q_W: at.q_WB }).gap_m
+        };
+        let least_m = (0..=4000).map(gap_m).fold(f64::INFINITY, f64::min);
+        // Between two looks a point moves by 1e-4 m.
+        if (-2e-4..1e-4).contains(&least_m) {
+            continue;
+        }
+        let (_, _, passed) = judged(&model, &before, &after, &[]);
+        assert_eq!(passed, u64::from(least_m < 0.0), "{i}: {least_m:e} m");
+        said[usize::from(least_m < 0.0)] += 1;
+    }
+    // Measured: 0.
+    assert!(said.iter().all(|count| *count > 5), "{said:?}");
 }

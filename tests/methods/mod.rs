@@ -25,6 +25,7 @@ mod reference;
 mod residual;
 mod scenes;
 mod seams;
+mod shots;
 mod skipping;
 mod skips;
 mod symmetries;

@@ -1,3 +1,5 @@
+use crate::yaml::experiment;
+use gotai::exact::free_rotation::FreeRotation;
 use gotai::model::Geometry;
 use gotai::scene::build;
 use gotai::shape::cuboid::moments as box_moments;
@@ -92,4 +94,26 @@ time: { step_s: 0.1, end_s: 1 }
     let by_matrix = model.bodies[0].I_W(&state.bodies[0]);
     // measured: 1.1e-16; the slide's Rᵀ I R is off by 0.4
     assert!((direct - by_matrix).abs().max() < 1e-14);
+}
+
+/// The largest angular velocity of a free turn is one that it comes to: of bodies that tumble about any axis.
+#[test]
+fn the_fastest_of_a_free_turn_is_come_to_and_not_passed() {
+    for size in [[0.3, 0.002, 0.3], [0.65, 0.03, 0.03], [0.2, 0.004, 0.3], [0.1, 0.3, 0.2]] {
+        for w in [[400.0, 900.0, 1700.0], [1.0, 2000.0, 1.0], [30.0, -5.0, 0.0], [0.01, 1.0, 0.02]] {
+            let text = format!(
+                "{{ scene: {{ bodies: [{{ name: a, shape: {{ box: {{ size_m: {size:?} }} }}, mass_kg: 2, \
+                 angular_velocity_rad_s: {w:?} }}] }}, time: {{ end_s: 1 }}, method: event-driven }}"
+            );
+            let (model, start) = build(&experiment(&text, &[])).unwrap();
+            let (body, at) = (&model.bodies[0], &start.bodies[0]);
+            let fastest = body.fastest_turn_rad_s(at, &at.w_WB);
+            let turn = FreeRotation::new(&body.I_B, &at.q_WB, &at.w_WB);
+            // A few periods: about the middle axis they are long.
+            let span_s = 200.0 / at.w_WB.norm();
+            let come_to = (0..40_000).map(|i| turn.at(span_s * f64::from(i) / 4e4).1.norm()).fold(0.0, f64::max);
+            // Measured: 1 to 1 + 2e-6.
+            assert!((1.0 - 1e-12..1.0 + 1e-4).contains(&(fastest / come_to)), "{size:?}, {w:?}: {fastest} {come_to}");
+        }
+    }
 }

@@ -175,7 +175,7 @@ impl GhostJudge<'_> {
         match group.bodies.1 {
             Some(other) => {
                 let mut pair = NearPair { bodies: [group.bodies.0, other], axis: Vector3::zeros() };
-                gap_m(self.model, &mut pair, [&legs[0], &legs[1]], (1.0, f64::INFINITY), self.memory)
+                gap_m(self.model, &mut pair, legs.each_ref().map(|leg| leg.at(1.0)), f64::INFINITY, self.memory)
             }
             None => {
                 let (figure, body) = (&self.figures[group.bodies.0], &self.model.bodies[group.bodies.0]);
@@ -299,7 +299,7 @@ impl GhostJudge<'_> {
         let mut pair = NearPair { bodies: [a, b], axis: Vector3::zeros() };
         let legs = [&legs[0], &legs[1]];
         let most_m = most_m(legs, [a, b].map(|i| self.figures[i].radius_m));
-        let mut gap_at = |way: f64| gap_m(self.model, &mut pair, legs, (way, most_m), self.memory);
+        let mut gap_at = |way: f64| gap_m(self.model, &mut pair, legs.map(|leg| leg.at(way)), most_m, self.memory);
         let ends_m = [1.0, 0.0].map(&mut gap_at);
         if ends_m.iter().any(|gap_m| *gap_m < -closed_m) {
             return true;

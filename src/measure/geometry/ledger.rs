@@ -1,12 +1,12 @@
 //! The geometry of a run, step by step.
 
+use super::course::Course;
 use super::expand::Expansion;
 use super::figure::{Figure, Stand, turned};
 use super::ghost::{GhostJudge, Group};
-use super::leg::Leg;
 use super::near::NearPairs;
 use super::overlap::part;
-use super::passage::passes;
+use super::passage::{passes, together};
 use super::posed::gap_along_m;
 use crate::collide::SolvedContact;
 use crate::collide::approach::Approach;
@@ -224,8 +224,16 @@ impl GeometryLedger {
             if moved(pair.bodies[0]) + moved(pair.bodies[1]) <= 0.01 * width_m[0].min(width_m[1]) {
                 continue;
             }
-            let legs = pair.bodies.map(|i| Leg::between(&from.bodies[i], &to.bodies[i], span_s));
-            *passed += u64::from(passes(model, &self.figures, pair, [&legs[0], &legs[1]], &mut self.memory));
+            let [a, b] = pair.bodies;
+            let ends = [from, to].map(|state| state.bodies[a].p_WB - state.bodies[b].p_WB);
+            let Some(part) = together(ends, self.figures[a].radius_m + self.figures[b].radius_m) else { continue };
+            let least_m = width_m[0].min(width_m[1]);
+            let courses = pair.bodies.map(|i| {
+                let of = (&model.bodies[i], &self.figures[i]);
+                Course::between(of, [&from.bodies[i], &to.bodies[i]], span_s, least_m)
+            });
+            let through = passes(model, &self.figures, pair, (courses, part), &mut self.memory);
+            *passed += u64::from(through);
         }
     }
 

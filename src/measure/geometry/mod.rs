@@ -5,6 +5,7 @@
 //! but none of its code: a fault there cannot hide here.
 
 mod boxes;
+mod course;
 mod expand;
 mod figure;
 mod ghost;

@@ -2,29 +2,23 @@
 //! Impulse-based Dynamic Simulation of Rigid Body Systems, Berkeley 1996, 2.3): a gap cannot close faster than the
 //! bodies move, so that none of the way is left unseen.
 
+use super::course::{Course, bend_m, closing_m, most_m};
 use super::expand::Expansion;
-use super::figure::{Figure, posed};
-use super::leg::{Leg, most_m};
+use super::figure::{Figure, Stand, posed};
 use super::near::NearPair;
 use super::overlap::part;
 use super::posed::gap_along_m;
 use crate::model::Model;
+use nalgebra::Vector3;
 
 /// Of the width of the thinner body: an overlap on the way that counts.
 const DEEP: f64 = 0.01;
 /// Of that overlap: the shortest advance. And most of them.
 const LEAST: f64 = 0.1;
-const MOST: usize = 2_000;
+const MOST: usize = 20_000;
 
-/// The gap of a pair at a part of its way: the last axis shows enough of it, or all axes are asked.
-pub fn gap_m(
-    model: &Model,
-    pair: &mut NearPair,
-    legs: [&Leg; 2],
-    (way, enough_m): (f64, f64),
-    memory: &mut Expansion,
-) -> f64 {
-    let stands = legs.map(|leg| leg.at(way));
+/// The gap of a pair where it stands: the last axis shows enough of it, or all axes are asked.
+pub fn gap_m(model: &Model, pair: &mut NearPair, stands: [Stand; 2], enough_m: f64, memory: &mut Expansion) -> f64 {
     let origin_W = stands[1].p_WB;
     let [a, b] = [0, 1].map(|i| posed(model, pair.bodies[i], &stands[i], &origin_W));
     let (Some(a), Some(b)) = (a, b) else { return f64::INFINITY };
@@ -39,37 +33,76 @@ pub fn gap_m(
     parting.gap_m
 }
 
-/// Whether they overlap on the way, by a hundredth of the thinner one's width, deeper than at either end.
-pub fn passes(model: &Model, figures: &[Figure], pair: &mut NearPair, legs: [&Leg; 2], memory: &mut Expansion) -> bool {
+/// Whether they overlap on the way, by a hundredth of the thinner one's width, deeper than at either end; looked at in
+/// the part of it in which they may.
+pub fn passes(
+    model: &Model,
+    figures: &[Figure],
+    pair: &mut NearPair,
+    (mut courses, [from, to]): ([Course; 2], [f64; 2]),
+    memory: &mut Expansion,
+) -> bool {
     let of = pair.bodies.map(|i| &figures[i]);
-    let radii_m = of.map(|figure| figure.radius_m);
-    let most_m = most_m(legs, radii_m);
+    let most_m = most_m(&courses);
     let deep_m = DEEP * of[0].width_m.min(of[1].width_m);
     // Half-way from both ends they cannot be deeper by more than half of it.
-    if 0.5 * most_m <= deep_m || !spheres_meet(legs, radii_m[0] + radii_m[1]) {
+    if 0.5 * most_m <= deep_m {
         return false;
     }
-    let ends_m = [0.0, 1.0].map(|way| gap_m(model, pair, legs, (way, most_m), memory));
+    let mut gap_at = |pair: &mut NearPair, courses: &mut [Course; 2], way: f64, enough_m: f64| {
+        let stands = courses.each_mut().map(|course| course.at(way));
+        gap_m(model, pair, stands, enough_m, memory)
+    };
+    let ends_m = [0.0, 1.0].map(|way| gap_at(pair, &mut courses, way, most_m));
     let limit_m = deep_m + (-ends_m[0]).max(-ends_m[1]).max(0.0);
-    let last = 1.0 - (ends_m[1] + limit_m) / most_m;
-    let mut way = (ends_m[0] + limit_m) / most_m;
+    let last = to.min(1.0 - (ends_m[1] + limit_m) / most_m);
+    let mut way = from.max((ends_m[0] + limit_m) / most_m);
     for _ in 0..MOST {
         if way >= last {
             break;
         }
-        let gap_m = gap_m(model, pair, legs, (way, 0.2 * most_m), memory);
+        let gap_m = gap_at(pair, &mut courses, way, 0.2 * most_m);
         if gap_m < -limit_m {
             return true;
         }
-        way += (gap_m + limit_m).max(LEAST * deep_m) / most_m;
+        // Along the axis that parts them the gap closes no faster than points of the bodies move along it, and not by
+        // more on the way to where it is seen again than the bend of what turns.
+        let closing_m = closing_m(&courses, &pair.axis);
+        if closing_m <= 0.0 {
+            break;
+        }
+        let spare_m = (gap_m + limit_m).max(LEAST * deep_m);
+        let by_speed = spare_m / closing_m;
+        let bend_m = bend_m(&courses);
+        let ahead = (last - way).min((4.0 * spare_m / bend_m).sqrt());
+        let is_parted = ahead > by_speed && {
+            let stands = courses.each_mut().map(|course| course.at(way + ahead));
+            let seen_m = along_m(model, pair, stands);
+            seen_m.min(gap_m) - bend_m * ahead * ahead / 8.0 >= gap_m - spare_m
+        };
+        way += if is_parted { ahead } else { by_speed };
     }
     false
 }
 
-/// Whether the balls around two bodies come together on straight ways.
-fn spheres_meet([a, b]: [&Leg; 2], reach_m: f64) -> bool {
-    let (r, moved) = (a.from.p_WB - b.from.p_WB, a.moved - b.moved);
+/// The gap of a pair where it stands along its axis.
+fn along_m(model: &Model, pair: &NearPair, stands: [Stand; 2]) -> f64 {
+    let origin_W = stands[1].p_WB;
+    let [a, b] = [0, 1].map(|i| posed(model, pair.bodies[i], &stands[i], &origin_W));
+    a.zip(b).map_or(f64::INFINITY, |(a, b)| gap_along_m(&a, &b, &pair.axis))
+}
+
+/// The part of straight ways, given by where the second body sees the first at both ends, on which the balls around
+/// two bodies meet.
+pub fn together([from, to]: [Vector3<f64>; 2], reach_m: f64) -> Option<[f64; 2]> {
+    let moved = to - from;
     let square = moved.norm_squared();
-    let way = if square > 0.0 { (-r.dot(&moved) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (r + moved * way).norm_squared() < reach_m * reach_m
+    let nearest = if square > 0.0 { -from.dot(&moved) / square } else { 0.0 };
+    let left = reach_m * reach_m - (from + moved * nearest).norm_squared();
+    if left <= 0.0 {
+        return None;
+    }
+    let half = if square > 0.0 { (left / square).sqrt() } else { f64::INFINITY };
+    let [first, last] = [(nearest - half).max(0.0), (nearest + half).min(1.0)];
+    (first < last).then_some([first, last])
 }

@@ -2,7 +2,8 @@
 //!
 //! The way is searched by conservative advancement (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems,
 //! Berkeley 1996, 2.3): no gap closes faster than points of the bodies move. Where the way is long beside the bodies'
-//! width, that is asked along the axis that parts them best: what slides along a face comes no nearer to it.
+//! width, that is asked along the axis that parts them best: what slides along a face comes no nearer to it. And as
+//! separations along a fixed axis bend no more than points of the bodies do, two of them bound all between.
 
 use super::Contact;
 use super::doubt::band_m;
@@ -27,6 +28,8 @@ const STEADY: f64 = 0.25;
 /// Of that width: how far away what hits is, and how deep inside what has turned through.
 const AFAR: f64 = 1e-3;
 const DEEP: f64 = 0.005;
+/// The most of that, where a step is cut often.
+const DEEPEST: f64 = 0.05;
 /// Cosine of the angle within which an axis is the same at the end of a step as where bodies meet in it.
 const SAME_AXIS: f64 = 0.99;
 /// Of that width: a way that leads deep inside. Of half of the widths of both: one that leads through.
@@ -228,16 +231,17 @@ impl<'a> Way<'a> {
 
     /// The time up to which the bodies are apart, but for the band, if they do not stay so.
     pub fn meet_s(&self, band_m: f64, work: &mut Work) -> Option<f64> {
-        self.deeper_s(band_m, band_m, work)
+        self.deeper_s(band_m, band_m, self.step_s, work)
     }
 
-    /// The time up to which the bodies are apart, but for the band, before they overlap by a depth.
-    fn deeper_s(&self, depth_m: f64, band_m: f64, work: &mut Work) -> Option<f64> {
+    /// The time up to which the bodies are apart, but for the band, before they overlap by a depth; of a long way up to
+    /// a time.
+    fn deeper_s(&self, depth_m: f64, band_m: f64, until_s: f64, work: &mut Work) -> Option<f64> {
         if self.spheres_pass() {
             return None;
         }
         if self.is_deep(0.0) {
-            return self.deeper_far_s(depth_m, band_m, work);
+            return self.deeper_far_s(depth_m, band_m, until_s, work);
         }
         let [start_m, end_m] = [0.0, self.step_s].map(|time_s| self.gap_m(time_s, work));
         if start_m < -depth_m {
@@ -271,8 +275,12 @@ impl<'a> Way<'a> {
 
     /// The same of a way that is long beside the bodies' width. Where there is more of it than can be followed, the time
     /// up to which it was.
-    fn deeper_far_s(&self, depth_m: f64, band_m: f64, work: &mut Work) -> Option<f64> {
+    fn deeper_far_s(&self, depth_m: f64, band_m: f64, until_s: f64, work: &mut Work) -> Option<f64> {
         let [mut from_s, last_s] = self.together_s()?;
+        let last_s = last_s.min(until_s);
+        if from_s > last_s {
+            return None;
+        }
         let least_m = LEAST_FAST * self.width_m();
         // What slides along another one comes apart from it by rounding all the time.
         let apart_m = if depth_m > band_m { AFAR * self.width_m() } else { -band_m };
@@ -327,11 +335,11 @@ impl<'a> Way<'a> {
     }
 
     /// The time at which they are deep inside each other, or deeper than they have been by as much, if they are on this
-    /// way.
-    pub fn deep_s(&self, work: &mut Work) -> Option<f64> {
+    /// way up to a time. `times`: as much as usual so often.
+    pub fn deep_s(&self, times: f64, until_s: f64, work: &mut Work) -> Option<f64> {
         let band_m = band_m(self.model, self.pair, &self.at(0, 0.0));
-        let depth_m = DEEP * self.width_m() - self.gap_m(0.0, work).min(0.0);
-        self.deeper_s(depth_m, band_m, work).filter(|deep_s| self.is_from_afar(*deep_s))
+        let depth_m = (times * DEEP).min(DEEPEST) * self.width_m() - self.gap_m(0.0, work).min(0.0);
+        self.deeper_s(depth_m, band_m, until_s, work).filter(|deep_s| self.is_from_afar(*deep_s))
     }
 
     /// Between a time at which they are apart and one at which they overlap, as far as the band tells.

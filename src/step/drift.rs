@@ -1,6 +1,6 @@
 //! Motion between impulses: straight on, and a torque-free rotation that keeps energy and momentum: the implicit
-//! midpoint rule, order 2; of fast turns, which it cannot follow, and of what turns far beside a body that it may hit, the closed form at twenty
-//! times the cost.
+//! midpoint rule, order 2; of fast turns, which it cannot follow, and of those that lead far beside a body that may be
+//! hit, the closed form at twenty times the cost.
 
 use crate::exact::free_rotation::FreeRotation;
 use crate::integrate::implicit_midpoint;

@@ -30,6 +30,8 @@ const SETTLING: u32 = 8;
 const MOST: u32 = 16;
 /// Of a step: one that bodies turn too far in is cut by this at least.
 const SHORTER: f64 = 0.9;
+/// Cuts of a step of the clock by which it is left to lead bodies as much deeper into each other again.
+const OFTEN: f64 = 200.0;
 /// Of a step that ends where bodies hit each other: its end.
 const AT_THE_END: f64 = 1.0 - 1e-6;
 /// Of a slack: a lead beyond it that is rounding.
@@ -89,6 +91,8 @@ pub(super) struct Foreseen {
     pub(super) turns_far: Vec<bool>,
     /// The step ends where bodies hit each other: what meets then is the next one's.
     pub(super) is_up_to_hit: bool,
+    /// How often the step of the clock has been cut.
+    pub(super) cuts: u32,
     /// The step is not to be cut any more: what hits is asked to stay apart from afar.
     pub(super) is_whole: bool,
 }
@@ -365,7 +369,7 @@ impl Foreseen {
         scratch: &mut Scratch,
         (approach, step_s): (Approach, f64),
     ) {
-        let Foreseen { contacts, doubts, turned_s, turns_far, .. } = self;
+        let Foreseen { contacts, doubts, turned_s, turns_far, cuts, .. } = self;
         let pairs = contacts.chunk_by(|a, b| (a.body, a.other) == (b.body, b.other));
         let asked = pairs.filter_map(|group| Some(([group[0].body, group[0].other?], false)));
         let doubted = doubts.list().iter().filter(|doubt| doubt.is_imposed).map(|doubt| (doubt.pair, true));
@@ -379,9 +383,12 @@ impl Foreseen {
             note_far(turns_far, &way, pair);
             let is_far = if approach == Approach::Middle { way.is_through(0.0) } else { way.is_deep(0.0) };
             // What slides far along a face that turns is inside it before that has turned far.
-            let deep_s = is_far.then(|| way.deep_s(work)).flatten();
             let too_far_s = way.turned_s().filter(|_| is_doubted);
-            too_far_s.into_iter().chain(deep_s).for_each(|other_s| note_earlier(turned_s, other_s));
+            too_far_s.iter().for_each(|other_s| note_earlier(turned_s, *other_s));
+            let until_s = turned_s.filter(|turned_s| *turned_s < SHORTER * step_s).unwrap_or(step_s);
+            let times = 1.0 + f64::from(*cuts) / OFTEN;
+            let deep_s = is_far.then(|| way.deep_s(times, until_s, work)).flatten();
+            deep_s.iter().for_each(|other_s| note_earlier(turned_s, *other_s));
         }
     }
 }

@@ -56,7 +56,7 @@ const FAR: f64 = 1e-3;
 /// step whose kick is half-way.
 const FAST: f64 = 0.25;
 /// Most cuts of a step of the clock.
-const MOST_PARTS: u32 = 1_000;
+const MOST_PARTS: u32 = 5_000;
 
 pub struct TimeStepping {
     solver: ContactSolver,
@@ -221,6 +221,7 @@ impl TimeStepping {
             // 1. Contact test.
             self.foreseen.is_up_to_hit = self.made_s < left_s;
             self.foreseen.is_whole = self.parts >= MOST_PARTS;
+            self.foreseen.cuts = self.parts;
             // Until the next kick.
             let ahead_s = if self.made_s < left_s { self.made_s - before_s } else { self.made_s };
             self.scratch.free_velocities(model, state, self.made_s);

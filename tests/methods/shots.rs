@@ -6,7 +6,9 @@ use gotai::outcome::Outcome;
 
 /// What flies at what, and the scene.
 const SHOTS: &[(&str, &str)] = &[
-    ("a rod that its face alone meets spins up in the step", "
+    (
+        "a rod that its face alone meets spins up in the step",
+        "
 scene:
   gravity_m_s2: [0, 0, 0]
   friction: 0.3
@@ -19,8 +21,11 @@ scene:
         angular_velocity_rad_s: [0, 2.858502, 0] }
 method: { time-stepping: { solver: newton } }
 time: { step_s: 0.01, end_s: 0.08 }
-"),
-    ("a thin plate around a beam", "
+",
+    ),
+    (
+        "a thin plate around a beam",
+        "
 scene:
   gravity_m_s2: [0, 0, 0]
   friction: 0
@@ -33,8 +38,11 @@ scene:
         position_m: [0, 0, 0], fixed: true }
 method: { time-stepping: { solver: newton } }
 time: { step_s: 0.01, end_s: 0.12 }
-"),
-    ("a rod at 5e4 rad/s beside a thin plate", "
+",
+    ),
+    (
+        "a rod at 5e4 rad/s beside a thin plate",
+        "
 scene:
   gravity_m_s2: [0, 0, 0]
   friction: 0.8
@@ -48,8 +56,11 @@ scene:
         fixed: true }
 method: { time-stepping: { solver: pgs } }
 time: { step_s: 0.016, end_s: 0.176 }
-"),
-    ("a capsule that rolls and spins on a plate", "
+",
+    ),
+    (
+        "a capsule that rolls and spins on a plate",
+        "
 scene:
   gravity_m_s2: [0, 0, 0]
   friction: 0.8
@@ -62,8 +73,11 @@ scene:
         orientation: { axis: [0.077960, 0.914594, -0.396786], angle_deg: 41.740280 } }
 method: { time-stepping: { solver: newton } }
 time: { step_s: 0.016, end_s: 0.14400000000000002 }
-"),
-    ("a thin plate at a can", "
+",
+    ),
+    (
+        "a thin plate at a can",
+        "
 scene:
   gravity_m_s2: [0, 0, 0]
   friction: 0.3
@@ -76,8 +90,11 @@ scene:
         position_m: [0, 0, 0] }
 method: { time-stepping: { solver: newton, scheme: moreau } }
 time: { step_s: 0.001, end_s: 0.007 }
-"),
-    ("a thin plate that slides along a corner", "
+",
+    ),
+    (
+        "a thin plate that slides along a corner",
+        "
 scene:
   gravity_m_s2: [0, 0, 0]
   friction: 0
@@ -91,8 +108,11 @@ scene:
         orientation: { axis: [0.919258, 0.220237, -0.326280], angle_deg: 109.893324 } }
 method: { time-stepping: { solver: newton, impact: poisson } }
 time: { step_s: 0.016, end_s: 0.176 }
-"),
-    ("a rod that spins for hundreds of turns in a step", "
+",
+    ),
+    (
+        "a rod that spins for hundreds of turns in a step",
+        "
 scene:
   gravity_m_s2: [0, 0, 0]
   friction: 0.3
@@ -106,8 +126,11 @@ scene:
         orientation: { axis: [-0.097462, 0.816710, -0.568757], angle_deg: 140.942272 } }
 method: { time-stepping: { solver: newton, impact: poisson } }
 time: { step_s: 0.01, end_s: 0.12 }
-"),
-    ("balls of which one comes from far", "
+",
+    ),
+    (
+        "balls of which one comes from far",
+        "
 scene:
   gravity_m_s2: [0, 0, 0]
   friction: 0.8
@@ -120,8 +143,11 @@ scene:
         angular_velocity_rad_s: [0, 0, -0.558743] }
 method: { time-stepping: { solver: pgs } }
 time: { step_s: 0.016, end_s: 0.096 }
-"),
-    ("a plate that tumbles over a plate of a tenth of a millimetre", "
+",
+    ),
+    (
+        "a plate that tumbles over a plate of a tenth of a millimetre",
+        "
 scene:
   gravity_m_s2: [0, 0, 0]
   friction: 0.8
@@ -135,7 +161,8 @@ scene:
         orientation: { axis: [0.614204, 0.770600, 0.170080], angle_deg: 74.504308 } }
 method: { time-stepping: { solver: pgs } }
 time: { step_s: 0.005, end_s: 0.03 }
-"),
+",
+    ),
 ];
 
 #[test]

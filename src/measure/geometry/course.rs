@@ -100,9 +100,8 @@ impl<'a> FreeTurn<'a> {
         }
         let most_rad = body.fastest_turn_rad_s(after, &after.w_WB) * span_s;
         let ends = [before.q_WB, after.q_WB];
-        let mut free = FreeTurn { body, L_W, span_s, ends, known: (0.0, before.q_WB), most_rad };
-        let end = free.from_to((0.0, before.q_WB), 1.0);
-        free.known = (0.0, before.q_WB);
+        let free = FreeTurn { body, L_W, span_s, ends, known: (0.0, before.q_WB), most_rad };
+        let end = free.led_on((0.0, before.q_WB), 1.0);
         (end.angle_to(&after.q_WB) <= ARRIVED).then_some(free)
     }
 
@@ -113,16 +112,17 @@ impl<'a> FreeTurn<'a> {
         let starts = [self.known, (0.0, self.ends[0]), (1.0, self.ends[1])];
         let far = |from: f64| (part - from).abs();
         let nearest = starts.into_iter().reduce(|a, b| if far(b.0) < far(a.0) { b } else { a });
-        self.from_to(nearest.unwrap_or(self.known), part)
+        let q_WB = self.led_on(nearest.unwrap_or(self.known), part);
+        self.known = (part, q_WB);
+        q_WB
     }
 
-    fn from_to(&mut self, (from, mut q_WB): (f64, UnitQuaternion<f64>), part: f64) -> UnitQuaternion<f64> {
+    fn led_on(&self, (from, mut q_WB): (f64, UnitQuaternion<f64>), part: f64) -> UnitQuaternion<f64> {
         let steps = ((part - from).abs() * self.most_rad / STEP).ceil().max(1.0);
         let step_s = (part - from) * self.span_s / steps;
         for _ in 0..steps as u64 {
             q_WB = self.step(&q_WB, step_s);
         }
-        self.known = (part, q_WB);
         q_WB
     }
 

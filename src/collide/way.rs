@@ -273,8 +273,8 @@ impl<'a> Way<'a> {
         None
     }
 
-    /// The same of a way that is long beside the bodies' width. Where there is more of it than can be followed, the time
-    /// up to which it was.
+    /// The same of a way that is long beside the bodies' width. Where there is more of it than can be followed, the
+    /// time up to which it was.
     fn deeper_far_s(&self, depth_m: f64, band_m: f64, until_s: f64, work: &mut Work) -> Option<f64> {
         let [mut from_s, last_s] = self.together_s()?;
         let last_s = last_s.min(until_s);

@@ -56,7 +56,7 @@ const FAR: f64 = 1e-3;
 /// step whose kick is half-way.
 const FAST: f64 = 0.25;
 /// Most cuts of a step of the clock.
-const MOST_PARTS: u32 = 5_000;
+const MOST_PARTS: u32 = 2_000;
 
 pub struct TimeStepping {
     solver: ContactSolver,

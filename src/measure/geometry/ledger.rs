@@ -1,6 +1,5 @@
 //! The geometry of a run, step by step.
 
-use super::course::Course;
 use super::expand::Expansion;
 use super::figure::{Figure, Stand, turned};
 use super::ghost::{GhostJudge, Group};
@@ -8,6 +7,7 @@ use super::near::NearPairs;
 use super::overlap::part;
 use super::passage::{passes, together};
 use super::posed::gap_along_m;
+use super::track::Track;
 use crate::collide::SolvedContact;
 use crate::collide::approach::Approach;
 use crate::model::Model;
@@ -228,11 +228,11 @@ impl GeometryLedger {
             let ends = [from, to].map(|state| state.bodies[a].p_WB - state.bodies[b].p_WB);
             let Some(part) = together(ends, self.figures[a].radius_m + self.figures[b].radius_m) else { continue };
             let least_m = width_m[0].min(width_m[1]);
-            let courses = pair.bodies.map(|i| {
+            let tracks = pair.bodies.map(|i| {
                 let of = (&model.bodies[i], &self.figures[i]);
-                Course::between(of, [&from.bodies[i], &to.bodies[i]], span_s, least_m)
+                Track::between(of, [&from.bodies[i], &to.bodies[i]], span_s, least_m)
             });
-            let through = passes(model, &self.figures, pair, (courses, part), &mut self.memory);
+            let through = passes(model, &self.figures, pair, (tracks, part), &mut self.memory);
             *passed += u64::from(through);
         }
     }

@@ -5,7 +5,6 @@
 //! but none of its code: a fault there cannot hide here.
 
 mod boxes;
-mod course;
 mod expand;
 mod figure;
 mod ghost;
@@ -18,6 +17,7 @@ mod parting;
 mod passage;
 mod posed;
 mod segments;
+mod track;
 
 pub use ledger::GeometryLedger;
 pub use overlap::overlap;

@@ -2,12 +2,12 @@
 //! Impulse-based Dynamic Simulation of Rigid Body Systems, Berkeley 1996, 2.3): a gap cannot close faster than the
 //! bodies move, so that none of the way is left unseen.
 
-use super::course::{Course, bend_m, closing_m, most_m};
 use super::expand::Expansion;
 use super::figure::{Figure, Stand, posed};
 use super::near::NearPair;
 use super::overlap::part;
 use super::posed::gap_along_m;
+use super::track::{Track, bend_m, closing_m, most_m};
 use crate::model::Model;
 use nalgebra::Vector3;
 
@@ -39,21 +39,21 @@ pub fn passes(
     model: &Model,
     figures: &[Figure],
     pair: &mut NearPair,
-    (mut courses, [from, to]): ([Course; 2], [f64; 2]),
+    (mut tracks, [from, to]): ([Track; 2], [f64; 2]),
     memory: &mut Expansion,
 ) -> bool {
     let of = pair.bodies.map(|i| &figures[i]);
-    let most_m = most_m(&courses);
+    let most_m = most_m(&tracks);
     let deep_m = DEEP * of[0].width_m.min(of[1].width_m);
     // Half-way from both ends they cannot be deeper by more than half of it.
     if 0.5 * most_m <= deep_m {
         return false;
     }
-    let mut gap_at = |pair: &mut NearPair, courses: &mut [Course; 2], way: f64, enough_m: f64| {
-        let stands = courses.each_mut().map(|course| course.at(way));
+    let mut gap_at = |pair: &mut NearPair, tracks: &mut [Track; 2], way: f64, enough_m: f64| {
+        let stands = tracks.each_mut().map(|track| track.at(way));
         gap_m(model, pair, stands, enough_m, memory)
     };
-    let ends_m = [0.0, 1.0].map(|way| gap_at(pair, &mut courses, way, most_m));
+    let ends_m = [0.0, 1.0].map(|way| gap_at(pair, &mut tracks, way, most_m));
     let limit_m = deep_m + (-ends_m[0]).max(-ends_m[1]).max(0.0);
     let last = to.min(1.0 - (ends_m[1] + limit_m) / most_m);
     let mut way = from.max((ends_m[0] + limit_m) / most_m);
@@ -61,22 +61,22 @@ pub fn passes(
         if way >= last {
             break;
         }
-        let gap_m = gap_at(pair, &mut courses, way, 0.2 * most_m);
+        let gap_m = gap_at(pair, &mut tracks, way, 0.2 * most_m);
         if gap_m < -limit_m {
             return true;
         }
         // Along the axis that parts them the gap closes no faster than points of the bodies move along it, and not by
         // more on the way to where it is seen again than the bend of what turns.
-        let closing_m = closing_m(&courses, &pair.axis);
+        let closing_m = closing_m(&tracks, &pair.axis);
         if closing_m <= 0.0 {
             break;
         }
         let spare_m = (gap_m + limit_m).max(LEAST * deep_m);
         let by_speed = spare_m / closing_m;
-        let bend_m = bend_m(&courses);
+        let bend_m = bend_m(&tracks);
         let ahead = (last - way).min((4.0 * spare_m / bend_m).sqrt());
         let is_parted = ahead > by_speed && {
-            let stands = courses.each_mut().map(|course| course.at(way + ahead));
+            let stands = tracks.each_mut().map(|track| track.at(way + ahead));
             let seen_m = along_m(model, pair, stands);
             seen_m.min(gap_m) - bend_m * ahead * ahead / 8.0 >= gap_m - spare_m
         };

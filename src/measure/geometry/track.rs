@@ -19,14 +19,14 @@ const STEP: f64 = 0.02;
 const ARRIVED: f64 = 0.05;
 
 /// A way, in parts of it from 0 to 1.
-pub struct Course<'a> {
+pub struct Track<'a> {
     pub leg: Leg,
     /// Radius of what its turning moves; none of a ball about its centre.
     arm_m: f64,
-    free: Option<FreeTurn<'a>>,
+    free: Option<Tumble<'a>>,
 }
 
-impl<'a> Course<'a> {
+impl<'a> Track<'a> {
     /// Between two states; `width_m`: the least of the pair.
     pub fn between(
         (body, figure): (&'a Body, &Figure),
@@ -36,9 +36,9 @@ impl<'a> Course<'a> {
     ) -> Self {
         let turn = before.w_WB.norm().max(after.w_WB.norm()) * span_s;
         let is_far = turn * turn * CHANGES / 8.0 * figure.radius_m > ASIDE * width_m;
-        let free = is_far.then(|| FreeTurn::between(body, [before, after], span_s)).flatten();
+        let free = is_far.then(|| Tumble::between(body, [before, after], span_s)).flatten();
         let arm_m = if body.is_centred_ball() { 0.0 } else { figure.radius_m };
-        Course { leg: Leg::between(before, after, span_s), arm_m, free }
+        Track { leg: Leg::between(before, after, span_s), arm_m, free }
     }
 
     pub fn at(&mut self, part: f64) -> Stand {
@@ -56,13 +56,13 @@ impl<'a> Course<'a> {
 }
 
 /// The most that a gap along a unit vector, from the second body to the first, closes on their ways.
-pub fn closing_m([a, b]: &[Course; 2], normal: &Vector3<f64>) -> f64 {
+pub fn closing_m([a, b]: &[Track; 2], normal: &Vector3<f64>) -> f64 {
     a.swing_m(normal) + b.swing_m(normal) - normal.dot(&(a.leg.moved - b.leg.moved))
 }
 
 /// The most that a gap along a unit vector bends on their ways: its second derivative by the part of them.
-pub fn bend_m([a, b]: &[Course; 2]) -> f64 {
-    let bend_m = |of: &Course| {
+pub fn bend_m([a, b]: &[Track; 2]) -> f64 {
+    let bend_m = |of: &Track| {
         let (rad, changes) =
             of.free.as_ref().map_or((of.leg.turned.norm(), 1.0), |free| (free.most_rad, 1.0 + CHANGES));
         changes * rad * rad * of.arm_m
@@ -71,13 +71,13 @@ pub fn bend_m([a, b]: &[Course; 2]) -> f64 {
 }
 
 /// The most that the distance of two bodies can change on their ways.
-pub fn most_m([a, b]: &[Course; 2]) -> f64 {
-    let turned_m = |of: &Course| of.arm_m * of.free.as_ref().map_or_else(|| of.leg.turned.norm(), |free| free.most_rad);
+pub fn most_m([a, b]: &[Track; 2]) -> f64 {
+    let turned_m = |of: &Track| of.arm_m * of.free.as_ref().map_or_else(|| of.leg.turned.norm(), |free| free.most_rad);
     (a.leg.moved - b.leg.moved).norm() + turned_m(a) + turned_m(b)
 }
 
 /// A turn without torque: the angular momentum is a constant of the world.
-struct FreeTurn<'a> {
+struct Tumble<'a> {
     body: &'a Body,
     L_W: Vector3<f64>,
     span_s: f64,
@@ -87,7 +87,7 @@ struct FreeTurn<'a> {
     most_rad: f64,
 }
 
-impl<'a> FreeTurn<'a> {
+impl<'a> Tumble<'a> {
     /// None: it is steady, or not what leads from one state to the other.
     fn between(body: &'a Body, [before, after]: [&BodyState; 2], span_s: f64) -> Option<Self> {
         if body.isotropic || body.driven {
@@ -100,7 +100,7 @@ impl<'a> FreeTurn<'a> {
         }
         let most_rad = body.fastest_turn_rad_s(after, &after.w_WB) * span_s;
         let ends = [before.q_WB, after.q_WB];
-        let free = FreeTurn { body, L_W, span_s, ends, known: (0.0, before.q_WB), most_rad };
+        let free = Tumble { body, L_W, span_s, ends, known: (0.0, before.q_WB), most_rad };
         let end = free.led_on((0.0, before.q_WB), 1.0);
         (end.angle_to(&after.q_WB) <= ARRIVED).then_some(free)
     }

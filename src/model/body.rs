@@ -81,8 +81,8 @@ impl Body {
         -(self.I_W_inverse(state) * w_WB.cross(&(self.I_W(state) * w_WB)))
     }
 
-    /// The largest angular velocity, in rad/s, that the body comes to without a torque. Energy and momentum are linear in
-    /// the squares of its components along the principal axes, of which one is none where their sum is largest.
+    /// The largest angular velocity, in rad/s, that the body comes to without a torque. Energy and momentum are linear
+    /// in the squares of its components along the principal axes, of which one is none where their sum is largest.
     pub fn fastest_turn_rad_s(&self, state: &BodyState, w_WB: &Vector3<f64>) -> f64 {
         const EQUAL: f64 = 1e-9;
         let now = w_WB.norm();

@@ -1,6 +1,6 @@
 //! Which contact, stepping: what goes over the seams of flush blocks goes on as over one block, what falls into a slot
-//! falls, one that stands higher is a step, bricks stand, and what flies fast passes nothing (`shots.rs`). Whole sets are
-//! in `.ci/seams.py` and `.ci/shots.py`.
+//! falls, one that stands higher is a step, bricks stand, and what flies fast passes nothing (`shots.rs`). Whole sets
+//! are in `.ci/seams.py` and `.ci/shots.py`.
 
 use crate::yaml::{experiment, measured, run};
 use gotai::state::BodyState;

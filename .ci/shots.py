@@ -3,7 +3,7 @@
 
 usage: shots.py GOTAI COUNT [SEED]
 
-Prints what passed through (column `passed_through`) and where linear momentum was not kept; fails if more than 2 of 1000
+Prints what passed through (column `passed_through`) and where linear momentum was not kept; fails if more than 5 of 1000
 shots that hit did: of 300 none may.
 """
 import json
@@ -95,7 +95,7 @@ def main():
                 wrong += 1
                 print(f"shot {shot}: {row['outcome']}, passed {row['passed_through']}, momentum {momentum:.2g}", flush=True)
     print(f"{wrong} wrong of {hits} hits, of {count} shots")
-    sys.exit(wrong > 0.002 * hits)
+    sys.exit(wrong > 0.005 * hits)
 
 
 main()

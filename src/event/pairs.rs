@@ -11,10 +11,12 @@ use crate::collide::Contact;
 use crate::collide::closed::delta_m;
 use crate::model::{Body, pose_of_solid};
 use crate::shape::band::{Along, BAND, touches_beside};
+use crate::shape::cylinder::{EDGE, VERTEX};
 use crate::shape::solid::{Meeting as Found, Pose, Solid};
 use crate::state::BodyState;
 use crate::work::Work;
 use nalgebra::Vector3;
+use smallvec::SmallVec;
 
 /// Within this part of the smaller body's size, its points of contact are looked at, which beyond it only their
 /// distance bounds: small enough for normals to turn little on the way, large against δ, so that the first of them is
@@ -26,6 +28,17 @@ const FLUSH: f64 = 1e-9;
 
 /// Of the smaller body's size: points this far apart span a line or a plane.
 const SPREAD: f64 = 1e-6;
+
+/// Whether the contact test has found a point of a rim on an edge.
+fn is_rim_on_edge(feature: (u32, u32)) -> bool {
+    let kinds = [feature.0, feature.1].map(|feature| feature >> 28 << 28);
+    kinds == [EDGE, VERTEX] || kinds == [VERTEX, EDGE]
+}
+
+/// The edge of such a point.
+fn edge(feature: (u32, u32)) -> u32 {
+    if feature.0 >> 28 << 28 == EDGE { feature.0 } else { feature.1 }
+}
 
 /// The longest way between two looks at points of contact, of the smaller body's size: other parts may come to be the
 /// nearest.
@@ -261,9 +274,7 @@ impl<'a> Two<'a> {
         }
         let mut found = Vec::new();
         self.find(&now, &mut found);
-        let held = self.places(&now.at);
-        let others = found.iter().filter(|touch| !self.is_held(&held, &now, touch));
-        others.map(|touch| touch.gap_m).fold(f64::INFINITY, f64::min)
+        self.others(&now, &found).map(|touch| touch.gap_m).fold(f64::INFINITY, f64::min)
     }
 
     /// When they touch, between two times: at the one they are apart, at the other one deep in each other.
@@ -373,8 +384,7 @@ impl<'a> Two<'a> {
         let closing = self.closing_m_s(at);
         let (mut safe_s, mut others_s) = (f64::INFINITY, f64::INFINITY);
         let (mut touching, mut lingering, mut least_m) = (false, 0, f64::INFINITY);
-        let held = self.places(at);
-        for touch in found.iter().filter(|touch| !self.is_held(&held, now, touch)) {
+        for touch in &self.others(now, found).collect::<SmallVec<[Found; 4]>>() {
             least_m = least_m.min(touch.gap_m);
             if touch.gap_m > near_m {
                 let (gap_m, rate_m_s) = (touch.gap_m - near_m / 2.0, -closing);
@@ -415,6 +425,26 @@ impl<'a> Two<'a> {
         let Some((more_m_s2, known_s)) = rolling.along else { return of_any_s };
         let along = Look { toward_m_s2: look.toward_m_s2 + more_m_s2, known_s: look.known_s.min(known_s), ..*look };
         of_any_s.max(along.safe_s(*delta_m, *slow_m_s))
+    }
+
+    /// What is not held. Of an edge that crosses a rim in a point that is held, the other such point: the contact test
+    /// hardly knows where it is.
+    fn others<'b>(&'b self, now: &'b Now, found: &'b [Found]) -> impl Iterator<Item = Found> + 'b {
+        let held = self.places(&now.at);
+        let own = move |touch: &Found| {
+            let is_it = |h: &&&Held| h.touch.is_crossing() && edge(h.touch.key().2) == edge(touch.feature);
+            let mut crossing = self.resting.iter().filter(|_| is_rim_on_edge(touch.feature)).filter(is_it);
+            match (crossing.next(), crossing.next()) {
+                (None, _) => (!self.is_held(&held, now, touch)).then_some(*touch),
+                (Some(first), None) => {
+                    let other = first.touch.other_crossing(|i| &now.at[usize::from(i != self.pair[0])])?;
+                    let Contact { p_WC: p_W, normal, gap_m, feature, .. } = other;
+                    Some(Found { p_W, normal, gap_m, feature })
+                }
+                (Some(_), Some(_)) => None,
+            }
+        };
+        found.iter().filter_map(own)
     }
 
     /// Where the two are held.

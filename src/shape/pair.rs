@@ -66,9 +66,20 @@ pub fn along(a: &Solid, pose_a: &Pose, b: &Solid, pose_b: &Pose, normal: &Vector
 /// Unit direction of an edge, or of a round side, by its name among a pair's features; None where it has no length.
 pub fn edge_W(solid: &Solid, pose: &Pose, feature: u32) -> Option<Vector3<f64>> {
     let placed = Placed::new(solid, pose, &pose.p_W);
-    let [from, to] = [14, 0].map(|shift| feature >> shift & 0x3fff);
+    let [from, to] = corners(feature);
     let along = if placed.is_polytope() { placed.vertex(to) - placed.vertex(from) } else { placed.axis() };
     along.try_normalize(0.0)
+}
+
+/// The ends of an edge, by its name among a pair's features; None: the solid has no corners.
+pub fn edge_ends_W(solid: &Solid, pose: &Pose, feature: u32) -> Option<[Vector3<f64>; 2]> {
+    let placed = Placed::new(solid, pose, &pose.p_W);
+    placed.is_polytope().then(|| corners(feature).map(|corner| pose.p_W + placed.vertex(corner)))
+}
+
+/// Numbers of an edge's corners.
+fn corners(feature: u32) -> [u32; 2] {
+    [14, 0].map(|shift| feature >> shift & 0x3fff)
 }
 
 /// The axis between two cores, what else it may be where no face lies opposite (`axis::axis`), and the solids'

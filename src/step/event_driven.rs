@@ -283,6 +283,10 @@ impl EventDriven {
     fn look_around(&mut self, model: &Model, state: &State) {
         let reach = Reach { margin: MARGIN };
         self.detector.detect(model, state, &reach, &mut self.found, &mut self.work);
+        if model.touching_pairs {
+            self.found = self.found.iter().flat_map(|contact| Touch::refined(model, state, contact)).collect();
+            self.found.sort_by_key(Contact::key);
+        }
         keep_closed(model, state, &mut self.found);
     }
 

@@ -238,3 +238,36 @@ fn what_slides_off_a_cap_tips_when_its_weight_is_over_the_rim() {
         }
     }
 }
+
+/// Its cap is next to flat, and crosses the edge in two points, of which the contact test tells the lower one.
+#[test]
+fn a_can_tips_over_an_edge_that_its_cap_is_nearly_along() {
+    for turned in [1e-2, 1e-3, 1e-4, 1e-5, 1e-7] {
+        for angle_deg in [1, 5, 20] {
+            let text = format!(
+                "
+scene:
+  gravity_m_s2: [0, -9.81, 0]
+  friction: 0.4
+  bodies:
+    - {{ name: block, shape: {{ box: {{ size_m: [2, 1, 3] }} }}, mass_kg: 1, fixed: true, position_m: [-1, -0.5, 0] }}
+    - name: can
+      shape: {{ cylinder: {{ radius_m: 0.2, height_m: 0.3 }} }}
+      mass_kg: 1
+      position_m: [0.05, 0.16, 0.01]
+      orientation: {{ axis: [{turned}, 0, -1], angle_deg: {angle_deg} }}
+method: {{ event-driven: {{ tolerance: 1e-9 }} }}
+time: {{ end_s: 0.2 }}
+"
+            );
+            let ended = run(&experiment(&text, &[])).measured;
+            let (drift, residual) = (ended.energy_drift_rel.unwrap(), ended.residual_max.unwrap());
+            let deep_m = ended.penetration_max_m.unwrap();
+            // measured: 4.0e-9, 1.1e-11, 2.4e-10 m; by the height of the fall, drift and depth are those of an impact
+            // that comes late by rounding. Before both points were known: 9, 1.1, 0.1 m, 8 to 12 stretches.
+            let what = format!("{turned} {angle_deg}: {drift:e} {residual:e} {deep_m:e}");
+            assert!(drift.abs() < 1e-8 && residual < 1e-10 && deep_m < 1e-9, "{what}");
+            assert_eq!(ended.work.fallbacks, 0, "{what}");
+        }
+    }
+}

@@ -16,6 +16,7 @@ mod parts;
 mod plane;
 mod rates;
 mod recognise;
+mod rim_on_edge;
 mod standing;
 
 pub use moving::{Here, Touch};

@@ -5,11 +5,13 @@ use super::lines::Crossing;
 use super::parts::Parts;
 use super::plane::Plane;
 use super::rates::pair;
-use super::recognise::{over_border, parts};
+use super::recognise::{over_border, parts, rim_on_edge};
 use super::{ball_on_line, balls, lines, plane};
 use crate::collide::{Contact, Key};
 use crate::event::shown::{Border, Line, within_m};
+use crate::math::few::OneOrTwo;
 use crate::model::Model;
+use crate::shape::cylinder::VERTEX;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
@@ -31,6 +33,12 @@ pub struct Touch {
     pub(super) parts: Parts,
     /// It began within the borders of faces and the ends of edges, by so much or a little less.
     slack_m: Option<f64>,
+}
+
+/// The name of the other crossing of the same two.
+fn other_name(feature: (u32, u32)) -> (u32, u32) {
+    let name = |feature: u32| if feature >> 28 << 28 == VERTEX { feature ^ 1 } else { feature };
+    (name(feature.0), name(feature.1))
 }
 
 /// A touch in one state.
@@ -64,7 +72,40 @@ impl Here {
 impl Touch {
     /// None: parts whose motion along each other is not known here.
     pub fn new(model: &Model, state: &State, found: &Contact) -> Option<Self> {
-        let mut touch = Touch { found: *found, parts: parts(model, state, found)?, slack_m: None };
+        let of = |parts: Parts| Touch::of(model, state, found, parts);
+        rim_on_edge(model, state, found).and_then(of).or_else(|| of(parts(model, state, found)?))
+    }
+
+    /// The same contact, more closely, where the rim of a cap next to flat crosses an edge: the contact test knows the
+    /// less of that point the flatter the cap is. With the other point in which these cross, if that is one, too: the
+    /// test tells the lower one, and an edge along a cap has both.
+    pub fn refined(model: &Model, state: &State, found: &Contact) -> OneOrTwo<Contact> {
+        let of = |parts: Parts| Touch::of(model, state, found, parts);
+        let Some(touch) = rim_on_edge(model, state, found).and_then(of) else { return OneOrTwo::from_elem(*found, 1) };
+        let mut all = OneOrTwo::from_elem(touch.here(state).contact, 1);
+        all.extend(touch.other_crossing(|i| &state.bodies[i]));
+        all
+    }
+
+    /// Whether it is of a rim that crosses an edge.
+    pub fn is_crossing(&self) -> bool {
+        matches!(&self.parts, Parts::RimOnEdge(_))
+    }
+
+    /// Of a rim that crosses an edge: the other point in which it does. None: it does not.
+    pub fn other_crossing<'a>(&self, at: impl Fn(usize) -> &'a BodyState) -> Option<Contact> {
+        let Parts::RimOnEdge(crossing) = &self.parts else { return None };
+        let bodies = pair(&self.found, &at);
+        let (crossing, slack_m) = (crossing.other(bodies), self.slack_m?);
+        let is_there = crossing.inside_m(bodies) >= -slack_m;
+        let found = Contact { feature: other_name(self.found.feature), ..self.found };
+        let other = Touch { found, parts: Parts::RimOnEdge(crossing), slack_m: Some(slack_m) };
+        is_there.then(|| other.here_of(at).contact)
+    }
+
+    /// None: these parts do not meet there.
+    fn of(model: &Model, state: &State, found: &Contact, parts: Parts) -> Option<Self> {
+        let mut touch = Touch { found: *found, parts, slack_m: None };
         let sizes_m = || found.ends().map(|(i, ..)| model.bodies[i].bounding_radius_m);
         let slack_m = BORDER * sizes_m().sum::<f64>();
         if touch.inside_m(state) < -slack_m
@@ -86,6 +127,7 @@ impl Touch {
             Parts::OnPlane { plane, .. } => plane.border != Border::Nowhere,
             Parts::Balls(balls) => balls.iter().any(|ball| !ball.cone.is_empty()),
             Parts::Lines(_) | Parts::BallOnLine { .. } | Parts::OnRim(_) | Parts::Curved(_) => true,
+            Parts::RimOnEdge(_) => true,
         };
         ends && self.slack_m.is_some()
     }
@@ -128,6 +170,7 @@ impl Touch {
             }
             Parts::OnRim(crossing) => crossing.inside_m(pair(&self.found, &at)),
             Parts::Curved(curved) => curved.inside_m(pair(&self.found, &at)),
+            Parts::RimOnEdge(crossing) => crossing.inside_m(pair(&self.found, &at)),
         }
     }
 
@@ -163,6 +206,7 @@ impl Touch {
             Parts::BallOnLine { first, ball, line } => ball_on_line::here(&self.found, &at, *first, ball, line),
             Parts::OnRim(crossing) => crossing.here(&self.found, &at),
             Parts::Curved(curved) => curved.here(&self.found, &at),
+            Parts::RimOnEdge(crossing) => crossing.here(&self.found, &at),
         };
         let (a, b) = (at(contact.body), contact.other.map(&at));
         contact.r_BC_W = contact.p_WC - a.p_WB;

@@ -3,6 +3,7 @@
 use super::crossing::OnRim;
 use super::curved::Curved;
 use super::plane::Plane;
+use super::rim_on_edge::RimOnEdge;
 use crate::event::shown::{Ball, Line, Part};
 
 /// What meets what.
@@ -26,4 +27,6 @@ pub(super) enum Parts {
     /// What lies flat on a cap crosses its rim.
     OnRim(OnRim),
     Curved(Curved),
+    /// The rim of a cap that is next to flat crosses an edge.
+    RimOnEdge(RimOnEdge),
 }

@@ -6,10 +6,12 @@ use super::curved::{Curved, Side};
 use super::lines::Crossing;
 use super::parts::Parts;
 use super::plane::{self, Plane};
+use super::rim_on_edge::RimOnEdge;
 use crate::collide::Contact;
 use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, ROLLS, Spot, face_toward, shown};
-use crate::model::{Body, Geometry, Model};
-use crate::shape::cylinder::{ARC, FACE, RIM, VERTEX};
+use crate::model::{Body, Geometry, Model, pose_of_solid};
+use crate::shape::cylinder::{ARC, EDGE, FACE, RIM, VERTEX};
+use crate::shape::pair::edge_ends_W;
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
@@ -126,6 +128,29 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
     near.into_iter().find_map(|(of, face, own)| Some(on(of, &face?, 1 - of, spot(own).as_ref())))
 }
 
+/// A cap next to flat whose rim crosses an edge, by the names that the contact test gives them: the point is known to
+/// it less than the other kinds take to tell what is there.
+pub(super) fn rim_on_edge(model: &Model, state: &State, found: &Contact) -> Option<Parts> {
+    let bodies = [found.body, found.other?];
+    let kind = |feature: u32| feature >> 28 << 28;
+    let features = [found.feature.0, found.feature.1];
+    let of = (0..2).find(|k| kind(features[*k]) == VERTEX && kind(features[1 - k]) == EDGE)?;
+    let (Solid::Cylinder { radius_m, half_height_m }, centre) = model.bodies[bodies[of]].solid()? else { return None };
+    let base = &model.bodies[bodies[1 - of]];
+    let (Solid::Box { .. } | Solid::Convex(_), _) = base.solid()? else { return None };
+    let at = bodies.map(|i| &state.bodies[i]);
+    let out_W = if of == 0 { -found.normal } else { found.normal };
+    let out_B = Vector3::y() * at[of].q_WB.inverse_transform_vector(&out_W).y.signum();
+    let cap = (centre + out_B * *half_height_m, out_B, *radius_m);
+    // The point of the edge that is next to what was found.
+    let ends = edge_ends_W(base.solid()?.0, &pose_of_solid(base.solid()?.1, at[1 - of]), features[1 - of])?;
+    let d = (ends[1] - ends[0]).try_normalize(0.0)?;
+    let on_W = ends[0] + d * d.dot(&(found.p_WC - ends[0]));
+    let own = |v: Vector3<f64>| at[1 - of].q_WB.inverse_transform_vector(&v);
+    let Spot::Line(edge) = shown(base, &own(on_W - at[1 - of].p_WB), &own(-out_W), 0.0)?.spot else { return None };
+    Some(Parts::RimOnEdge(RimOnEdge::new(found, &|i: usize| &state.bodies[i], of == 0, cap, edge)?))
+}
+
 /// The same of what has come over the border of a face or the end of an edge or a round side: with what is there. None:
 /// there is nothing.
 pub(super) fn over_border(model: &Model, state: &State, found: &Contact, parts: &Parts) -> Option<Parts> {
@@ -151,7 +176,7 @@ pub(super) fn over_border(model: &Model, state: &State, found: &Contact, parts: 
             let is_line = matches!(end, Spot::Line(_));
             if is_line { None } else { round(spots[0], spots[1]).or_else(|| curved(state, found, spots)) }
         }
-        Parts::Balls(_) | Parts::OnRim(_) | Parts::Curved(_) => None,
+        Parts::Balls(_) | Parts::OnRim(_) | Parts::Curved(_) | Parts::RimOnEdge(_) => None,
     }
 }
 

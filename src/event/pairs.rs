@@ -410,9 +410,13 @@ impl<'a> Two<'a> {
         Parted { least_m, safe_s: safe_s.min(way_s), others_s: others_s.min(way_s), touching, lingering }
     }
 
-    /// The safe time of such a look, of a cap that is nearly flat: its lowest point rolls along the rim.
+    /// The safe time of such a look, of a cap that is nearly flat: its lowest point rolls along the rim. Not where one
+    /// crossing of it with an edge is held: between that and the other one, the edge is nowhere nearer than at these.
     fn rolling_s(&self, now: &Now, touch: &Found, look: &Look) -> f64 {
         let Now { at, delta_m, slow_m_s, .. } = now;
+        if self.crossings(touch).next().is_some() {
+            return look.safe_s(*delta_m, *slow_m_s);
+        }
         let w_rad_s = self.bounds[0].w + self.bounds[1].w;
         let Some(rolling) = rolling(self.bodies, at, (touch, *delta_m), w_rad_s) else {
             return look.safe_s(*delta_m, *slow_m_s);
@@ -427,13 +431,19 @@ impl<'a> Two<'a> {
         of_any_s.max(along.safe_s(*delta_m, *slow_m_s))
     }
 
+    /// Where the edge of such a point crosses the rim and is held.
+    fn crossings(&self, touch: &Found) -> impl Iterator<Item = &Held> {
+        let (is_on_edge, of) = (is_rim_on_edge(touch.feature), edge(touch.feature));
+        let is_it = move |h: &&Held| is_on_edge && h.touch.is_crossing() && edge(h.touch.key().2) == of;
+        self.resting.iter().copied().filter(is_it)
+    }
+
     /// What is not held. Of an edge that crosses a rim in a point that is held, the other such point: the contact test
     /// hardly knows where it is.
     fn others<'b>(&'b self, now: &'b Now, found: &'b [Found]) -> impl Iterator<Item = Found> + 'b {
         let held = self.places(&now.at);
         let own = move |touch: &Found| {
-            let is_it = |h: &&&Held| h.touch.is_crossing() && edge(h.touch.key().2) == edge(touch.feature);
-            let mut crossing = self.resting.iter().filter(|_| is_rim_on_edge(touch.feature)).filter(is_it);
+            let mut crossing = self.crossings(touch);
             match (crossing.next(), crossing.next()) {
                 (None, _) => (!self.is_held(&held, now, touch)).then_some(*touch),
                 (Some(first), None) => {

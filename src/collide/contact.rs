@@ -2,6 +2,8 @@
 
 use crate::model::Model;
 use crate::model::pins::Anchor;
+use crate::shape::solid::Meeting;
+use crate::state::BodyState;
 use nalgebra::Vector3;
 
 /// What a body touches or is pinned to: a face of the container by its place, a body by its index, or a point of the
@@ -45,6 +47,23 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// Contact of a point where two bodies meet, without friction or rebound.
+    pub fn bare([body, other]: [usize; 2], at: &[BodyState; 2], found: &Meeting) -> Self {
+        Contact {
+            body,
+            other: Some(other),
+            feature: found.feature,
+            r_BC_W: found.p_W - at[0].p_WB,
+            r_OC_W: found.p_W - at[1].p_WB,
+            p_WC: found.p_W,
+            normal: found.normal,
+            gap_m: found.gap_m,
+            friction: 0.0,
+            restitution: 0.0,
+            tangential_restitution: 0.0,
+        }
+    }
+
     /// Place of the contact in the order of contacts, and its name from step to step.
     pub fn key(&self) -> Key {
         (self.body, self.other, self.feature)

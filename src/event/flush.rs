@@ -4,7 +4,7 @@
 //! all of them ends nothing. A point of contact there bears nothing that those of the body itself would not bear as
 //! well; but of contacts that are redundant it would change how they share their load, and with that the friction.
 
-use super::shown::{Face, face_toward};
+use super::shown::{Face, ROLLS, face_toward};
 use crate::collide::Contact;
 use crate::model::Model;
 use crate::shape::cylinder::{FACE, RIM, rim_directions};
@@ -45,8 +45,8 @@ impl Footed {
 }
 
 /// Leaves, of what touches, no contact at a border over which another body's face goes on, and of points that are one
-/// the first, but all those of a rim that rolls; a cap that lies flat, wholly on faces that go on, stands on four
-/// points of its rim.
+/// the first; of a rim that rolls, which has one point alone, that one which is inside of a face, or all if none is; a
+/// cap that lies flat, wholly on faces that go on, stands on four points of its rim.
 pub fn merge(model: &Model, state: &State, found: &mut Vec<Contact>) {
     let footed: Vec<Option<Footed>> = found.iter().map(|contact| Footed::of(model, contact)).collect();
     let several = |of: &Footed| footed.iter().flatten().any(|other| other.top == of.top && other.base != of.base);
@@ -62,8 +62,15 @@ pub fn merge(model: &Model, state: &State, found: &mut Vec<Contact>) {
         }
         let is_one = |j: &usize| (found[*j].p_WC - found[i].p_WC).norm() <= AT * size_m(model, of);
         let is_inside = |j: &usize| footed[*j].as_ref().is_some_and(|of| of.feature == FACE);
-        left_out[i] = if is_of_flat_cap(model, state, of) || is_of_rim(model, state, of) {
+        left_out[i] = if is_of_flat_cap(model, state, of) {
             false
+        } else if is_of_rim(model, state, of) {
+            let axis = state.bodies[of.top].q_WB * Vector3::y();
+            let is_of_cap = |j: usize| axis.dot(&(found[j].p_WC - found[i].p_WC)).abs() <= ONE_CAP * size_m(model, of);
+            let rests_inside = |j: usize| is_inside(&j) && is_of_cap(j) && is_with(state, found, &footed, (i, j));
+            let rests_inside = (0..found.len()).any(rests_inside);
+            let others = with.iter().filter_map(|j| footed[*j].as_ref());
+            of.feature != FACE && rests_inside && goes_on(model, state, (&found[i], of), others)
         } else if of.feature == FACE {
             with.iter().any(|j| *j < i && is_inside(j) && is_one(j))
         } else {
@@ -180,20 +187,24 @@ pub fn is_one_base(model: &Model, state: &State, [a, b]: [usize; 2]) -> bool {
     a == b || (rests(a) && rests(b))
 }
 
-/// Sine of the tilt of a cap below which its points stand for all of it (`caps`).
-const FLAT_CAP: f64 = 1e-6;
+/// The same: points of one cap are no farther from each other along its axis.
+const ONE_CAP: f64 = 1e-3;
 
+/// Sine of the angle to an axis below which a cylinder lies on its side.
+const LIES: f64 = 1e-6;
+
+/// Of a cap whose points stand for all of it (`caps`).
 fn is_of_flat_cap(model: &Model, state: &State, of: &Footed) -> bool {
     let is_cylinder = matches!(model.bodies[of.top].solid(), Some((Solid::Cylinder { .. }, _)));
-    is_cylinder && (state.bodies[of.top].q_WB * Vector3::y()).cross(&of.normal).norm() <= FLAT_CAP
+    is_cylinder && (state.bodies[of.top].q_WB * Vector3::y()).cross(&of.normal).norm() <= ROLLS
 }
 
-/// Of a cylinder that neither lies nor stands flat: it has one point alone, and where that is on the seam, no other one
-/// is inside of a face in its stead.
+/// Of a cylinder that neither lies nor stands flat: it has one point alone. Its crossings with the edges of a seam are
+/// none of its own.
 fn is_of_rim(model: &Model, state: &State, of: &Footed) -> bool {
     let is_cylinder = matches!(model.bodies[of.top].solid(), Some((Solid::Cylinder { .. }, _)));
     let axis = state.bodies[of.top].q_WB * Vector3::y();
-    is_cylinder && axis.cross(&of.normal).norm() > FLAT_CAP && axis.dot(&of.normal).abs() > FLAT_CAP
+    is_cylinder && axis.cross(&of.normal).norm() > ROLLS && axis.dot(&of.normal).abs() > LIES
 }
 
 /// Contacts of one body with two others, whose surfaces are alike, that do not move against each other, along one

@@ -1,17 +1,19 @@
 //! When two bodies come to touch with parts that are not held (`watch`).
 
-use super::caps::are_of_one_rim;
+use super::caps::{Cap, are_of_one_rim};
 use super::decide::SAME;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::look::{Look, Paths, Window, march};
 use super::motion::Bounds;
 use super::rolling::rolling;
+use super::shown::ROLLS;
+use super::touch::Touch;
 use super::which::{GRAZING, Sharing};
 use crate::collide::Contact;
 use crate::collide::closed::delta_m;
 use crate::model::{Body, pose_of_solid};
 use crate::shape::band::{Along, BAND, touches_beside};
-use crate::shape::cylinder::{EDGE, VERTEX};
+use crate::shape::cylinder::{EDGE, FACE, RIM, VERTEX, kind};
 use crate::shape::solid::{Meeting as Found, Pose, Solid};
 use crate::state::BodyState;
 use crate::work::Work;
@@ -31,14 +33,17 @@ const SPREAD: f64 = 1e-6;
 
 /// Whether the contact test has found a point of a rim on an edge.
 fn is_rim_on_edge(feature: (u32, u32)) -> bool {
-    let kinds = [feature.0, feature.1].map(|feature| feature >> 28 << 28);
+    let kinds = [feature.0, feature.1].map(kind);
     kinds == [EDGE, VERTEX] || kinds == [VERTEX, EDGE]
 }
 
 /// The edge of such a point.
 fn edge(feature: (u32, u32)) -> u32 {
-    if feature.0 >> 28 << 28 == EDGE { feature.0 } else { feature.1 }
+    if kind(feature.0) == EDGE { feature.0 } else { feature.1 }
 }
+
+/// Sine of an angle between a rim and an edge at which they cross.
+const CROSSES: f64 = 1e-2;
 
 /// The longest way between two looks at points of contact, of the smaller body's size: other parts may come to be the
 /// nearest.
@@ -417,6 +422,9 @@ impl<'a> Two<'a> {
         if self.crossings(touch).next().is_some() {
             return look.safe_s(*delta_m, *slow_m_s);
         }
+        if let Some(safe_s) = self.crossing_s(now, touch, look) {
+            return safe_s;
+        }
         let w_rad_s = self.bounds[0].w + self.bounds[1].w;
         let Some(rolling) = rolling(self.bodies, at, (touch, *delta_m), w_rad_s) else {
             return look.safe_s(*delta_m, *slow_m_s);
@@ -429,6 +437,25 @@ impl<'a> Two<'a> {
         let Some((more_m_s2, known_s)) = rolling.along else { return of_any_s };
         let along = Look { toward_m_s2: look.toward_m_s2 + more_m_s2, known_s: look.known_s.min(known_s), ..*look };
         of_any_s.max(along.safe_s(*delta_m, *slow_m_s))
+    }
+
+    /// The safe time of an edge that crosses a rim, of which no point is held: that of both crossings, between which it
+    /// is nowhere nearer. They move along the rim as fast as the two do, over the sine of their angle. None: there are
+    /// no such points, or the two are next to tangent.
+    fn crossing_s(&self, now: &Now, touch: &Found, look: &Look) -> Option<f64> {
+        let Now { at, delta_m, slow_m_s, .. } = now;
+        if !is_rim_on_edge(touch.feature) {
+            return None;
+        }
+        let crossings = Touch::crossings(self.paths.model, self.pair, at, touch)?;
+        let least = crossings.iter().map(|(_, sine)| *sine).fold(f64::INFINITY, f64::min);
+        let safe_s = |(point, sine): &(Found, f64)| {
+            let velocity = |k: usize| at[k].v_WB + at[k].w_WB.cross(&(point.p_W - at[k].p_WB));
+            let rate_m_s = point.normal.dot(&(velocity(0) - velocity(1)));
+            let (toward_m_s2, known_s) = (look.toward_m_s2 / sine, look.known_s * sine);
+            Look { gap_m: point.gap_m, rate_m_s, toward_m_s2, known_s, ..*look }.safe_s(*delta_m, *slow_m_s)
+        };
+        (least > CROSSES).then(|| crossings.iter().map(safe_s).fold(f64::INFINITY, f64::min))
     }
 
     /// Where the edge of such a point crosses the rim and is held.
@@ -488,8 +515,25 @@ impl<'a> Two<'a> {
         held.iter().any(is_same) || self.is_kept(held, now, touch)
     }
 
+    /// Whether a rim that rolls, of the one that moves, is held at its lowest point in the same plane: nothing else of
+    /// its cap comes down there.
+    fn is_below_rim(&self, now: &Now, held: &Contact, touch: &Found) -> bool {
+        let moving = usize::from(self.bodies[0].driven);
+        let is_first = held.body == self.pair[moving];
+        let (own, base) = if is_first { held.feature } else { (held.feature.1, held.feature.0) };
+        // Along the normal from what it stands on.
+        let normal = if moving == 0 { held.normal } else { -held.normal };
+        let at = &now.at[moving];
+        let cap = Cap::facing(self.bodies[moving], at, &normal);
+        let from_held = touch.p_W - held.p_WC;
+        let is_of_cap = (at.q_WB * Vector3::y()).dot(&from_held).abs() <= NEAR * self.smaller_m();
+        let is_in_plane = normal.dot(&from_held).abs() <= FLUSH * self.smaller_m();
+        let rolls = |cap: Cap| cap.lean_W(at, &normal).norm() > ROLLS;
+        kind(own) == RIM && base == FACE && is_of_cap && is_in_plane && cap.is_some_and(rolls)
+    }
+
     /// Whether what is held keeps it, too: a point of the plane of three points, or of the line of two, where faces lie
-    /// flush. When its support is needed, one that is held opens.
+    /// flush, or of that of a rim that rolls. When its support is needed, one that is held opens.
     fn is_kept(&self, held: &[Contact], now: &Now, touch: &Found) -> bool {
         let least_m = SPREAD * self.smaller_m();
         let others = self.footing_beside(now);
@@ -497,6 +541,9 @@ impl<'a> Two<'a> {
         let flush = |contact: &&&Contact| {
             contact.normal.cross(&touch.normal).norm() <= FLUSH && contact.normal.dot(&touch.normal) > 0.0
         };
+        if held.iter().filter(flush).any(|contact| self.is_below_rim(now, contact, touch)) {
+            return true;
+        }
         let mut flush = held.iter().filter(flush).map(|contact| contact.p_WC);
         let Some(first) = flush.next() else { return false };
         let rest: Vec<Vector3<f64>> = flush.map(|p| p - first).collect();

@@ -5,7 +5,7 @@ use super::caps::Cap;
 use super::descent::Descent;
 use super::shown::face_toward;
 use crate::model::{Body, pose_of_solid};
-use crate::shape::cylinder::{ARC, EDGE, FACE, FLAT, RIM, VERTEX};
+use crate::shape::cylinder::{ARC, EDGE, FACE, FLAT, RIM, VERTEX, kind};
 use crate::shape::pair::edge_W;
 use crate::shape::solid::{Meeting, Solid};
 use crate::state::BodyState;
@@ -55,7 +55,6 @@ pub fn rolling(
     (touch, delta_m): (&Meeting, f64),
     w_rad_s: f64,
 ) -> Option<Rolling> {
-    let kind = |feature: u32| feature >> 28 << 28;
     let features = [touch.feature.0, touch.feature.1];
     let of = |k: usize| {
         let (own, other) = (features[k], features[1 - k]);

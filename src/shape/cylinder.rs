@@ -23,6 +23,11 @@ pub const RIM: u32 = 3 << 28;
 /// The same: where a rim crosses another outline (0 and 1), or the middle of the arc between.
 pub const ARC: u32 = 4 << 28;
 
+/// Which of these a feature is, without its number.
+pub fn kind(feature: u32) -> u32 {
+    feature >> 28 << 28
+}
+
 pub fn bounding_radius_m(radius_m: f64, half_height_m: f64) -> f64 {
     (radius_m * radius_m + half_height_m * half_height_m).sqrt()
 }

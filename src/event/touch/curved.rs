@@ -70,8 +70,10 @@ impl Placed<'_> {
             Side::Part(Part::Rim { centre_B, axis_B, radius_m }) => {
                 let axis = q_WB * axis_B;
                 let radial = d - axis * axis.dot(d);
-                let length = radial.norm().max(f64::MIN_POSITIVE);
-                let out = radial / length;
+                let length = radial.norm();
+                let Some(out) = radial.try_normalize(0.0) else {
+                    return Support { x: p_WB + q_WB * centre_B, H: Matrix3::zeros() };
+                };
                 let aside = axis.cross(&out);
                 let H = aside * aside.transpose() * (radius_m / length);
                 Support { x: p_WB + q_WB * centre_B + out * *radius_m, H }

@@ -6,12 +6,14 @@ use super::parts::Parts;
 use super::plane::Plane;
 use super::rates::pair;
 use super::recognise::{over_border, parts, rim_on_edge};
+use super::rim_on_edge::RimOnEdge;
 use super::{ball_on_line, balls, lines, plane};
 use crate::collide::{Contact, Key};
 use crate::event::shown::{Border, Line, within_m};
 use crate::math::few::OneOrTwo;
 use crate::model::Model;
-use crate::shape::cylinder::VERTEX;
+use crate::shape::cylinder::{ARC, VERTEX, kind};
+use crate::shape::solid::Meeting;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
@@ -37,7 +39,7 @@ pub struct Touch {
 
 /// The name of the other crossing of the same two.
 fn other_name(feature: (u32, u32)) -> (u32, u32) {
-    let name = |feature: u32| if feature >> 28 << 28 == VERTEX { feature ^ 1 } else { feature };
+    let name = |feature: u32| if [VERTEX, ARC].contains(&kind(feature)) { feature ^ 1 } else { feature };
     (name(feature.0), name(feature.1))
 }
 
@@ -73,7 +75,8 @@ impl Touch {
     /// None: parts whose motion along each other is not known here.
     pub fn new(model: &Model, state: &State, found: &Contact) -> Option<Self> {
         let of = |parts: Parts| Touch::of(model, state, found, parts);
-        rim_on_edge(model, state, found).and_then(of).or_else(|| of(parts(model, state, found)?))
+        let crossing = rim_on_edge(model, &|i: usize| &state.bodies[i], found).map(Parts::RimOnEdge);
+        crossing.and_then(of).or_else(|| of(parts(model, state, found)?))
     }
 
     /// The same contact, more closely, where the rim of a cap next to flat crosses an edge: the contact test knows the
@@ -81,10 +84,34 @@ impl Touch {
     /// test tells the lower one, and an edge along a cap has both.
     pub fn refined(model: &Model, state: &State, found: &Contact) -> OneOrTwo<Contact> {
         let of = |parts: Parts| Touch::of(model, state, found, parts);
-        let Some(touch) = rim_on_edge(model, state, found).and_then(of) else { return OneOrTwo::from_elem(*found, 1) };
+        let crossing = rim_on_edge(model, &|i: usize| &state.bodies[i], found).map(Parts::RimOnEdge);
+        let Some(touch) = crossing.and_then(of) else { return OneOrTwo::from_elem(*found, 1) };
         let mut all = OneOrTwo::from_elem(touch.here(state).contact, 1);
         all.extend(touch.other_crossing(|i| &state.bodies[i]));
         all
+    }
+
+    /// Both points in which a rim crosses an edge, where that has been found between two bodies in these states, and
+    /// the sine of the angle there. None: something else has been found.
+    pub fn crossings(
+        model: &Model,
+        bodies: [usize; 2],
+        at: &[BodyState; 2],
+        found: &Meeting,
+    ) -> Option<[(Meeting, f64); 2]> {
+        let place = |i: usize| &at[usize::from(i != bodies[0])];
+        let contact = Contact::bare(bodies, at, found);
+        let first = rim_on_edge(model, &place, &contact)?;
+        let other = first.other([&at[0], &at[1]]);
+        let meeting = |crossing: &RimOnEdge, feature: (u32, u32)| {
+            let here = crossing.here(&contact, &place).0;
+            let found = Meeting { p_W: here.p_WC, normal: here.normal, gap_m: here.gap_m, feature };
+            (found, crossing.sine([&at[0], &at[1]]))
+        };
+        let off_m = (meeting(&first, found.feature).0.gap_m - found.gap_m).abs();
+        let smaller_m = bodies.map(|i| model.bodies[i].bounding_radius_m).into_iter().fold(f64::INFINITY, f64::min);
+        let is_it = off_m <= ELSEWHERE * smaller_m && first.inside_m([&at[0], &at[1]]) >= -BORDER * smaller_m;
+        is_it.then(|| [meeting(&first, found.feature), meeting(&other, other_name(found.feature))])
     }
 
     /// Whether it is of a rim that crosses an edge.

@@ -55,7 +55,9 @@ impl Part {
                 let length = radial.norm();
                 let radial_rate = d_rate - axis_rate * along - axis * (axis_rate.dot(d) + axis.dot(d_rate));
                 // Across the axis to rounding, however little of d is.
-                let u = (radial - axis * axis.dot(&radial)).normalize();
+                let across = radial - axis * axis.dot(&radial);
+                // All of a rim that is flat is as far: its middle stands for it.
+                let Some(u) = across.try_normalize(0.0) else { return (arm, with_body(arm)) };
                 let aside = axis.cross(&u);
                 let u_rate = aside * (aside.dot(&radial_rate) / length) - axis * u.dot(&axis_rate);
                 (arm + u * *radius_m, with_body(arm) + u_rate * *radius_m)

@@ -10,7 +10,7 @@ use super::rim_on_edge::RimOnEdge;
 use crate::collide::Contact;
 use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, ROLLS, Spot, face_toward, shown};
 use crate::model::{Body, Geometry, Model, pose_of_solid};
-use crate::shape::cylinder::{ARC, EDGE, FACE, RIM, VERTEX};
+use crate::shape::cylinder::{ARC, EDGE, FACE, RIM, VERTEX, kind};
 use crate::shape::pair::edge_ends_W;
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
@@ -104,8 +104,8 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
     let face = |of: &Option<Facing>| of.as_ref().and_then(|facing| facing.face.clone());
     // The contact test says which of two has the corner, where edges lie along each other or faces lie almost flat.
     // So do the middles of arcs.
-    let is_corner = |feature: u32| [VERTEX, RIM].contains(&(feature >> 28 << 28));
-    let is_arc = |feature: u32| feature >> 28 << 28 == ARC;
+    let is_corner = |feature: u32| [VERTEX, RIM].contains(&kind(feature));
+    let is_arc = |feature: u32| kind(feature) == ARC;
     match found.feature {
         (of, of_b) if (of == FACE && is_corner(of_b)) || (!is_arc(of) && of_b == ARC | 2) || of == ARC | 3 => {
             if let Some(face) = face(&a).or_else(|| toward(0, -found.normal)) {
@@ -130,25 +130,34 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
 
 /// A cap next to flat whose rim crosses an edge, by the names that the contact test gives them: the point is known to
 /// it less than the other kinds take to tell what is there.
-pub(super) fn rim_on_edge(model: &Model, state: &State, found: &Contact) -> Option<Parts> {
+pub(super) fn rim_on_edge<'a>(
+    model: &Model,
+    place: &impl Fn(usize) -> &'a BodyState,
+    found: &Contact,
+) -> Option<RimOnEdge> {
     let bodies = [found.body, found.other?];
-    let kind = |feature: u32| feature >> 28 << 28;
     let features = [found.feature.0, found.feature.1];
-    let of = (0..2).find(|k| kind(features[*k]) == VERTEX && kind(features[1 - k]) == EDGE)?;
+    let crosses = |feature: u32| kind(feature) == VERTEX || feature == ARC || feature == ARC | 1;
+    let of = (0..2).find(|k| crosses(features[*k]) && kind(features[1 - k]) == EDGE)?;
     let (Solid::Cylinder { radius_m, half_height_m }, centre) = model.bodies[bodies[of]].solid()? else { return None };
     let base = &model.bodies[bodies[1 - of]];
-    let (Solid::Box { .. } | Solid::Convex(_), _) = base.solid()? else { return None };
-    let at = bodies.map(|i| &state.bodies[i]);
+    let (solid @ (Solid::Box { .. } | Solid::Convex(_)), base_centre) = base.solid()? else { return None };
+    let at = bodies.map(place);
     let out_W = if of == 0 { -found.normal } else { found.normal };
-    let out_B = Vector3::y() * at[of].q_WB.inverse_transform_vector(&out_W).y.signum();
+    let own_B = at[of].q_WB.inverse_transform_vector(&out_W);
+    // What lies flat on a cap crosses its outline (`crossing`).
+    if kind(features[of]) == ARC && own_B.xz().norm() <= ROLLS {
+        return None;
+    }
+    let out_B = Vector3::y() * own_B.y.signum();
     let cap = (centre + out_B * *half_height_m, out_B, *radius_m);
     // The point of the edge that is next to what was found.
-    let ends = edge_ends_W(base.solid()?.0, &pose_of_solid(base.solid()?.1, at[1 - of]), features[1 - of])?;
+    let ends = edge_ends_W(solid, &pose_of_solid(base_centre, at[1 - of]), features[1 - of])?;
     let d = (ends[1] - ends[0]).try_normalize(0.0)?;
     let on_W = ends[0] + d * d.dot(&(found.p_WC - ends[0]));
     let own = |v: Vector3<f64>| at[1 - of].q_WB.inverse_transform_vector(&v);
     let Spot::Line(edge) = shown(base, &own(on_W - at[1 - of].p_WB), &own(-out_W), 0.0)?.spot else { return None };
-    Some(Parts::RimOnEdge(RimOnEdge::new(found, &|i: usize| &state.bodies[i], of == 0, cap, edge)?))
+    RimOnEdge::new(found, place, of == 0, cap, edge)
 }
 
 /// The same of what has come over the border of a face or the end of an edge or a round side: with what is there. None:

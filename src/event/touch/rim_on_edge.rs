@@ -120,6 +120,11 @@ impl RimOnEdge {
         Crosses { toward, t, e, x, w, out, length, inside_m }
     }
 
+    /// Of the angle between the two.
+    pub(super) fn sine(&self, at: [&BodyState; 2]) -> f64 {
+        self.place(at).crossing().norm()
+    }
+
     pub(super) fn inside_m(&self, at: [&BodyState; 2]) -> f64 {
         self.place(at).inside_m
     }

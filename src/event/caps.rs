@@ -16,7 +16,7 @@ use crate::collide::Contact;
 use crate::collide::closed::{SOME, delta_m};
 use crate::integrate::rotation::exponential;
 use crate::model::{Body, Geometry, Model};
-use crate::shape::cylinder::{FLAT, RIM};
+use crate::shape::cylinder::{FLAT, RIM, kind};
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
@@ -41,6 +41,12 @@ pub const TIPS_AT_LEAST: f64 = 1e-9;
 
 /// A point of the rim that sinks slower, of the speed of the bodies, does not.
 const SINKS: f64 = 1e-12;
+
+/// Points that stand for a flat cap.
+pub(super) const STAND: usize = 4;
+
+/// Points that are tried of a cap that may stay flat.
+const FLAT_TRIES: u32 = 4;
 
 /// Points of the contact test: of either cap four.
 pub(super) const POINTS: u32 = 8;
@@ -237,7 +243,7 @@ pub fn are_of_one_rim(a: (u32, u32), b: (u32, u32)) -> bool {
 
 /// Which side's rim a contact of a pair is a point of.
 pub(super) fn rim_side(feature: (u32, u32)) -> Option<u32> {
-    let is_rim = |feature: u32| feature >> 28 == RIM >> 28;
+    let is_rim = |feature: u32| kind(feature) == RIM;
     match feature {
         (feature, _) if is_rim(feature) => Some(0),
         (_, feature) if is_rim(feature) => Some(1),
@@ -264,8 +270,7 @@ fn is_same_cap(model: &Model, state: &State, contacts: [&Contact; 2]) -> bool {
     top_a == top_b && part_a == part_b && is_one_base
 }
 
-/// Calls `visit` for all that touches, cap by cap: where its contacts begin and end, and what it stands on; none, if
-/// they are of no flat cap.
+/// Calls `visit` for all that touches of flat caps, cap by cap: where its contacts begin and end, what it stands on.
 pub(super) fn each_cap(
     model: &Model,
     state: &State,
@@ -277,7 +282,6 @@ pub(super) fn each_cap(
         let first = found[from];
         let len = found[from..].iter().take_while(|other| is_same_cap(model, state, [&first, *other])).count();
         if let Some(footing) = Footing::of(model, state, &first)
-            && len >= 4
             && visit(found, from..from + len, &footing)
         {
             return true;
@@ -315,7 +319,10 @@ pub struct Sinking {
 
 struct Search {
     body: usize,
-    feature: (usize, u32),
+    feature: (Option<usize>, u32),
+    tries: u32,
+    /// The points that stood for the cap, where the one that is tried bears alone.
+    stood: Option<Vec<Contact>>,
     /// Angles of the point tried, with the angles from there to the one that then sinks: to either side, and the last.
     above: Option<[f64; 2]>,
     below: Option<[f64; 2]>,
@@ -323,6 +330,16 @@ struct Search {
 }
 
 impl Search {
+    /// A cap may stay flat, on three points of those that stand for it and the one that is tried; else it tips about
+    /// one, which then bears alone.
+    fn tips(&mut self, group: &[Contact]) {
+        self.tries += 1;
+        if self.tries > FLAT_TRIES && self.stood.is_none() {
+            (self.above, self.below, self.tried_rad) = (None, None, None);
+            self.stood = Some(group.to_vec());
+        }
+    }
+
     /// The next angle to try, where the point at `sinks_rad` sinks.
     fn tried(&mut self, sinks_rad: f64) -> f64 {
         let next_rad = self.next_rad(sinks_rad);
@@ -364,7 +381,10 @@ impl Sinking {
     ) -> bool {
         each_cap(model, state, found, |found, group, footing| {
             let first = found[group.start];
-            if found[group.clone()].iter().filter(|contact| bears(contact)).count() < most {
+            let of_cap = &found[group.clone()];
+            let search = self.search(model, &first, footing);
+            let may_bear = group.len() >= STAND && of_cap.iter().filter(|contact| bears(contact)).count() >= most;
+            if search.stood.is_none() && !may_bear {
                 return false;
             }
             let (cap, at) = (&footing.cap, &state.bodies[footing.of]);
@@ -375,10 +395,16 @@ impl Sinking {
                 return false;
             }
             let d_B = at.q_WB.inverse_transform_vector(&descent);
-            let angle_rad = self.search(&first, footing).tried(libm::atan2(d_B.x, d_B.z));
+            search.tips(&found[group.clone()]);
+            let angle_rad = search.tried(libm::atan2(d_B.x, d_B.z));
+            let stood = search.stood.clone();
             let u_B = Vector3::new(libm::sin(angle_rad), 0.0, libm::cos(angle_rad));
             let mut point = footing.point(state, &first, &u_B, POINTS);
-            seat(model, state, &mut point, &found[group.clone()]);
+            seat(model, state, &mut point, stood.as_deref().unwrap_or(&found[group.clone()]));
+            if stood.is_some() {
+                found.splice(group, [point]);
+                return true;
+            }
             let own = |contact: &Contact| contact.feature.0.max(contact.feature.1);
             let is_it = |contact: &Contact| match point.other {
                 None => contact.feature == point.feature,
@@ -392,11 +418,13 @@ impl Sinking {
         })
     }
 
-    fn search(&mut self, contact: &Contact, footing: &Footing) -> &mut Search {
-        let (body, feature) = (footing.of, footing.base.map_or((0, contact.feature.0), |base| (base + 1, 0)));
+    fn search(&mut self, model: &Model, contact: &Contact, footing: &Footing) -> &mut Search {
+        // Of bodies that do not move the point may come to another one.
+        let base = footing.base.map(|base| if model.bodies[base].driven { usize::MAX } else { base });
+        let (body, feature) = (footing.of, (base, if base.is_none() { contact.feature.0 } else { footing.cap.first }));
         let k = self.of.iter().position(|search| search.body == body && search.feature == feature);
         let k = k.unwrap_or_else(|| {
-            self.of.push(Search { body, feature, above: None, below: None, tried_rad: None });
+            self.of.push(Search { body, feature, tries: 0, stood: None, above: None, below: None, tried_rad: None });
             self.of.len() - 1
         });
         &mut self.of[k]

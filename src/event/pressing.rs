@@ -6,10 +6,11 @@
 //! two opposite. In the end only the first two hold, and the cap tips over their chord, which is as good as the rim.
 //! The centre moves along the rim while the cap tips, and they with it.
 
-use super::caps::{Footing, POINTS, Rim, each_cap, relative, rim_side};
+use super::caps::{Footing, POINTS, Rim, STAND, each_cap, relative, rim_side};
 use super::decide::{Change, Margin, margin};
 use super::flush::{is_one_base, seat};
 use super::forces::{Gathered, Held, NO_SLIP, meeting_m_s};
+use super::last_forces::LastForces;
 use crate::collide::{Contact, Key};
 use crate::model::Model;
 use crate::shape::cylinder::rim_directions;
@@ -57,7 +58,7 @@ pub fn pressed(model: &Model, state: &State, held: &[Held], gathered: &mut Gathe
         return Vec::new();
     }
     let rims: Vec<Option<Rim>> = held.iter().map(|held| Rim::of(model, &held.touch, state)).collect();
-    let Margin { solved, .. } = margin(model, state, held, gathered, work);
+    let Margin { solved, .. } = margin(model, state, held, (gathered, &mut LastForces::default()), work);
     let forces = &solved.p;
     let largest = forces.iter().map(|p| p.norm()).fold(0.0, f64::max);
     let mut seen = vec![false; held.len()];
@@ -101,6 +102,9 @@ pub fn pressed(model: &Model, state: &State, held: &[Held], gathered: &mut Gathe
 pub fn turn(model: &Model, state: &State, found: &mut Vec<Contact>, (pressed, change): (&[Pressed], &mut Change)) {
     found.retain(|contact| Footing::of(model, state, contact).is_none_or(|footing| footing.node < POINTS));
     each_cap(model, state, found, |found, group, footing| {
+        if group.len() < STAND {
+            return false;
+        }
         let first = found[group.start];
         let descent = -footing.normal.cross(&relative(footing, &|i| state.bodies[i].w_WB));
         let speed_m_s = meeting_m_s(model, state, first.ends().map(|(i, ..)| i));

@@ -2,8 +2,9 @@
 //! face or the end of an edge.
 
 use super::caps;
-use super::decide::{Change, Margin, PULL, margin};
+use super::decide::{AskedOf, Change, Margin, PULL, margin_by};
 use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, Solved, meeting_m_s};
+use super::last_forces::LastForces;
 use super::look::Paths;
 use super::proportion::are_beside;
 use crate::collide::Key;
@@ -33,18 +34,25 @@ const AT_EDGE: f64 = 1e-9;
 /// Times that the interval of a least grip is made smaller.
 const NARROWER: u32 = 12;
 
-/// Of the first difference between two looks over the time between them: a steeper one is a step and no slope.
-const STEEP: f64 = 8.0;
+/// Of the time that is left: how much later the law may see what has changed, forces by so much less than their largest
+/// that it is rounding.
+const LATER: [f64; 4] = [0.0, 1e-10, 1e-7, 1e-5];
+
+/// How far off the secant, of the square of the time between two looks over the first; and how many times wider than by
+/// bisection that time may be.
+const AWAY: f64 = 0.2;
+const SLACK: f64 = 2.0;
 
 /// Looks at forces that are remembered.
 const REMEMBERED: usize = 4;
 
 /// Margins of the forces at one time: the least of all, and the least grip.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Margins {
     t_s: f64,
     least: f64,
     grip: f64,
+    solved: Solved,
 }
 
 /// A step of the integrator, looked at.
@@ -52,6 +60,8 @@ pub struct Looking<'a> {
     pub paths: Paths<'a>,
     pub held: &'a [Held],
     pub gathered: &'a mut Gathered,
+    /// Forces of the last look.
+    pub last: &'a mut LastForces,
     /// Where the bodies are at the time looked at.
     pub at: &'a mut State,
     pub work: &'a mut Work,
@@ -124,18 +134,18 @@ impl Looking<'_> {
         self.seen(t_s).grip
     }
 
-    fn seen(&mut self, t_s: f64) -> Margins {
-        if let Some(seen) = self.seen.iter().find(|seen| seen.t_s == t_s) {
-            return *seen;
+    fn seen(&mut self, t_s: f64) -> &Margins {
+        if let Some(k) = self.seen.iter().position(|seen| seen.t_s == t_s) {
+            return &self.seen[k];
         }
         self.look(t_s);
-        let Margin { least, solved } = self.forces();
-        let seen = Margins { t_s, least, grip: self.grip_of(&solved) };
+        let Margin { least, solved } = self.forces(AskedOf::Law);
+        let seen = Margins { t_s, least, grip: self.grip_of(&solved), solved };
         if self.seen.len() == REMEMBERED {
             self.seen.remove(0);
         }
         self.seen.push(seen);
-        seen
+        &self.seen[self.seen.len() - 1]
     }
 
     /// What is left of the friction of contacts that stick side by side, over the most that there could be; the least
@@ -158,12 +168,12 @@ impl Looking<'_> {
     }
 
     fn has_changed(&mut self, t_s: f64) -> bool {
-        self.left(t_s) < 0.0
+        self.left(t_s, AskedOf::Law) < 0.0
     }
 
     /// What is left before something changes, of borders in metres, of slips and forces relative to the largest:
     /// negative, it has.
-    fn left(&mut self, t_s: f64) -> f64 {
+    fn left(&mut self, t_s: f64, asked: AskedOf) -> f64 {
         self.look(t_s);
         let border_m = self.held.iter().map(|held| held.touch.left_m(self.at)).fold(f64::INFINITY, f64::min);
         if border_m < 0.0 || self.paths.dense.is_empty() {
@@ -173,7 +183,14 @@ impl Looking<'_> {
             return -1.0;
         }
         let slip = self.slip_left();
-        if slip < 0.0 { slip } else { border_m.min(slip).min(self.seen(t_s).least - PULL) }
+        if slip < 0.0 {
+            return slip;
+        }
+        let least = match asked {
+            AskedOf::Law => self.seen(t_s).least,
+            AskedOf::Modes => self.forces(AskedOf::Modes).least,
+        };
+        border_m.min(slip).min(least - PULL)
     }
 
     /// A cap falls flat, or tips.
@@ -193,36 +210,52 @@ impl Looking<'_> {
         left.fold(1.0, f64::min)
     }
 
-    fn forces(&mut self) -> Margin {
-        margin(self.paths.model, self.at, self.held, self.gathered, self.work)
+    fn forces(&mut self, asked: AskedOf) -> Margin {
+        margin_by(self.paths.model, self.at, self.held, (self.gathered, self.last), (asked, self.work))
     }
 
-    /// The first moment after the change, to the last bit but some: by the secant of what is left, where that has a
-    /// slope (M. Dowell & P. Jarratt, BIT 11 (1971) 168), else by bisection.
-    fn when(&mut self, mut low_s: f64, mut high_s: f64) -> f64 {
-        let width_s = ((high_s - low_s) * WIDTH).max(f64::EPSILON * high_s);
-        let [mut low, mut high] = [self.left(low_s), self.left(high_s)];
-        let steep = STEEP * (low - high) / (high_s - low_s);
-        // What the last look has left in its place may hold the secant back.
-        let mut weights = [1.0, 1.0];
+    /// The first moment after the change. What seems to change without the law does change most often, there or so
+    /// little later that its forces are still rounding to the law; where it does not, the law is asked from there on.
+    fn when(&mut self, low_s: f64, high_s: f64) -> f64 {
+        let seems_s = self.when_by(low_s, high_s, AskedOf::Modes);
+        let mut goes_on_s = seems_s;
+        for part in LATER {
+            let later_s = seems_s + (high_s - seems_s) * part;
+            if self.has_changed(later_s) {
+                return later_s;
+            }
+            goes_on_s = later_s;
+        }
+        self.when_by(goes_on_s, high_s, AskedOf::Law)
+    }
+
+    /// The same, to the last bit but some: by the secant of what is left, moved toward the middle so that the change
+    /// comes to lie on either side, and never much later than by bisection, as what is left may jump (I. F. D.
+    /// Oliveira & R. H. C. Takahashi, ACM Trans. Math. Softw. 47 (2020) 5).
+    fn when_by(&mut self, mut low_s: f64, mut high_s: f64, asked: AskedOf) -> f64 {
+        let all_s = high_s - low_s;
+        let width_s = (all_s * WIDTH).max(f64::EPSILON * high_s);
+        let [mut low, mut high] = [self.left(low_s, asked), self.left(high_s, asked)];
+        // How wide bisection would have left it, and a little more.
+        let mut allowed_s = all_s * SLACK;
         while high_s - low_s > width_s && !self.is_over() {
-            let middle_s = 0.5 * (low_s + high_s);
-            let is_slope = low.is_finite() && low > 0.0 && low - high <= steep * (high_s - low_s);
-            let (a, b) = (low * weights[0], high * weights[1]);
+            let (middle_s, wide_s) = (0.5 * (low_s + high_s), high_s - low_s);
+            let secant_s = if low.is_finite() && low > high { low_s + wide_s * (low / (low - high)) } else { middle_s };
+            let off_s = middle_s - secant_s;
+            let toward_s = secant_s + off_s.abs().min(AWAY * wide_s * wide_s / all_s).copysign(off_s);
+            let most_s = 0.5 * (allowed_s - wide_s).max(0.0);
+            let t_s = toward_s.clamp(middle_s - most_s, middle_s + most_s);
             // Beyond the change by less than what it is known to, so that it is between two looks.
-            let secant_s =
-                (low_s + (high_s - low_s) * (a / (a - b))).clamp(low_s + 0.5 * width_s, high_s - 0.5 * width_s);
-            let t_s = if is_slope { secant_s } else { middle_s };
+            let t_s = t_s.clamp(low_s + 0.5 * width_s, high_s - 0.5 * width_s);
             if t_s <= low_s || t_s >= high_s {
                 break;
             }
-            let left = self.left(t_s);
+            allowed_s *= 0.5;
+            let left = self.left(t_s, asked);
             if left < 0.0 {
                 (high_s, high) = (t_s, left);
-                weights = [0.5 * weights[0], 1.0];
             } else {
                 (low_s, low) = (t_s, left);
-                weights = [1.0, 0.5 * weights[1]];
             }
         }
         high_s
@@ -235,10 +268,11 @@ impl Looking<'_> {
         if self.paths.dense.is_empty() {
             return change;
         }
-        let Margin { least, solved } = self.forces();
+        let Margins { least, solved, .. } = self.seen(t_s).clone();
         if least >= PULL {
             return change;
         }
+        self.gathered.gather(self.paths.model, self.at, self.held.iter().map(|held| &held.touch));
         let near = NEAR * solved.largest();
         let Gathered { here, problem, .. } = &*self.gathered;
         for (((held, p), block), here) in self.held.iter().zip(&solved.p).zip(&problem.blocks).zip(here) {

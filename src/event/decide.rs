@@ -6,6 +6,7 @@
 //! itself is solved (`law`).
 
 use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, Solved, edge, meeting_m_s};
+use super::last_forces::LastForces;
 use super::law::{Law, MANY, ROUNDING, by_law, goes_on};
 use super::proportion::in_proportion;
 use super::slip;
@@ -266,7 +267,8 @@ fn alone(gathered: &Gathered, mode: Mode) -> Option<Alone> {
 
 /// What was there, if it goes on, or slides where it fails; with its forces.
 fn goes_on_or_slides(gathered: &Gathered, modes: &[Mode]) -> Option<(Vec<Mode>, Solved)> {
-    let as_it_was = gathered.try_modes(modes);
+    let share = |modes: &[Mode]| gathered.hold_as(modes.iter().copied(), Selection::Least);
+    let as_it_was = share(modes);
     if !as_it_was.holds {
         return None;
     }
@@ -278,7 +280,7 @@ fn goes_on_or_slides(gathered: &Gathered, modes: &[Mode]) -> Option<(Vec<Mode>, 
         return Some((modes.to_vec(), solved));
     }
     let sliding = made_to_slide(gathered, &as_it_was, modes, &failing);
-    let solved = gathered.try_modes(&sliding);
+    let solved = share(&sliding);
     let holds = solved.holds && is_pressing(&solved, &sliding) && slide_on(gathered, &solved, modes, &sliding);
     holds.then_some((sliding, solved))
 }
@@ -335,8 +337,33 @@ pub struct Margin {
     pub solved: Solved,
 }
 
-/// Of what holds in a state, which is gathered.
-pub fn margin(model: &Model, state: &State, held: &[Held], gathered: &mut Gathered, work: &mut Work) -> Margin {
+/// Of what holds in a state, which is gathered; `last`: forces of the last look at it.
+pub fn margin(
+    model: &Model,
+    state: &State,
+    held: &[Held],
+    (gathered, last): (&mut Gathered, &mut LastForces),
+    work: &mut Work,
+) -> Margin {
+    margin_by(model, state, held, (gathered, last), (AskedOf::Law, work))
+}
+
+/// Who says of redundant contacts whether they go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AskedOf {
+    Law,
+    /// Without the law, which is asked only where something seems to change: what seems not to change does not.
+    Modes,
+}
+
+/// The same, asked so.
+pub fn margin_by(
+    model: &Model,
+    state: &State,
+    held: &[Held],
+    (gathered, last): (&mut Gathered, &mut LastForces),
+    (asked, work): (AskedOf, &mut Work),
+) -> Margin {
     gathered.gather(model, state, held.iter().map(|held| &held.touch));
     if held.len() > MANY {
         let modes: Vec<Mode> = gathered.modes(held).collect();
@@ -364,8 +391,20 @@ pub fn margin(model: &Model, state: &State, held: &[Held], gathered: &mut Gather
     for island in &gathered.islands {
         let own: Vec<usize> = island.iter().copied().filter(|i| *i < held.len()).collect();
         let of_own = least_of(&own);
-        let may_share = of_own < PULL && own.len() > 1 && !surely_changes(held, gathered, (island, &own), &solved);
-        let law = if may_share { law_of(model, state, held, &own, gathered, work) } else { None };
+        let mut ask = || {
+            if let Some(p) = last.go_on(held, gathered, &own, work) {
+                let left = least_left(own.iter().map(|i| (&held[*i], &p[*i])));
+                return Some((own.iter().map(|i| p[*i]).collect(), left));
+            }
+            let surely_changes = || surely_changes(held, gathered, (island, &own), &solved);
+            (asked == AskedOf::Law && !surely_changes()).then(|| law_of(model, state, held, &own, gathered, work))?
+        };
+        let law = if of_own < PULL && own.len() > 1 { ask() } else { None };
+        if let Some((p, left)) = &law
+            && *left >= 0.0
+        {
+            last.note(gathered, held.len(), &own, p);
+        }
         least = least.min(law.as_ref().map_or(of_own, |(_, left)| *left));
         law.iter().for_each(|(of, _)| own.iter().zip(of).for_each(|(i, of)| p[*i] = *of));
     }
@@ -402,23 +441,30 @@ fn law_of(
     let mut own = Gathered::until(gathered.deadline);
     own.gather(model, state, part.iter().map(|held| &held.touch));
     let modes: Vec<Mode> = own.modes(&part).collect();
-    if let Some(solved) = in_proportion(&own, &modes, &own.try_modes(&modes)) {
-        let left = least_left(&part, &solved);
+    if let Some(solved) = in_proportion(&own, &modes, &own.hold_as(modes.iter().copied(), Selection::Least)) {
+        let left = least_left(part.iter().zip(&solved.p));
         return Some((solved.p, left));
     }
     let Law::Holds(now, solved) = by_law(&own, &modes, work) else { return None };
-    let left = if goes_on(&now, &modes) { least_left(&part, &solved) } else { -leaves(&own, &modes, &now, &solved) };
+    let left = if goes_on(&now, &modes) {
+        least_left(part.iter().zip(&solved.p))
+    } else {
+        -leaves(&own, &modes, &now, &solved)
+    };
     Some((solved.p, left))
 }
 
 /// Of contacts that go on; not negative.
-fn least_left(held: &[Held], solved: &Solved) -> f64 {
-    let of = |(held, p): (&Held, &Impulse)| match held.mode {
-        Mode::Stick => p.x.min(held.touch.friction() * p.x - p.yz().norm()),
-        Mode::Slide(_) => p.x,
-    };
-    let least = held.iter().zip(&solved.p).map(of).fold(f64::INFINITY, f64::min);
-    (least / solved.largest().max(f64::MIN_POSITIVE)).clamp(0.0, NOT_KNOWN)
+fn least_left<'a>(held: impl Iterator<Item = (&'a Held, &'a Impulse)>) -> f64 {
+    let (mut least, mut largest) = (f64::INFINITY, f64::MIN_POSITIVE);
+    for (held, p) in held {
+        let left = match held.mode {
+            Mode::Stick => p.x.min(held.touch.friction() * p.x - p.yz().norm()),
+            Mode::Slide(_) => p.x,
+        };
+        (least, largest) = (least.min(left), largest.max(p.norm()));
+    }
+    (least / largest).clamp(0.0, NOT_KNOWN)
 }
 
 /// Of contacts that do not go on: how fast they open or begin to slip. At least what is no rounding.

@@ -265,11 +265,9 @@ pub fn project_velocities(model: &Model, state: &mut State, held: &[Held], gathe
 fn stop(model: &Model, state: &mut State, held: &[Held], gathered: &Gathered) -> Option<Solved> {
     let speed = state.bodies.iter().map(|at| at.v_WB.amax()).fold(0.0, f64::max);
     let solved = gathered.stop(held, ROUNDING_OF_SPEED * speed)?;
-    if solved.holds {
-        for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
-            at.v_WB += solved.added[i].v;
-            at.w_WB += solved.added[i].w;
-        }
+    for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
+        at.v_WB += solved.added[i].v;
+        at.w_WB += solved.added[i].w;
     }
     Some(solved)
 }
@@ -300,9 +298,6 @@ fn close_gaps(model: &Model, state: &mut State, held: &[Held], gathered: &mut Ga
             block.b = pin.apart_W(&state.bodies);
         }
         let closed = gathered.close(held.len(), least_m);
-        if !closed.holds {
-            break;
-        }
         for (i, at) in state.bodies.iter_mut().enumerate().filter(|(i, _)| !model.bodies[*i].driven) {
             at.p_WB += closed.added[i].v;
             let turn = closed.added[i].w;
@@ -311,6 +306,9 @@ fn close_gaps(model: &Model, state: &mut State, held: &[Held], gathered: &mut Ga
                 at.q_WB = exponential(&turn) * at.q_WB;
                 at.q_WB.renormalize();
             }
+        }
+        if !closed.holds {
+            break;
         }
     }
     gathered.gather_velocities(model, state, held.iter().map(|held| &held.touch));

@@ -63,8 +63,7 @@ impl Held {
 
 /// What a block's force may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Rows {
-    None,
+pub(super) enum Rows {
     /// The normal row; the force is along this, in the contact's frame.
     Normal(Vector3<f64>),
     All,
@@ -136,9 +135,6 @@ impl Told<'_> {
         Some(self.gathered.solved(p, true).added)
     }
 }
-
-/// Contacts that share bodies: of more, to leave out one after another of those that pull costs more than the law.
-const FEW: usize = 8;
 
 /// Slower, of the speeds that meet at a contact, is no slip, and no approach.
 pub const NO_SLIP: f64 = 1e-12;
@@ -269,32 +265,27 @@ impl Gathered {
         let contacts = modes.len();
         let rows = self.rows(modes);
         let solved = self.solve(&rows, choice);
-        if choice == Selection::Any || !solved.holds { solved } else { self.push_only(rows, solved, contacts) }
+        if choice == Selection::Any || !solved.holds { solved } else { self.push_only(&rows, solved, contacts) }
     }
 
-    /// Forces of these modes, and of all pins, each contact pulling as it may.
-    pub fn try_modes(&self, modes: &[Mode]) -> Solved {
-        self.solve(&self.rows(modes.iter().copied()), Selection::Least)
-    }
-
-    /// Changes of velocity that leave none along the rows that hold; none: there is not more than `least`, their
-    /// rounding.
+    /// Changes of velocity that leave none along the rows that hold, of every island that has such; none: there is not
+    /// more than `least`, their rounding.
     pub fn stop(&self, held: &[Held], least: f64) -> Option<Solved> {
         let rows = self.rows(self.modes(held));
         let off = |(block, rows): (&Block, &Rows)| match rows {
-            Rows::None => 0.0,
             Rows::Normal(_) => block.b.x.abs(),
             Rows::All => block.b.amax(),
         };
         let largest = self.problem.blocks.iter().zip(&rows).map(off).fold(0.0, f64::max);
-        (largest > least).then(|| self.solve_to(&rows, Selection::Any, least))
+        (largest > least).then(|| self.put_right(&rows, least))
     }
 
-    /// Displacements that close b, of so many contacts along their normals, of pins whole; `least`: their rounding.
+    /// Displacements that close b, of so many contacts along their normals, of pins whole, of every island that has
+    /// such; `least`: their rounding.
     pub fn close(&self, contacts: usize, least: f64) -> Solved {
         let mut rows = Few::from_elem(Rows::Normal(Vector3::x()), contacts);
         rows.resize(self.problem.blocks.len(), Rows::All);
-        self.solve_to(&rows, Selection::Any, least)
+        self.put_right(&rows, least)
     }
 
     /// Modes of what is held, slips along what they are now.
@@ -306,7 +297,7 @@ impl Gathered {
     }
 
     /// What the blocks' forces may be: of contacts by their modes, of pins all.
-    fn rows(&self, modes: impl Iterator<Item = Mode>) -> Few<Rows> {
+    pub(super) fn rows(&self, modes: impl Iterator<Item = Mode>) -> Few<Rows> {
         let of = |(mode, block): (Mode, &Block)| match mode {
             Mode::Stick => Rows::All,
             Mode::Slide(d) => Rows::Normal(edge(block.friction, &block.frame, &d)),
@@ -314,53 +305,6 @@ impl Gathered {
         let mut rows: Few<Rows> = modes.zip(&self.problem.blocks).map(of).collect();
         rows.resize(self.problem.blocks.len(), Rows::All);
         rows
-    }
-
-    /// Of contacts that share forces, those that would pull are left out as long as the others can hold them: which of
-    /// them press decides how a slab that spins is slowed. Each island by itself.
-    fn push_only(&self, rows: Few<Rows>, mut all: Solved, contacts: usize) -> Solved {
-        if all.p.iter().take(contacts).all(|p| p.x >= 0.0) {
-            return all;
-        }
-        let mut changed = false;
-        for island in &self.islands {
-            let own: Vec<usize> = island.iter().copied().filter(|i| *i < contacts).collect();
-            let slides = |i: &usize| matches!(rows[*i], Rows::Normal(edge) if edge != Vector3::x());
-            // However contacts share forces that none of them slides by, the motion is the same.
-            let matters = own.len() <= FEW || own.iter().any(slides);
-            if matters
-                && own.iter().any(|i| all.p[*i].x < 0.0)
-                && let Some(p) = self.push_only_of(island, &own, &rows, &all)
-            {
-                island.iter().for_each(|i| all.p[*i] = p[*i]);
-                changed = true;
-            }
-        }
-        if changed { self.solved(all.p, true) } else { all }
-    }
-
-    /// None: the others cannot hold them.
-    fn push_only_of(&self, island: &[usize], own: &[usize], rows: &[Rows], all: &Solved) -> Option<Few<Impulse>> {
-        let scale = island.iter().map(|i| self.problem.blocks[*i].b.norm()).fold(0.0, f64::max);
-        let mut rows: Few<Rows> = rows.iter().copied().collect();
-        let mut p = all.p.clone();
-        for _ in own {
-            let worst = own.iter().copied().min_by(|a, b| p[*a].x.total_cmp(&p[*b].x))?;
-            if p[worst].x >= 0.0 {
-                break;
-            }
-            rows[worst] = Rows::None;
-            p = self.no_forces();
-            let missed = missed(&self.problem, island, &rows, Selection::Least, &mut p, self.deadline);
-            let holds = missed.is_some_and(|missed| missed.is_nothing());
-            let now = self.solved(p, holds);
-            let lifts = |i: &usize| self.problem.blocks[*i].velocity(&now.added).x.abs() > CONSISTENT * scale;
-            if !now.holds || own.iter().any(lifts) {
-                return None;
-            }
-            p = now.p;
-        }
-        Some(p)
     }
 
     /// Of an island's blocks: whether the normal part of its force, and whether all of it, is the same however they
@@ -392,18 +336,28 @@ impl Gathered {
     }
 
     fn solve(&self, rows: &[Rows], choice: Selection) -> Solved {
-        self.solve_to(rows, choice, 0.0)
-    }
-
-    /// The same; `rounding`: of b, which equations that say the same thing twice differ by.
-    fn solve_to(&self, rows: &[Rows], choice: Selection, rounding: f64) -> Solved {
         let mut p = self.no_forces();
         let mut holds = true;
         for island in &self.islands {
             let missed = missed(&self.problem, island, rows, choice, &mut p, self.deadline);
+            holds &= missed.is_some_and(|missed| missed.is_nothing());
+        }
+        self.solved(p, holds)
+    }
+
+    /// Any solution of every island that has one; `rounding`: of b, which equations that say the same thing twice
+    /// differ by.
+    fn put_right(&self, rows: &[Rows], rounding: f64) -> Solved {
+        let mut p = self.no_forces();
+        let mut holds = true;
+        for island in &self.islands {
+            let missed = missed(&self.problem, island, rows, Selection::Any, &mut p, self.deadline);
             // What is rounding itself is not put right by rounding.
             let is_rounding = |missed: Missed| missed.size <= ROUNDINGS * rounding && missed.of_all <= PUT_RIGHT;
-            holds &= missed.is_some_and(|missed| missed.is_nothing() || is_rounding(missed));
+            if missed.is_none_or(|missed| !missed.is_nothing() && !is_rounding(missed)) {
+                island.iter().for_each(|i| p[*i] = Impulse::zeros());
+                holds = false;
+            }
         }
         self.solved(p, holds)
     }
@@ -413,7 +367,7 @@ impl Gathered {
         self.solved(self.no_forces(), false)
     }
 
-    fn no_forces(&self) -> Few<Impulse> {
+    pub(super) fn no_forces(&self) -> Few<Impulse> {
         Few::from_elem(Impulse::zeros(), self.problem.blocks.len())
     }
 
@@ -508,7 +462,7 @@ fn missed(
         return Some(Missed::default());
     }
     let K = matrix(problem, &unknowns, deadline)?;
-    let rhs: Numbers = unknowns.iter().map(|of| -problem.blocks[of.block].b[of.row]).collect();
+    let rhs = right_side(problem, &unknowns);
     let (x, size) = solution(&K, &rhs, choice, deadline)?;
     for (of, x) in unknowns.iter().zip(x.iter()) {
         p[of.block] += of.along * *x;
@@ -527,19 +481,18 @@ pub fn stop(problem: &ContactProblem, deadline: Deadline) -> Option<Few<Impulse>
 
 /// A force that is looked for, and the equation beside it.
 #[derive(Clone, Copy, Debug)]
-struct Unknown {
-    block: usize,
+pub(super) struct Unknown {
+    pub(super) block: usize,
     /// One unit of it, in the block's frame.
-    along: Impulse,
+    pub(super) along: Impulse,
     /// The block's row that it is to close.
-    row: usize,
+    pub(super) row: usize,
 }
 
-fn unknowns(island: &[usize], rows: &[Rows]) -> SmallVec<[Unknown; FEW_UNKNOWNS]> {
+pub(super) fn unknowns(island: &[usize], rows: &[Rows]) -> SmallVec<[Unknown; FEW_UNKNOWNS]> {
     let mut unknowns = SmallVec::new();
     for &block in island {
         match rows[block] {
-            Rows::None => {}
             Rows::Normal(along) => unknowns.push(Unknown { block, along, row: 0 }),
             Rows::All => unknowns.extend((0..3).map(|row| Unknown { block, along: Vector3::ith(row, 1.0), row })),
         }
@@ -547,8 +500,13 @@ fn unknowns(island: &[usize], rows: &[Rows]) -> SmallVec<[Unknown; FEW_UNKNOWNS]
     unknowns
 }
 
+/// What forces are to take from every row.
+pub(super) fn right_side(problem: &ContactProblem, unknowns: &[Unknown]) -> Numbers {
+    unknowns.iter().map(|of| -problem.blocks[of.block].b[of.row]).collect()
+}
+
 /// What every unit does to every row. None: out of time, as it may be large.
-fn matrix(problem: &ContactProblem, unknowns: &[Unknown], deadline: Deadline) -> Option<Square> {
+pub(super) fn matrix(problem: &ContactProblem, unknowns: &[Unknown], deadline: Deadline) -> Option<Square> {
     let blocks = &problem.blocks;
     let mut K = Square::zeros(unknowns.len());
     for (c, of) in unknowns.iter().enumerate() {
@@ -564,7 +522,7 @@ fn matrix(problem: &ContactProblem, unknowns: &[Unknown], deadline: Deadline) ->
 }
 
 /// Of the right side: what is left of a consistent system.
-const CONSISTENT: f64 = 1e-9;
+pub(super) const CONSISTENT: f64 = 1e-9;
 
 /// Roundings of one velocity or place that the sum of a few may be wrong by.
 const ROUNDINGS: f64 = 64.0;
@@ -572,12 +530,12 @@ const ROUNDINGS: f64 = 64.0;
 /// Part of what is off that may be left where the rest of it is rounding.
 const PUT_RIGHT: f64 = 1e-3;
 
-fn amax(of: &[f64]) -> f64 {
+pub(super) fn amax(of: &[f64]) -> f64 {
     of.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
 /// Once more for what rounding has left; and what is left then.
-fn solution(K: &Square, rhs: &[f64], choice: Selection, deadline: Deadline) -> Option<(Numbers, f64)> {
+pub(super) fn solution(K: &Square, rhs: &[f64], choice: Selection, deadline: Deadline) -> Option<(Numbers, f64)> {
     let left = |x: &[f64]| -> Numbers { rhs.iter().zip(K.times(x)).map(|(rhs, of)| rhs - of).collect() };
     let eliminated = Eliminated::new(K.clone(), deadline)?;
     let mut x = eliminated.solve(rhs, choice)?;

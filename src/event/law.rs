@@ -57,7 +57,7 @@ pub fn by_law(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Law {
     let mut aside = vec![Vector3::zeros(); modes.len()];
     let mut solved = gathered.without_forces();
     // Forces are against the fictitious slip and what accelerates it: what of that is across is taken off.
-    for _ in 0..TURNS {
+    for turn in 0..TURNS {
         for (((block, own), mode), aside) in
             problem.blocks.iter_mut().zip(&gathered.problem.blocks).zip(modes).zip(&aside)
         {
@@ -67,7 +67,10 @@ pub fn by_law(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Law {
                 block.b.z = own.b.z + slip_W.dot(&block.frame[2]);
             }
         }
-        if !solve_evenly(&problem, &mut p, gathered.deadline, work) {
+        // Little has changed after the first.
+        let is_solved =
+            turn > 0 && newton::solve_near(&problem, &newton::to_rounding(FEW, gathered.deadline), &mut p, work);
+        if !is_solved && !solve_evenly(&problem, &mut p, gathered.deadline, work) {
             if gathered.deadline.is_over() || !is_nearly_solved(&problem, &p) {
                 return Law::Unsolved;
             }

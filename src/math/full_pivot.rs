@@ -51,6 +51,17 @@ impl Square {
         product
     }
 
+    /// Makes a column zero.
+    pub fn clear(&mut self, column: usize) {
+        self.elements[column * self.n..(column + 1) * self.n].fill(0.0);
+    }
+
+    /// Transposed matrix times vector.
+    pub fn transposed_times(&self, x: &[f64]) -> Numbers {
+        let columns = self.elements.chunks_exact(self.n.max(1));
+        columns.map(|column| column.iter().zip(x).map(|(of, x)| of * x).sum()).collect()
+    }
+
     fn column(&self, j: usize) -> &[f64] {
         &self.elements[j * self.n..(j + 1) * self.n]
     }
@@ -217,15 +228,31 @@ impl Eliminated {
     }
 }
 
+/// Lanes of a search.
+const LANES: usize = 8;
+
 /// Place of the largest element of what is not eliminated yet; of equal ones the first, column by column.
 fn place_of_pivot(all: &[f64], n: usize, rank: usize) -> (usize, usize) {
-    let (mut largest, mut place) = (all[rank * n + rank].abs(), (rank, rank));
+    let (mut largest, mut place) = (all[rank * n + rank].abs(), rank);
     for (j, column) in all.chunks_exact(n).enumerate().skip(rank) {
-        for (i, x) in column.iter().enumerate().skip(rank) {
-            if x.abs() > largest {
-                (largest, place) = (x.abs(), (i, j));
-            }
+        let most = amax(&column[rank..]);
+        if most > largest {
+            (largest, place) = (most, j);
         }
     }
-    place
+    let column = &all[place * n + rank..(place + 1) * n];
+    (rank + column.iter().position(|x| x.abs() == largest).unwrap_or(0), place)
+}
+
+/// The largest absolute value, in lanes that do not wait for each other.
+fn amax(of: &[f64]) -> f64 {
+    let mut most = [0.0_f64; LANES];
+    let chunks = of.chunks_exact(LANES);
+    let rest = chunks.remainder().iter().fold(0.0_f64, |most, x| if x.abs() > most { x.abs() } else { most });
+    for chunk in chunks {
+        for (most, x) in most.iter_mut().zip(chunk) {
+            *most = if x.abs() > *most { x.abs() } else { *most };
+        }
+    }
+    most.iter().fold(rest, |a, b| if *b > a { *b } else { a })
 }

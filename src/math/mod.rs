@@ -11,6 +11,7 @@ pub mod least_norm;
 pub mod lemke;
 pub mod lu6;
 pub mod newton;
+pub mod not_negative;
 pub mod order;
 pub mod quadrature;
 pub mod six;

@@ -140,6 +140,13 @@ pub fn solve_evenly(problem: &ContactProblem, goal: &Sweeps, p: &mut [Impulse], 
     improve(problem, &islands, goal, p, shares, &mut scratch, work)
 }
 
+/// The same from impulses that are near.
+pub fn solve_near(problem: &ContactProblem, goal: &Sweeps, p: &mut [Impulse], work: &mut Work) -> bool {
+    let mut scratch = gauss_seidel::Scratch::with_capacity(p.len(), 0);
+    let shares = Shares { rounds: UNTIL_EVEN, within: goal.tolerance };
+    improve(problem, &islands(problem, goal.deadline), goal, p, shares, &mut scratch, work)
+}
+
 fn evenly(island: &Island, work: &mut Work) -> Few<Impulse> {
     let nothing = Few::from_elem(Impulse::zeros(), island.touches.len());
     let (mut p, mut eta) = (nothing.clone(), FIRST_ETA);

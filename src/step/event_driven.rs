@@ -16,6 +16,7 @@ use crate::event::ending::{self, steady};
 use crate::event::field::Field;
 use crate::event::forces::{Gathered, Held, Solved};
 use crate::event::impact;
+use crate::event::last_forces::LastForces;
 use crate::event::look::{Paths, Window};
 use crate::event::motion::Motion;
 use crate::event::patience::Patience;
@@ -87,6 +88,8 @@ pub struct EventDriven {
     found: Vec<Contact>,
     /// Looked into from outside between two steps, too.
     pub(super) gathered: RefCell<Gathered>,
+    /// Forces of the last look at what is held.
+    pub(super) last: LastForces,
     zeno: Zeno,
     /// Of the projection.
     placing: Gathered,
@@ -136,6 +139,7 @@ impl EventDriven {
             detector: Detector::default(),
             found: Vec::with_capacity(16),
             gathered: RefCell::default(),
+            last: LastForces::default(),
             zeno: Zeno::new(settings.tolerance),
             placing: Gathered::default(),
             kicked: start.clone(),
@@ -351,12 +355,13 @@ impl EventDriven {
                 break;
             }
         }
+        self.last.begin(self.gathered.get_mut(), self.held.len(), &solved);
         self.kicked.copy_from(state);
         let placed = project(model, state, &self.held, &mut self.placing);
         let gathered = self.gathered.get_mut();
         if placed.moved || self.held.len() != gathered.here.len() {
             // Those of the law, where redundant contacts could share them otherwise.
-            Margin { solved, .. } = margin(model, state, &self.held, gathered, &mut self.work);
+            Margin { solved, .. } = margin(model, state, &self.held, (gathered, &mut self.last), &mut self.work);
         }
         // However slowly: else that would strike at once, and open again what has been put to rest.
         let is_pushed = ending::pushes(model, [&self.kicked, state], &self.found);
@@ -464,7 +469,8 @@ impl EventDriven {
             let paths = Paths { model, motions: &self.motions, dense: &self.dense, deadline: self.deadline };
             let until = self.work.newton_steps + self.patience.left(&self.work);
             let (gathered, at, work) = (self.gathered.get_mut(), &mut self.scratch, &mut self.work);
-            let mut looking = Looking { paths, held: &self.held, gathered, at, work, until, seen: Vec::new() };
+            let last = &mut self.last;
+            let mut looking = Looking { paths, held: &self.held, gathered, last, at, work, until, seen: Vec::new() };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
                 let turned = looking.has_turned();
                 (to_s, self.next) = (t_s, if turned { Event::Impact } else { Event::Change(change) });
@@ -526,7 +532,7 @@ impl EventDriven {
         self.pace = Pace::FREE;
         if !self.dense.is_empty() && self.held.iter().any(|held| held.slides().is_some()) {
             let gathered = self.gathered.get_mut();
-            let Margin { solved, .. } = margin(model, state, &self.held, gathered, &mut self.work);
+            let Margin { solved, .. } = margin(model, state, &self.held, (gathered, &mut self.last), &mut self.work);
             self.pace = slip::look(&self.slow, (model, state), &mut self.held, (gathered, &solved), lines);
         }
     }

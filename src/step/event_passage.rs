@@ -39,7 +39,9 @@ impl Passage for EventDriven {
             return self.held.iter().zip(&self.steady_W).map(force).collect();
         }
         let mut gathered = self.gathered.borrow_mut();
-        let Margin { solved, .. } = margin(model, state, &self.held, &mut gathered, &mut Work::default());
+        // What a recorder looks at is not known to the steps that follow.
+        let last = &mut self.last.clone();
+        let Margin { solved, .. } = margin(model, state, &self.held, (&mut gathered, last), &mut Work::default());
         let Gathered { here, problem, .. } = &*gathered;
         let of = here.iter().zip(&problem.blocks).zip(&solved.p);
         of.map(|((here, block), p)| ContactForce { contact: here.contact, force_W: block.in_world(p) }).collect()

@@ -25,7 +25,7 @@ pub fn pinned_to(model: &Model, body: usize) -> impl Iterator<Item = Partner> {
 }
 
 /// One point of contact of a body with the container or with another body.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contact {
     pub body: usize,
     /// Index of the other body, higher than `body`; None for the container.
@@ -47,21 +47,22 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Contact of a point where two bodies meet, without friction or rebound.
-    pub fn bare([body, other]: [usize; 2], at: &[BodyState; 2], found: &Meeting) -> Self {
+    /// Contact of the same bodies and surfaces at another point where the bodies meet, in these states.
+    pub fn meeting(&self, point: &Meeting, at: [&BodyState; 2]) -> Self {
         Contact {
-            body,
-            other: Some(other),
-            feature: found.feature,
-            r_BC_W: found.p_W - at[0].p_WB,
-            r_OC_W: found.p_W - at[1].p_WB,
-            p_WC: found.p_W,
-            normal: found.normal,
-            gap_m: found.gap_m,
-            friction: 0.0,
-            restitution: 0.0,
-            tangential_restitution: 0.0,
+            feature: point.feature,
+            r_BC_W: point.p_W - at[0].p_WB,
+            r_OC_W: point.p_W - at[1].p_WB,
+            p_WC: point.p_W,
+            normal: point.normal,
+            gap_m: point.gap_m,
+            ..*self
         }
+    }
+
+    /// Where the two meet.
+    pub fn point(&self) -> Meeting {
+        Meeting { p_W: self.p_WC, normal: self.normal, gap_m: self.gap_m, feature: self.feature }
     }
 
     /// Place of the contact in the order of contacts, and its name from step to step.

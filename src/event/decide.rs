@@ -377,10 +377,7 @@ pub fn margin_by(
     if largest == 0.0 {
         return Margin { least: 0.0, solved };
     }
-    let of = |i: usize| match (held[i].mode, &solved.p[i]) {
-        (Mode::Stick, p) => p.x.min(held[i].touch.friction() * p.x - p.yz().norm()),
-        (Mode::Slide(_), p) => p.x,
-    };
+    let of = |i: usize| left_of(&held[i], &solved.p[i]);
     let all = (0..held.len()).map(of).fold(f64::INFINITY, f64::min) / largest;
     if all >= PULL || held.len() == 1 {
         return Margin { least: all, solved };
@@ -454,15 +451,19 @@ fn law_of(
     Some((solved.p, left))
 }
 
+/// Of what presses, and of the cone of what sticks.
+fn left_of(held: &Held, p: &Impulse) -> f64 {
+    match held.mode {
+        Mode::Stick => p.x.min(held.touch.friction() * p.x - p.yz().norm()),
+        Mode::Slide(_) => p.x,
+    }
+}
+
 /// Of contacts that go on; not negative.
 fn least_left<'a>(held: impl Iterator<Item = (&'a Held, &'a Impulse)>) -> f64 {
     let (mut least, mut largest) = (f64::INFINITY, f64::MIN_POSITIVE);
     for (held, p) in held {
-        let left = match held.mode {
-            Mode::Stick => p.x.min(held.touch.friction() * p.x - p.yz().norm()),
-            Mode::Slide(_) => p.x,
-        };
-        (least, largest) = (least.min(left), largest.max(p.norm()));
+        (least, largest) = (least.min(left_of(held, p)), largest.max(p.norm()));
     }
     (least / largest).clamp(0.0, NOT_KNOWN)
 }

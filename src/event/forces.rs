@@ -12,7 +12,7 @@ use crate::collide::approach::Approach;
 use crate::deadline::Deadline;
 use crate::integrate::rotation::gyroscopic_torque_B;
 use crate::math::few::{Few, OneOrTwo};
-use crate::math::full_pivot::{Eliminated, FEW as FEW_UNKNOWNS, Numbers, Selection, Square};
+use crate::math::full_pivot::{Eliminated, FEW as FEW_UNKNOWNS, Numbers, Selection, Square, amax};
 use crate::model::{Body, Model};
 use crate::solve::Impulse;
 use crate::solve::block::Block;
@@ -529,10 +529,6 @@ const ROUNDINGS: f64 = 64.0;
 
 /// Part of what is off that may be left where the rest of it is rounding.
 const PUT_RIGHT: f64 = 1e-3;
-
-pub(super) fn amax(of: &[f64]) -> f64 {
-    of.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
-}
 
 /// Once more for what rounding has left; and what is left then.
 pub(super) fn solution(K: &Square, rhs: &[f64], choice: Selection, deadline: Deadline) -> Option<(Numbers, f64)> {

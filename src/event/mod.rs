@@ -2,7 +2,8 @@
 //! order; events are roots in time. `step/event_driven.rs` is the loop; here is what it is made of.
 //!
 //! - `touch`: a point of contact in any state, and its rates; `shown`: which parts of two bodies meet there
-//! - `forces`: the forces that keep what is in contact together
+//! - `forces`: the forces that keep what is in contact together; `pushing`: those of which none pulls; `last_forces`:
+//!   those of the last look
 //! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once; `proportion`: the forces of
 //!   a pile that slides as one
 //! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion, `field`: its equations;

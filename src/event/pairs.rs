@@ -475,8 +475,7 @@ impl<'a> Two<'a> {
                 (None, _) => (!self.is_held(&held, now, touch)).then_some(*touch),
                 (Some(first), None) => {
                     let other = first.touch.other_crossing(|i| &now.at[usize::from(i != self.pair[0])])?;
-                    let Contact { p_WC: p_W, normal, gap_m, feature, .. } = other;
-                    Some(Found { p_W, normal, gap_m, feature })
+                    Some(other.point())
                 }
                 (Some(_), Some(_)) => None,
             }

@@ -3,9 +3,9 @@
 //!
 //! They hold all that is to be held, those as well that press no more. Where there are none, the law is asked (`law`).
 
-use super::forces::{CONSISTENT, Gathered, Rows, Solved, Unknown, amax, matrix, right_side, solution, unknowns};
+use super::forces::{CONSISTENT, Gathered, Rows, Solved, Unknown, matrix, right_side, solution, unknowns};
 use crate::math::few::Few;
-use crate::math::full_pivot::{Numbers, Selection, Square};
+use crate::math::full_pivot::{Numbers, Selection, Square, amax};
 use crate::math::not_negative::not_zero;
 use crate::solve::Impulse;
 use nalgebra::Vector3;
@@ -23,10 +23,13 @@ impl Gathered {
         let mut changed = false;
         for island in &self.islands {
             let own: Few<usize> = island.iter().copied().filter(|i| *i < contacts).collect();
+            if own.iter().all(|i| all.p[*i].x >= 0.0) {
+                continue;
+            }
             let slides = |i: &usize| matches!(rows[*i], Rows::Normal(edge) if edge != Vector3::x());
-            if own.iter().any(|i| all.p[*i].x < 0.0)
-                && (unknowns(island, rows).len() <= FEW || own.iter().any(slides))
-                && let Some(p) = self.push_only_of(island, &own, rows)
+            let unknowns = unknowns(island, rows);
+            if (unknowns.len() <= FEW || own.iter().any(slides))
+                && let Some(p) = self.push_only_of(&own, &unknowns)
             {
                 island.iter().for_each(|i| all.p[*i] = p[*i]);
                 changed = true;
@@ -36,17 +39,16 @@ impl Gathered {
     }
 
     /// None: the contacts cannot hold them so.
-    fn push_only_of(&self, island: &[usize], own: &[usize], rows: &[Rows]) -> Option<Few<Impulse>> {
-        let unknowns = unknowns(island, rows);
-        let K = matrix(&self.problem, &unknowns, self.deadline)?;
-        let y = right_side(&self.problem, &unknowns);
+    fn push_only_of(&self, own: &[usize], unknowns: &[Unknown]) -> Option<Few<Impulse>> {
+        let K = matrix(&self.problem, unknowns, self.deadline)?;
+        let y = right_side(&self.problem, unknowns);
         let free: Few<bool> = unknowns.iter().map(|of| of.row > 0 || !own.contains(&of.block)).collect();
         let not_zero = not_zero(&K, &y, &free, self.deadline)?;
         let mut left_out: Few<usize> =
             unknowns.iter().zip(&not_zero).filter(|(_, is)| !**is).map(|(of, _)| of.block).collect();
         for _ in own {
             let mut p = self.no_forces();
-            self.hold_without(&left_out, (&unknowns, &K), &y, &mut p)?;
+            self.hold_without(&left_out, (unknowns, &K), &y, &mut p)?;
             let worst = own.iter().copied().min_by(|a, b| p[*a].x.total_cmp(&p[*b].x))?;
             if p[worst].x >= 0.0 {
                 return Some(p);

@@ -13,7 +13,7 @@ use crate::collide::Contact;
 use crate::collide::closed::is_closed_to_delta;
 use crate::model::{Model, pose_of_solid};
 use crate::shape::band::{Along, axes, band_m, touches_beside};
-use crate::shape::solid::{Meeting, Pose, Solid};
+use crate::shape::solid::{Pose, Solid};
 use crate::solve::twist::Twist;
 use crate::state::{BodyState, State};
 use crate::work::Work;
@@ -57,7 +57,7 @@ impl Sharing {
     /// Contacts along the axis of the largest of some numbers, of which there is one an axis.
     fn contacts(&self, like: &Contact, at: [&BodyState; 2], of: &[f64]) -> Vec<Contact> {
         let Some(last) = (0..of.len()).reduce(|best, i| if of[i] > of[best] { i } else { best }) else { return vec![] };
-        self.axes[last].0.points.iter().map(|point| contact(point, like, at)).collect()
+        self.axes[last].0.points.iter().map(|point| like.meeting(point, at)).collect()
     }
 }
 
@@ -66,19 +66,6 @@ fn posed<'a>(model: &'a Model, pair: [usize; 2], at: [&BodyState; 2]) -> Option<
         return None;
     };
     Some([(solid_a, pose_of_solid(centre_a, at[0])), (solid_b, pose_of_solid(centre_b, at[1]))])
-}
-
-/// Contact at a point, of the bodies and surfaces of another one.
-fn contact(point: &Meeting, like: &Contact, at: [&BodyState; 2]) -> Contact {
-    Contact {
-        feature: point.feature,
-        r_BC_W: point.p_W - at[0].p_WB,
-        r_OC_W: point.p_W - at[1].p_WB,
-        p_WC: point.p_W,
-        normal: point.normal,
-        gap_m: point.gap_m,
-        ..*like
-    }
 }
 
 /// A pair that is set aside: one of its axes does not close.
@@ -142,7 +129,7 @@ fn beside(model: &Model, state: &State, group: &[Contact]) -> Vec<Contact> {
     if !touches_beside(solid_a, &pose_a, solid_b, &pose_b, band_m(solid_a, solid_b), &mut points) {
         return group.to_vec();
     }
-    let contacts = points.iter().map(|point| contact(point, &group[0], at));
+    let contacts = points.iter().map(|point| group[0].meeting(point, at));
     contacts.filter(|contact| is_closed_to_delta(model, contact)).collect()
 }
 

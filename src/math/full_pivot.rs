@@ -39,7 +39,7 @@ impl Square {
 
     /// The largest absolute value.
     pub fn amax(&self) -> f64 {
-        self.elements.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+        amax(&self.elements)
     }
 
     /// Matrix times vector.
@@ -245,7 +245,7 @@ fn place_of_pivot(all: &[f64], n: usize, rank: usize) -> (usize, usize) {
 }
 
 /// The largest absolute value, in lanes that do not wait for each other.
-fn amax(of: &[f64]) -> f64 {
+pub fn amax(of: &[f64]) -> f64 {
     let mut most = [0.0_f64; LANES];
     let chunks = of.chunks_exact(LANES);
     let rest = chunks.remainder().iter().fold(0.0_f64, |most, x| if x.abs() > most { x.abs() } else { most });

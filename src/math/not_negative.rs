@@ -5,7 +5,7 @@
 //! no more of them change, and a search along each of its directions over all the kinks (O. L. Mangasarian, J. Optim.
 //! Theory Appl. 121 (2004) 1).
 
-use super::full_pivot::{Numbers, Square};
+use super::full_pivot::{Numbers, Square, amax};
 use crate::deadline::Deadline;
 use nalgebra::{DMatrix, DVector};
 use smallvec::SmallVec;
@@ -54,10 +54,6 @@ pub fn not_zero(K: &Square, y: &[f64], free: &[bool], deadline: Deadline) -> Opt
         active = now;
     }
     None
-}
-
-fn amax(of: &[f64]) -> f64 {
-    of.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
 /// How far along a direction the function is least that falls so fast at its beginning; none: it falls for ever.

@@ -135,16 +135,24 @@ pub fn solve_evenly(problem: &ContactProblem, goal: &Sweeps, p: &mut [Impulse], 
     for island in &islands {
         island.put(&evenly(island, work), p);
     }
-    let mut scratch = gauss_seidel::Scratch::with_capacity(p.len(), 0);
-    let shares = Shares { rounds: UNTIL_EVEN, within: goal.tolerance };
-    improve(problem, &islands, goal, p, shares, &mut scratch, work)
+    share_evenly(problem, &islands, goal, p, work)
 }
 
 /// The same from impulses that are near.
 pub fn solve_near(problem: &ContactProblem, goal: &Sweeps, p: &mut [Impulse], work: &mut Work) -> bool {
+    share_evenly(problem, &islands(problem, goal.deadline), goal, p, work)
+}
+
+fn share_evenly(
+    problem: &ContactProblem,
+    islands: &[Island],
+    goal: &Sweeps,
+    p: &mut [Impulse],
+    work: &mut Work,
+) -> bool {
     let mut scratch = gauss_seidel::Scratch::with_capacity(p.len(), 0);
     let shares = Shares { rounds: UNTIL_EVEN, within: goal.tolerance };
-    improve(problem, &islands(problem, goal.deadline), goal, p, shares, &mut scratch, work)
+    improve(problem, islands, goal, p, shares, &mut scratch, work)
 }
 
 fn evenly(island: &Island, work: &mut Work) -> Few<Impulse> {

@@ -74,21 +74,24 @@ impl Here {
 impl Touch {
     /// None: parts whose motion along each other is not known here.
     pub fn new(model: &Model, state: &State, found: &Contact) -> Option<Self> {
-        let of = |parts: Parts| Touch::of(model, state, found, parts);
-        let crossing = rim_on_edge(model, &|i: usize| &state.bodies[i], found).map(Parts::RimOnEdge);
-        crossing.and_then(of).or_else(|| of(parts(model, state, found)?))
+        let of_parts = || Touch::of(model, state, found, parts(model, state, found)?);
+        Touch::crossing(model, state, found).or_else(of_parts)
     }
 
     /// The same contact, more closely, where the rim of a cap next to flat crosses an edge: the contact test knows the
     /// less of that point the flatter the cap is. With the other point in which these cross, if that is one, too: the
     /// test tells the lower one, and an edge along a cap has both.
     pub fn refined(model: &Model, state: &State, found: &Contact) -> OneOrTwo<Contact> {
-        let of = |parts: Parts| Touch::of(model, state, found, parts);
-        let crossing = rim_on_edge(model, &|i: usize| &state.bodies[i], found).map(Parts::RimOnEdge);
-        let Some(touch) = crossing.and_then(of) else { return OneOrTwo::from_elem(*found, 1) };
+        let Some(touch) = Touch::crossing(model, state, found) else { return OneOrTwo::from_elem(*found, 1) };
         let mut all = OneOrTwo::from_elem(touch.here(state).contact, 1);
         all.extend(touch.other_crossing(|i| &state.bodies[i]));
         all
+    }
+
+    /// Of a rim that crosses an edge.
+    fn crossing(model: &Model, state: &State, found: &Contact) -> Option<Self> {
+        let crossing = rim_on_edge(model, &|i: usize| &state.bodies[i], found)?;
+        Touch::of(model, state, found, Parts::RimOnEdge(crossing))
     }
 
     /// Both points in which a rim crosses an edge, where that has been found between two bodies in these states, and
@@ -100,18 +103,18 @@ impl Touch {
         found: &Meeting,
     ) -> Option<[(Meeting, f64); 2]> {
         let place = |i: usize| &at[usize::from(i != bodies[0])];
-        let contact = Contact::bare(bodies, at, found);
+        let both = [&at[0], &at[1]];
+        let contact = Contact { body: bodies[0], other: Some(bodies[1]), ..Contact::default() }.meeting(found, both);
         let first = rim_on_edge(model, &place, &contact)?;
-        let other = first.other([&at[0], &at[1]]);
         let meeting = |crossing: &RimOnEdge, feature: (u32, u32)| {
-            let here = crossing.here(&contact, &place).0;
-            let found = Meeting { p_W: here.p_WC, normal: here.normal, gap_m: here.gap_m, feature };
-            (found, crossing.sine([&at[0], &at[1]]))
+            let here = crossing.here(&Contact { feature, ..contact }, &place).0;
+            (here.point(), crossing.sine(both))
         };
-        let off_m = (meeting(&first, found.feature).0.gap_m - found.gap_m).abs();
         let smaller_m = bodies.map(|i| model.bodies[i].bounding_radius_m).into_iter().fold(f64::INFINITY, f64::min);
-        let is_it = off_m <= ELSEWHERE * smaller_m && first.inside_m([&at[0], &at[1]]) >= -BORDER * smaller_m;
-        is_it.then(|| [meeting(&first, found.feature), meeting(&other, other_name(found.feature))])
+        let nearest = meeting(&first, found.feature);
+        let off_m = (nearest.0.gap_m - found.gap_m).abs();
+        let is_it = off_m <= ELSEWHERE * smaller_m && first.inside_m(both) >= -BORDER * smaller_m;
+        is_it.then(|| [nearest, meeting(&first.other(both), other_name(found.feature))])
     }
 
     /// Whether it is of a rim that crosses an edge.

@@ -198,21 +198,23 @@ impl<'a> Way<'a> {
         if closing > 0.0 { 2.0 * by_m / (closing + root.sqrt()) } else { (root.sqrt() - closing) / faster }
     }
 
-    /// How long from a time on an axis parts the bodies, but for so much of a gap: what it does at the end of that says
-    /// what it does between, as a separation along a fixed axis is the least of those of pairs of points, whose second
-    /// derivatives have a bound.
-    fn parts_for_s(&self, gap_m: f64, spare_m: f64, from_s: f64, left_s: f64, normal: &Vector3<f64>) -> f64 {
+    /// How long from a time on an axis parts the bodies, but for a depth: what it does at the end of that says what it
+    /// does between, as a separation along a fixed axis is the least of those of pairs of points, whose second
+    /// derivatives have a bound. `least_m`: twice what their arcs may lead beside their chords.
+    fn parts_for_s(&self, [gap_m, depth_m, least_m]: [f64; 3], from_s: f64, left_s: f64, normal: &Vector3<f64>) -> f64 {
         let bends = |k: usize| {
             let body = &self.model.bodies[self.pair[k]];
             let changes = if self.turning[k] == Vector3::zeros() { 1.0 } else { 1.0 + CHANGES };
             if self.swing[k] == 0.0 { 0.0 } else { changes * self.swing[k] * self.swing[k] / body.bounding_radius_m }
         };
         let bends = bends(0) + bends(1);
+        let spare_m = (gap_m + depth_m).max(least_m);
         let mut span_s = if bends > 0.0 { (4.0 * spare_m / bends).sqrt().min(left_s) } else { left_s };
         for _ in 0..2 {
             let [pose_a, pose_b] = self.poses(from_s + span_s);
             let end_m = along(self.solids[0].0, &pose_a, self.solids[1].0, &pose_b, normal);
-            if end_m.min(gap_m) - bends * span_s * span_s / 8.0 >= gap_m - spare_m {
+            let arc_m = (bends * span_s * span_s / 8.0 - 0.5 * least_m).max(0.0);
+            if end_m.min(gap_m) - arc_m >= -depth_m {
                 return span_s;
             }
             span_s *= 0.5;
@@ -299,10 +301,10 @@ impl<'a> Way<'a> {
                 return None;
             }
             before_s = from_s;
-            let (spare_m, left_s) = ((gap_m + depth_m).max(least_m), last_s - from_s);
-            let by_speed_s = self.closes_after_s(spare_m, from_s, &normal).min(left_s);
-            let by_axis_s = self.parts_for_s(gap_m, spare_m, from_s, left_s, &normal);
-            from_s = (from_s + by_speed_s.max(by_axis_s)).min(last_s);
+            let left_s = last_s - from_s;
+            let by_speed_s = self.closes_after_s(gap_m + depth_m, from_s, &normal).min(left_s);
+            let by_axis_s = self.parts_for_s([gap_m, depth_m, least_m], from_s, left_s, &normal);
+            from_s = (from_s + by_speed_s.max(by_axis_s).max(least_m / self.speed)).min(last_s);
         }
         Some(from_s)
     }

@@ -7,13 +7,11 @@
 //! Hodgman, Comm. ACM 17 (1974) 32, would name such points at random.)
 
 use super::axis::{Axis, Face};
-use super::placed::{PARALLEL, Placed};
+use super::placed::{FACING, PARALLEL, Placed};
 use nalgebra::Vector3;
 
 /// Distance of points, of the size and seen along the axis, that are one.
 const ONE_POINT: f64 = 1e-9;
-/// A cap faces along directions within 45° of its normal, beyond them the side of the cylinder does.
-const FACING: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// Caps tilted by less (rad) bear on each other over an area; seen from one, the other's rim is a circle to 10⁻⁸.
 const COAXIAL: f64 = 1e-4;

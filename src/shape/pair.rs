@@ -126,11 +126,27 @@ impl Collect<'_> {
         of_face(a, b, &facing, size_m, &mut |at| self.add(&axis.normal, at));
         let normal = if axis.face.is_some() { otherwise } else { &axis.normal };
         if !self.visited && axis.normal.cross(normal).norm() <= BESIDE {
-            of_nearest_edges(a, b, &facing, &mut |at| self.add(normal, at));
+            of_nearest_edges(a, b, &facing, &mut |at| self.add(normal, self.turned(&axis.normal, normal, at)));
         }
         if !self.visited {
             of_lines(a, b, normal, size_m, &mut |at| self.add(normal, at));
         }
+    }
+
+    /// Points that are opposite along one axis, along another one. A round side faces there by another line, and what
+    /// is nearest to that line touches it there: a point of it beside the line would come nearer as it rolls.
+    fn turned(&self, from: &Vector3<f64>, to: &Vector3<f64>, at: Opposite) -> Opposite {
+        let [a, b] = self.placed;
+        let Opposite { mut on_a, mut on_b, feature } = at;
+        let apart = |on_a: Vector3<f64>, on_b: Vector3<f64>| to * to.dot(&(on_a - on_b));
+        if let (Some(before), Some(now)) = (a.round_side(&-from), a.round_side(&-to)) {
+            on_a += now - before;
+            on_b = on_a - apart(on_a, on_b);
+        } else if let (Some(before), Some(now)) = (b.round_side(from), b.round_side(to)) {
+            on_b += now - before;
+            on_a = on_b + apart(on_a, on_b);
+        }
+        Opposite { on_a, on_b, feature }
     }
 
     fn add(&mut self, normal: &Vector3<f64>, at: Opposite) {

@@ -18,6 +18,9 @@ pub struct Placed<'a> {
 /// Angle within which directions are parallel (rad).
 pub const PARALLEL: f64 = 1e-7;
 
+/// A cap faces along directions within 45° of its normal, beyond them the side of the cylinder does.
+pub const FACING: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
 impl<'a> Placed<'a> {
     pub fn new(solid: &'a Solid, pose: &Pose, origin_W: &Vector3<f64>) -> Self {
         Placed { solid, p: pose.p_W - origin_W, R: pose.q_W.to_rotation_matrix().into_inner() }
@@ -33,6 +36,16 @@ impl<'a> Placed<'a> {
         match self.solid {
             Solid::Sphere { radius_m } | Solid::Capsule { radius_m, .. } => *radius_m,
             _ => 0.0,
+        }
+    }
+
+    /// From its middle line to the line of the core's round side that faces along `d`; none: no round side does.
+    pub fn round_side(&self, d: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let across = d - self.axis() * self.axis().dot(d);
+        match self.solid {
+            Solid::Capsule { .. } => Some(Vector3::zeros()),
+            Solid::Cylinder { radius_m, .. } if across.norm() > FACING => Some(across.normalize() * *radius_m),
+            _ => None,
         }
     }
 

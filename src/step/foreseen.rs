@@ -138,15 +138,8 @@ impl Foreseen {
         }
     }
 
-    /// Looks at what may come in the step. `last`: impulses of the step before, in the order of contacts.
-    pub(super) fn look(
-        &mut self,
-        model: &Model,
-        state: &State,
-        scratch: &mut Scratch,
-        last: &[(Key, Vector3<f64>)],
-        step_s: f64,
-    ) {
+    /// Looks at what may come in the step.
+    pub(super) fn look(&mut self, model: &Model, state: &State, scratch: &mut Scratch, step_s: f64) {
         (self.round, self.is_given_up, self.hit_s, self.turned_s) = (0, false, None, None);
         self.fall_m.clear();
         let bodies = model.bodies.iter().zip(&state.bodies).zip(&scratch.free);
@@ -156,13 +149,6 @@ impl Foreseen {
         self.slack_m.clear();
         self.slack_m.extend(self.fall_m.iter().map(|fall_m| SLACK * fall_m));
         self.see(model, state, scratch, step_s);
-        // What pushed in the last step mostly pushes on.
-        for doubt in self.doubts.list_mut() {
-            let [a, b] = doubt.pair;
-            let first = last.partition_point(|(key, _)| (key.0, key.1) < (a, Some(b)));
-            let own = last[first..].iter().take_while(|(key, _)| (key.0, key.1) == (a, Some(b)));
-            doubt.is_imposed |= own.fold(false, |pushed, (_, p)| pushed || *p != Vector3::zeros());
-        }
         self.ask(&mut scratch.found);
     }
 

@@ -12,6 +12,7 @@
 //!   deep, one in 10⁴ ends at one that is not the highest.
 
 use super::gjk::between;
+use super::manifold::is_over_face;
 use super::placed::Placed;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
@@ -74,6 +75,8 @@ pub fn axis(a: &Placed, b: &Placed, size_m: f64) -> (Axis, Vector3<f64>, f64) {
     let flat = best_face(a, b, size_m, &mut second);
     let (normal, gap_m) = if a.is_polytope() && b.is_polytope() {
         of_polytopes(a, b, &flat, size_m, &mut second)
+    } else if let Some(flat) = flat.as_ref().filter(|flat| is_nearest_there(a, b, flat, size_m)) {
+        (flat.normal, flat.gap_m)
     } else {
         of_curved(a, b, &flat, size_m)
     };
@@ -97,6 +100,12 @@ fn best_face(a: &Placed, b: &Placed, size_m: f64, second: &mut Second) -> Option
         }
     }
     best
+}
+
+/// Whether bodies that do not overlap are nearest over a face, as no two points are nearer than along its normal, and
+/// two are as near.
+fn is_nearest_there(a: &Placed, b: &Placed, flat: &Axis, size_m: f64) -> bool {
+    flat.gap_m >= -TOUCHING * size_m && is_over_face(a, b, flat)
 }
 
 fn of_polytopes(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64, second: &mut Second) -> (Vector3<f64>, f64) {
@@ -128,8 +137,9 @@ fn of_polytopes(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64, second
 fn of_curved(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64) -> (Vector3<f64>, f64) {
     let guesses = first_guesses(a, b, flat);
     let mut best = climb(a, b, guesses[0], size_m);
-    // Separated bodies have one peak; overlapping ones a few, of similar height where they overlap in a corner.
-    if best.1 < 0.0 {
+    // Separated bodies have one peak; overlapping ones a few, of similar height where they overlap in a corner. By what
+    // they overlap no other is higher than by that.
+    if best.1 < -TOUCHING * size_m {
         for guess in &guesses[1..] {
             let other = climb(a, b, *guess, size_m);
             if other.1 > best.1 + EQUAL * size_m {
@@ -160,8 +170,14 @@ fn climb(a: &Placed, b: &Placed, guess: (Vector3<f64>, f64), size_m: f64) -> (Ve
     }
     // Straight lines that are nearly across the axis may be meant to be; the separation tells.
     let mut refined = (best.0, f64::NEG_INFINITY);
+    let mut tried = None;
     for slack in [1e-2, 1e-3, 1e-5, 0.0] {
-        let (n, gap_m) = refine(a, b, best.0, slack);
+        let lines = straight_lines(a, b, &best.0, slack);
+        // The same lines are across the axis as before.
+        if tried.replace(lines) == Some(lines) {
+            continue;
+        }
+        let (n, gap_m) = refine(a, b, best.0, lines);
         if gap_m > refined.1 + EQUAL * size_m {
             refined = (n, gap_m);
         }
@@ -194,14 +210,18 @@ fn first_guesses(a: &Placed, b: &Placed, flat: &Option<Axis>) -> [(Vector3<f64>,
     best
 }
 
-/// Newton's iteration for the peak of s on the unit sphere, from a direction near it, perpendicular to all straight
-/// lines that are so within `slack` (rad).
-fn refine(a: &Placed, b: &Placed, start: Vector3<f64>, slack: f64) -> (Vector3<f64>, f64) {
+/// Straight lines of either core that are across a direction within `slack` (rad), where it is farthest.
+fn straight_lines(a: &Placed, b: &Placed, n: &Vector3<f64>, slack: f64) -> Vec2 {
     let mut lines = Vec2::default();
     if slack > 0.0 {
-        straight(a, &-start, slack, &mut lines);
-        straight(b, &start, slack, &mut lines);
+        straight(a, &-n, slack, &mut lines);
+        straight(b, n, slack, &mut lines);
     }
+    lines
+}
+
+/// Newton's iteration for the peak of s on the unit sphere, from a direction near it, perpendicular to straight lines.
+fn refine(a: &Placed, b: &Placed, start: Vector3<f64>, lines: Vec2) -> (Vector3<f64>, f64) {
     let mut n = start;
     match lines {
         Vec2 { first: Some(first), second: Some(second) } => {
@@ -258,7 +278,7 @@ fn step(n: &mut Vector3<f64>, turn: &Vector3<f64>) -> bool {
 }
 
 /// Up to two perpendicular directions.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Default, PartialEq)]
 struct Vec2 {
     first: Option<Vector3<f64>>,
     second: Option<Vector3<f64>>,

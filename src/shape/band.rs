@@ -7,7 +7,7 @@
 
 use super::axis::{Axis, Face, axis, separation};
 use super::manifold::{Opposite, closest_parts, of_face, of_lines};
-use super::pair::touches;
+use super::pair::{of_cores, touches, touches_of};
 use super::placed::Placed;
 use super::solid::{Meeting, Pose, Solid};
 use nalgebra::Vector3;
@@ -59,16 +59,19 @@ pub fn touches_beside(
 ) -> bool {
     let is_round = |solid: &Solid| matches!(solid, Solid::Capsule { .. } | Solid::Cylinder { .. });
     let has_corners = |solid: &Solid| matches!(solid, Solid::Box { .. } | Solid::Convex(_));
-    if (is_round(a) && has_corners(b)) || (is_round(b) && has_corners(a)) {
-        let [a, b] = Placed::pair(a, pose_a, b, pose_b);
-        let axes = Axes { a: &a, b: &b, origin_W: pose_b.p_W };
-        if let Some(n) = axes.beside() {
-            out.extend(axes.of_lines(&n).into_iter().filter(|meeting| meeting.gap_m < margin_m));
-            return true;
-        }
+    if !((is_round(a) && has_corners(b)) || (is_round(b) && has_corners(a))) {
+        touches(a, pose_a, b, pose_b, margin_m, out);
+        return false;
     }
-    touches(a, pose_a, b, pose_b, margin_m, out);
-    false
+    let placed = Placed::pair(a, pose_a, b, pose_b);
+    let axes = Axes { a: &placed[0], b: &placed[1], origin_W: pose_b.p_W };
+    let cores = of_cores(&placed, axes.size_m());
+    let beside = axes.beside(&cores.0);
+    match &beside {
+        Some(n) => out.extend(axes.of_lines(n).into_iter().filter(|meeting| meeting.gap_m < margin_m)),
+        None => touches_of(&placed, &pose_b.p_W, &cores, margin_m, out),
+    }
+    beside.is_some()
 }
 
 struct Axes<'a> {
@@ -120,8 +123,7 @@ impl Axes<'_> {
 
     /// Direction from the edge of a face that is the axis, but over which nothing is, to the middle line of what is
     /// round.
-    fn beside(&self) -> Option<Vector3<f64>> {
-        let (best, ..) = axis(self.a, self.b, self.size_m());
+    fn beside(&self, best: &Axis) -> Option<Vector3<f64>> {
         let (face, of, round, sign) = match best.face? {
             Face::OfA(face) => (face, self.a, self.b, -1.0),
             Face::OfB(face) => (face, self.b, self.a, 1.0),
@@ -137,7 +139,7 @@ impl Axes<'_> {
         }
         let corners = of.face_corners(face);
         let mut is_over = corners.is_empty();
-        of_face(self.a, self.b, &best, self.size_m(), &mut |_| is_over = true);
+        of_face(self.a, self.b, best, self.size_m(), &mut |_| is_over = true);
         if is_over {
             return None;
         }

@@ -41,12 +41,23 @@ pub fn touches(
         return Some(apart);
     }
     let placed = Placed::pair(a, pose_a, b, pose_b);
-    let (axis, otherwise, apart) = of_cores(&placed, reach_m);
-    let mut collect = Collect { placed: &placed, origin_W: pose_b.p_W, margin_m, visited: false, out };
+    let cores = of_cores(&placed, reach_m);
+    touches_of(&placed, &pose_b.p_W, &cores, margin_m, out);
+    Some(cores.2)
+}
+
+/// Adds all points of two placed solids, of which this is known, whose gap is below the margin.
+pub(super) fn touches_of(
+    placed: &[Placed; 2],
+    origin_W: &Vector3<f64>,
+    (axis, otherwise, apart): &(Axis, Vector3<f64>, Apart),
+    margin_m: f64,
+    out: &mut Vec<Meeting>,
+) {
     if apart.gap_m < margin_m {
-        collect.all(&axis, &otherwise, reach_m);
+        let size_m = placed[0].solid.bounding_radius_m() + placed[1].solid.bounding_radius_m();
+        Collect { placed, origin_W: *origin_W, margin_m, visited: false, out }.all(axis, otherwise, size_m);
     }
-    Some(apart)
 }
 
 /// How far apart two solids are, wherever they are.
@@ -84,7 +95,7 @@ fn corners(feature: u32) -> [u32; 2] {
 
 /// The axis between two cores, what else it may be where no face lies opposite (`axis::axis`), and the solids'
 /// distance.
-fn of_cores(placed: &[Placed; 2], reach_m: f64) -> (Axis, Vector3<f64>, Apart) {
+pub(super) fn of_cores(placed: &[Placed; 2], reach_m: f64) -> (Axis, Vector3<f64>, Apart) {
     let [a, b] = placed;
     let is_capsules = matches!((a.solid, b.solid), (Solid::Capsule { .. }, Solid::Capsule { .. }));
     let (axis, otherwise, second_m) = if is_capsules { of_capsules(a, b) } else { axis(a, b, reach_m) };

@@ -12,7 +12,6 @@
 //!   deep, one in 10⁴ ends at one that is not the highest.
 
 use super::gjk::between;
-use super::manifold::is_over_face;
 use super::placed::Placed;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
@@ -20,6 +19,8 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 const EQUAL: f64 = 1e-12;
 /// Distance of cores, of the size, below which they have no direction between them that rounding leaves alone.
 const TOUCHING: f64 = 1e-10;
+/// Depth, of the size, up to which bodies have one peak: another one is no higher than by that (`band::BAND`).
+const SHALLOW: f64 = 1e-9;
 
 pub struct Axis {
     /// Unit direction from b to a.
@@ -102,10 +103,16 @@ fn best_face(a: &Placed, b: &Placed, size_m: f64, second: &mut Second) -> Option
     best
 }
 
-/// Whether bodies that do not overlap are nearest over a face, as no two points are nearer than along its normal, and
-/// two are as near.
+/// Whether bodies that do not overlap, or hardly, are nearest over a face: no two points are nearer than along its
+/// normal, and two are as near.
 fn is_nearest_there(a: &Placed, b: &Placed, flat: &Axis, size_m: f64) -> bool {
-    flat.gap_m >= -TOUCHING * size_m && is_over_face(a, b, flat)
+    let n = &flat.normal;
+    let is_over = match flat.face {
+        Some(Face::OfA(face)) => a.is_below(face, &b.support(n)),
+        Some(Face::OfB(face)) => b.is_below(face, &a.support(&-n)),
+        None => false,
+    };
+    is_over && flat.gap_m >= -SHALLOW * size_m
 }
 
 fn of_polytopes(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64, second: &mut Second) -> (Vector3<f64>, f64) {
@@ -137,9 +144,8 @@ fn of_polytopes(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64, second
 fn of_curved(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64) -> (Vector3<f64>, f64) {
     let guesses = first_guesses(a, b, flat);
     let mut best = climb(a, b, guesses[0], size_m);
-    // Separated bodies have one peak; overlapping ones a few, of similar height where they overlap in a corner. By what
-    // they overlap no other is higher than by that.
-    if best.1 < -TOUCHING * size_m {
+    // Separated bodies have one peak; overlapping ones a few, of similar height where they overlap in a corner.
+    if best.1 < -SHALLOW * size_m {
         for guess in &guesses[1..] {
             let other = climb(a, b, *guess, size_m);
             if other.1 > best.1 + EQUAL * size_m {

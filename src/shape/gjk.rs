@@ -31,7 +31,7 @@ pub fn between(a: &Placed, b: &Placed, shift: &Vector3<f64>) -> Vector3<f64> {
 }
 
 /// The simplex's point nearest to the origin, which is outside, and the one to three corners that span it: the best of
-/// all ways to choose them, as there are few.
+/// all ways to choose them, as there are few. The last corner is one of them, as it is nearer than all the others span.
 fn nearest(simplex: &[Vector3<f64>]) -> (Vector3<f64>, [Vector3<f64>; 4], usize) {
     let mut best = (Vector3::repeat(f64::INFINITY), [simplex[0]; 4], 0);
     let mut consider = |point: Vector3<f64>, corners: &[Vector3<f64>]| {
@@ -41,18 +41,17 @@ fn nearest(simplex: &[Vector3<f64>]) -> (Vector3<f64>, [Vector3<f64>; 4], usize)
             best.2 = corners.len();
         }
     };
-    for (i, &a) in simplex.iter().enumerate() {
-        consider(a, &[a]);
-        for (j, &b) in simplex.iter().enumerate().skip(i + 1) {
-            let e = b - a;
-            let part = -a.dot(&e) / e.norm_squared();
-            if part > 0.0 && part < 1.0 {
-                consider(a + e * part, &[a, b]);
-            }
-            for &c in &simplex[j + 1..] {
-                if let Some(point) = on_triangle(&a, &e, &(c - a)) {
-                    consider(point, &[a, b, c]);
-                }
+    let [earlier @ .., last] = simplex else { return best };
+    consider(*last, &[*last]);
+    for (i, a) in earlier.iter().enumerate() {
+        let e = last - a;
+        let part = -a.dot(&e) / e.norm_squared();
+        if part > 0.0 && part < 1.0 {
+            consider(a + e * part, &[*a, *last]);
+        }
+        for b in &earlier[i + 1..] {
+            if let Some(point) = on_triangle(a, &(b - a), &e) {
+                consider(point, &[*a, *b, *last]);
             }
         }
     }

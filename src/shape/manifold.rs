@@ -183,17 +183,6 @@ fn facing_sides<'a>(a: &'a Placed, b: &'a Placed, axis: &Axis) -> Option<[Side<'
     Some([Side::facing(a, &-axis.normal, face_a), Side::facing(b, &axis.normal, face_b)])
 }
 
-/// Whether what of either body is farthest along the axis of a face lies over that face.
-pub fn is_over_face(a: &Placed, b: &Placed, axis: &Axis) -> bool {
-    let n = &axis.normal;
-    let (side, farthest) = match axis.face {
-        Some(Face::OfA(face)) => (Side::facing(a, &-n, Some(face)), b.support(n)),
-        Some(Face::OfB(face)) => (Side::facing(b, n, Some(face)), a.support(&-n)),
-        None => return false,
-    };
-    side.over(&farthest, n, 0.0).is_some()
-}
-
 /// Calls `visit` for the point where the outlines of two facing sides are nearest to each other, which do not lie
 /// opposite.
 pub fn of_nearest_edges(a: &Placed, b: &Placed, axis: &Axis, visit: &mut impl FnMut(Opposite)) {

@@ -39,6 +39,20 @@ impl<'a> Placed<'a> {
         }
     }
 
+    /// Whether a face has this point before or behind it, along its normal.
+    pub fn is_below(&self, face: u32, p: &Vector3<f64>) -> bool {
+        let normal = self.face_normal(face);
+        if !self.is_polytope() {
+            let (centre, radius_m) = self.cap(face);
+            return normal.cross(&(p - centre)).norm() <= radius_m;
+        }
+        let corners = self.face_corners(face);
+        (0..corners.len()).all(|i| {
+            let [from, to] = [i, (i + 1) % corners.len()].map(|i| self.vertex(corners[i]));
+            (to - from).cross(&normal).dot(&(p - from)) <= 0.0
+        })
+    }
+
     /// From its middle line to the line of the core's round side that faces along `d`; none: no round side does.
     pub fn round_side(&self, d: &Vector3<f64>) -> Option<Vector3<f64>> {
         let across = d - self.axis() * self.axis().dot(d);

@@ -279,18 +279,30 @@ const ROUNDING_OF_PLACE: f64 = 4.0 * f64::EPSILON;
 /// Displacements that follow each other, as turns are not displacements: what the second leaves is rounding.
 const TRIES: u32 = 3;
 
+/// Of the gaps before a displacement: larger ones after it are no rounding. (Where a rim and an edge lie almost along
+/// each other, a displacement of nanometres moves the point in which they meet by centimetres.)
+const WORSE: f64 = 2.0;
+
 /// Whether there was any gap. Velocities are gathered where the bodies are then.
 fn close_gaps(model: &Model, state: &mut State, held: &[Held], gathered: &mut Gathered) -> bool {
-    for tries in 0..TRIES {
+    let mut before: Option<(f64, Vec<BodyState>)> = None;
+    for tries in 0..=TRIES {
         gathered.gather_velocities(model, state, held.iter().map(|held| &held.touch));
         let gaps_m = gathered.here.iter().map(|here| here.contact.gap_m.abs()).fold(0.0, f64::max);
         let apart_m = model.pins.iter().map(|pin| pin.apart_W(&state.bodies).norm()).fold(0.0, f64::max);
+        let most_m = gaps_m.max(apart_m);
+        if let Some((_, bodies)) = before.take_if(|(before_m, _)| most_m > WORSE * *before_m) {
+            state.bodies = bodies;
+            gathered.gather_velocities(model, state, held.iter().map(|held| &held.touch));
+            return tries > 1;
+        }
         let extent = |(at, body): (&BodyState, &Body)| at.p_WB.amax() + body.bounding_radius_m;
         let extent_m = state.bodies.iter().zip(&model.bodies).map(extent).fold(0.0, f64::max);
         let least_m = ROUNDING_OF_PLACE * extent_m;
-        if gaps_m.max(apart_m) <= least_m {
+        if most_m <= least_m || tries == TRIES {
             return tries > 0;
         }
+        before = Some((most_m, state.bodies.clone()));
         for (block, here) in gathered.problem.blocks.iter_mut().zip(&gathered.here) {
             block.b = Vector3::new(here.contact.gap_m, 0.0, 0.0);
         }

@@ -20,6 +20,8 @@ use nalgebra::Vector3;
 #[derive(Clone, Debug)]
 pub struct DoubtfulPair {
     pub pair: [usize; 2],
+    /// Whether the two touch at the start of the step.
+    pub touches: bool,
     /// Whether its points are asked to stay apart.
     pub is_imposed: bool,
     /// Whether its points were found by a motion without any impulse of its own.
@@ -75,11 +77,11 @@ impl Doubts {
         }
 
         if self.used == self.all.len() {
-            self.all.push(DoubtfulPair { pair, is_imposed: false, is_sure: false, points: Vec::new() });
+            self.all.push(DoubtfulPair { pair, touches, is_imposed: false, is_sure: false, points: Vec::new() });
         }
         let doubt = &mut self.all[self.used];
         self.used += 1;
-        doubt.pair = pair;
+        (doubt.pair, doubt.touches) = (pair, touches);
         doubt.points.clear();
         doubt.points.extend(points);
         doubt.is_imposed = touches && apart.second_m < -band_m(model, pair, at);

@@ -10,8 +10,8 @@
 
 use super::scratch::Scratch;
 use crate::collide::approach::{Approach, foresee};
-use crate::collide::closed::rounding_m;
-use crate::collide::doubt::{Doubts, band_m};
+use crate::collide::closed::{is_closed_to_rounding, rounding_m};
+use crate::collide::doubt::{DoubtfulPair, Doubts, band_m};
 use crate::collide::way::{FreeTurn, Moving, Way};
 use crate::collide::{Ahead, Contact, Key};
 use crate::exact::free_rotation::FreeRotation;
@@ -34,6 +34,9 @@ const SHORTER: f64 = 0.9;
 const OFTEN: f64 = 200.0;
 /// Of a step that ends where bodies hit each other: its end.
 const AT_THE_END: f64 = 1.0 - 1e-6;
+/// Cosine of the angle within which two axes bear the same load, and how near their points are, of the smaller body.
+const BESIDE: f64 = 0.99;
+const NEXT: f64 = 0.05;
 /// Of a slack: a lead beyond it that is rounding.
 const LED: f64 = 1.0 + 1e-6;
 /// Of an overlap that others leave: what may come of it at another place of the same bodies.
@@ -138,8 +141,15 @@ impl Foreseen {
         }
     }
 
-    /// Looks at what may come in the step.
-    pub(super) fn look(&mut self, model: &Model, state: &State, scratch: &mut Scratch, step_s: f64) {
+    /// Looks at what may come in the step. `last`: impulses of the step before, in the order of contacts.
+    pub(super) fn look(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scratch: &mut Scratch,
+        last: &[(Key, Vector3<f64>)],
+        step_s: f64,
+    ) {
         (self.round, self.is_given_up, self.hit_s, self.turned_s) = (0, false, None, None);
         self.fall_m.clear();
         let bodies = model.bodies.iter().zip(&state.bodies).zip(&scratch.free);
@@ -149,7 +159,42 @@ impl Foreseen {
         self.slack_m.clear();
         self.slack_m.extend(self.fall_m.iter().map(|fall_m| SLACK * fall_m));
         self.see(model, state, scratch, step_s);
+        self.ask_what_pushed(model, last);
         self.ask(&mut scratch.found);
+    }
+
+    /// What pushed in the last step mostly pushes on. But what has come off an edge that another contact bears beside:
+    /// an iteration would go on to share the load between the two.
+    fn ask_what_pushed(&mut self, model: &Model, last: &[(Key, Vector3<f64>)]) {
+        for k in 0..self.doubts.list().len() {
+            let doubt = &self.doubts.list()[k];
+            let [a, b] = doubt.pair;
+            let first = last.partition_point(|(key, _)| (key.0, key.1) < (a, Some(b)));
+            let mut own = last[first..].iter().take_while(|(key, _)| (key.0, key.1) == (a, Some(b)));
+            let pushed = own.any(|(_, p)| *p != Vector3::zeros());
+            if pushed && (doubt.touches || !self.is_borne_beside(model, doubt)) {
+                self.doubts.list_mut()[k].is_imposed = true;
+            }
+        }
+    }
+
+    /// Whether another contact of one of the two touches next to it, along the same axis.
+    fn is_borne_beside(&self, model: &Model, doubt: &DoubtfulPair) -> bool {
+        let touching = self.contacts.iter().filter(|contact| is_closed_to_rounding(model, contact));
+        let others = self.doubts.list().iter().filter(|other| other.touches).flat_map(|other| &other.points);
+        let sizes_m = doubt.pair.map(|i| model.bodies[i].bounding_radius_m);
+        let near_m = NEXT * sizes_m[0].min(sizes_m[1]);
+        touching.chain(others).any(|contact| {
+            let bears = |point: &Contact| {
+                let is_next = (contact.p_WC - point.p_WC).norm() <= near_m;
+                let along = contact.normal.dot(&point.normal);
+                let same = |(i, _, s): (usize, Vector3<f64>, f64), (j, _, t): (usize, Vector3<f64>, f64)| {
+                    i == j && s * t * along > BESIDE
+                };
+                is_next && contact.ends().any(|of| point.ends().any(|own| same(of, own)))
+            };
+            (contact.body, contact.other) != (doubt.pair[0], Some(doubt.pair[1])) && doubt.points.iter().any(bears)
+        })
     }
 
     /// Whether nothing was near in the step looked at.

@@ -226,7 +226,7 @@ impl TimeStepping {
             let ahead_s = if self.made_s < left_s { self.made_s - before_s } else { self.made_s };
             self.scratch.free_velocities(model, state, self.made_s);
             self.turning.begin(model, state, &mut self.scratch, (self.approach, self.made_s));
-            self.foreseen.look(model, state, &mut self.scratch, ahead_s);
+            self.foreseen.look(model, state, &mut self.scratch, &self.last, ahead_s);
             // 2. Contact impulses, until they ask for no other contacts; displacements that remove penetration.
             self.solve_rounds(model, state, self.made_s, ahead_s);
             let after_s = self.made_s - before_s;
@@ -323,7 +323,7 @@ impl TimeStepping {
         }
         self.scratch.free_velocities(model, state, 0.0);
         self.turning.begin(model, state, &mut self.scratch, (Approach::Middle, 0.0));
-        self.foreseen.look(model, state, &mut self.scratch, step_s);
+        self.foreseen.look(model, state, &mut self.scratch, &self.last, step_s);
         self.scratch.found.clear();
         self.scratch.response.clear();
         self.scratch.response.resize(model.bodies.len(), Twist::ZERO);

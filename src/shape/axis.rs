@@ -19,8 +19,12 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 const EQUAL: f64 = 1e-12;
 /// Distance of cores, of the size, below which they have no direction between them that rounding leaves alone.
 const TOUCHING: f64 = 1e-10;
-/// Depth, of the size, up to which bodies have one peak: another one is no higher than by that (`band::BAND`).
+/// Depth, of the smaller body, up to which two have one peak: another one is no higher than by that (`band::BAND`).
 const SHALLOW: f64 = 1e-9;
+
+fn shallow_m(a: &Placed, b: &Placed) -> f64 {
+    SHALLOW * a.solid.bounding_radius_m().min(b.solid.bounding_radius_m())
+}
 
 pub struct Axis {
     /// Unit direction from b to a.
@@ -76,7 +80,7 @@ pub fn axis(a: &Placed, b: &Placed, size_m: f64) -> (Axis, Vector3<f64>, f64) {
     let flat = best_face(a, b, size_m, &mut second);
     let (normal, gap_m) = if a.is_polytope() && b.is_polytope() {
         of_polytopes(a, b, &flat, size_m, &mut second)
-    } else if let Some(flat) = flat.as_ref().filter(|flat| is_nearest_there(a, b, flat, size_m)) {
+    } else if let Some(flat) = flat.as_ref().filter(|flat| is_nearest_there(a, b, flat)) {
         (flat.normal, flat.gap_m)
     } else {
         of_curved(a, b, &flat, size_m)
@@ -105,14 +109,14 @@ fn best_face(a: &Placed, b: &Placed, size_m: f64, second: &mut Second) -> Option
 
 /// Whether bodies that do not overlap, or hardly, are nearest over a face: no two points are nearer than along its
 /// normal, and two are as near.
-fn is_nearest_there(a: &Placed, b: &Placed, flat: &Axis, size_m: f64) -> bool {
+fn is_nearest_there(a: &Placed, b: &Placed, flat: &Axis) -> bool {
     let n = &flat.normal;
     let is_over = match flat.face {
         Some(Face::OfA(face)) => a.is_below(face, &b.support(n)),
         Some(Face::OfB(face)) => b.is_below(face, &a.support(&-n)),
         None => false,
     };
-    is_over && flat.gap_m >= -SHALLOW * size_m
+    is_over && flat.gap_m >= -shallow_m(a, b)
 }
 
 fn of_polytopes(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64, second: &mut Second) -> (Vector3<f64>, f64) {
@@ -145,7 +149,7 @@ fn of_curved(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64) -> (Vecto
     let guesses = first_guesses(a, b, flat);
     let mut best = climb(a, b, guesses[0], size_m);
     // Separated bodies have one peak; overlapping ones a few, of similar height where they overlap in a corner.
-    if best.1 < -SHALLOW * size_m {
+    if best.1 < -shallow_m(a, b) {
         for guess in &guesses[1..] {
             let other = climb(a, b, *guess, size_m);
             if other.1 > best.1 + EQUAL * size_m {

@@ -109,6 +109,69 @@ fn a_bounce_is_no_ghost() {
     assert_eq!(ghost, 0.0);
 }
 
+/// What the judge says of a blow on the floor, which changes velocities alone.
+fn judged_blow(model: &Model, before: &State, contacts: &[SolvedContact], after: &State) -> f64 {
+    let mut ledger = GeometryLedger::new(model, before, true);
+    let acted = Acted::Blow { contacts };
+    ledger.observe(model, &Shown { before, after, acted, way: None, stalled: None, is_last: false });
+    ledger.ghost_impulse_max_rel.unwrap()
+}
+
+/// Something else throws the ball up as well: what is left to rebound by is less than what parts them without it.
+#[test]
+fn what_rebounds_may_be_pushed_by_less_than_others_part_it_by() {
+    let (model, mut start) = scene(BALL_ON_FLOOR);
+    let mut ghost = |came_m_s: f64, restitution: f64| {
+        start.bodies[0].v_WB.y = came_m_s;
+        let mut after = start.clone();
+        after.bodies[0].v_WB.y = 0.5;
+        let mut contact = on_floor(&start, 0.1);
+        contact.contact.restitution = restitution;
+        judged_blow(&model, &start, &[contact], &after)
+    };
+    assert_eq!(ghost(-1.0, 0.5), 0.0);
+    assert!(ghost(-1.0, 0.0) > 0.0, "what does not rebound is not pushed beyond rest");
+    assert!(ghost(0.1, 0.5) > 0.0, "what parts has nothing to rebound from");
+}
+
+const CRATE_AT_A_SEAM: &str = "
+scene:
+  bodies:
+    - { name: crate, shape: { box: { size_m: [0.2, 0.2, 0.2] } }, mass_kg: 1, position_m: [-0.1, 0.1, 0] }
+    - { name: block, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, position_m: [0.5, -0.5, 0], fixed: true }
+time: { step_s: 0.01, end_s: 1 }
+";
+
+/// A crate lands with its leading edge at a block's: its top turns it back, and its side has no part in that.
+#[test]
+fn what_rebounds_from_a_top_is_not_pushed_by_a_side() {
+    let (model, mut start) = scene(CRATE_AT_A_SEAM);
+    start.bodies[0].v_WB = Vector3::new(2.0, -1.0, 0.0);
+    let mut after = start.clone();
+    after.bodies[0].v_WB = Vector3::new(1.0, 0.5, 0.0);
+    let ghost = |normal: Vector3<f64>| {
+        let SolvedContact { contact, .. } = on_floor(&start, 0.0);
+        let (p_WC, restitution) = (Vector3::zeros(), 0.5);
+        let [r_BC_W, r_OC_W] = [0, 1].map(|i: usize| p_WC - start.bodies[i].p_WB);
+        let other = Some(1);
+        let contact = Contact { other, r_BC_W, r_OC_W, p_WC, normal, gap_m: 0.0, restitution, ..contact };
+        judged_blow(&model, &start, &[SolvedContact { contact, impulse_W: normal }], &after)
+    };
+    assert!(ghost(-Vector3::x()) > 0.1);
+    assert_eq!(ghost(Vector3::y()), 0.0);
+}
+
+/// A ball slides fast, and comes down on the floor by a millionth of that.
+#[test]
+fn what_mostly_passes_by_may_be_stopped() {
+    let (model, mut start) = scene(BALL_ON_FLOOR);
+    start.bodies[0].v_WB = Vector3::new(1e3, -1e-3, 0.0);
+    let mut after = start.clone();
+    after.bodies[0].v_WB.y = 0.0;
+    let ghost = judged_blow(&model, &start, &[on_floor(&start, 2e-3)], &after);
+    assert_eq!(ghost, 0.0);
+}
+
 #[test]
 fn a_body_that_nothing_holds_is_seen_sinking() {
     let (model, start) = scene(BALL_ON_FLOOR);

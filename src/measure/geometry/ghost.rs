@@ -36,6 +36,13 @@ const LOOKS: usize = 64;
 /// rounding may make of them, far from the origin.
 const AHEAD: f64 = 1e-6;
 const BEYOND: f64 = 1e3;
+/// Of that way: so far are two followed that come nearer on it by less than can be told.
+const FURTHER: f64 = 8.0;
+/// Of the smaller body's size: so far apart two bodies may be pushed, if that is what keeps them from coming nearer: a
+/// point is on a face up to so far beyond its border (`event::touch`).
+const BESIDE: f64 = 1e-8;
+/// Cosine of the angle of normals that are of one face.
+const ALONG: f64 = 0.99;
 /// Of the speed: a change of velocity that shows in the motion itself.
 const SHOWS: f64 = 1e-3;
 
@@ -55,6 +62,8 @@ pub struct Group {
     angular_W: [Vector3<f64>; 2],
     /// From the first body's centre of mass to the middle of what pushes along the normal.
     arm_W: Vector3<f64>,
+    /// One of its contacts has restitution.
+    rebounds: bool,
 }
 
 impl Group {
@@ -69,11 +78,12 @@ impl Group {
         }
         let zero = Vector3::zeros();
         let (bodies, normal) = ((of.body, of.other), of.normal);
-        let mut group = Group { bodies, normal, impulse_W: zero, angular_W: [zero; 2], arm_W: zero };
+        let mut group = Group { bodies, normal, impulse_W: zero, angular_W: [zero; 2], arm_W: zero, rebounds: false };
         let mut pushed = 0.0;
         for SolvedContact { contact, impulse_W } in solved[first..].iter().filter(|s| is_along(&s.contact.normal)) {
             let pushes = impulse_W.dot(&of.normal).max(0.0);
             pushed += pushes;
+            group.rebounds |= contact.restitution > 0.0;
             group.arm_W += contact.r_BC_W * pushes;
             group.impulse_W += impulse_W;
             group.angular_W[0] += contact.r_BC_W.cross(impulse_W);
@@ -83,6 +93,13 @@ impl Group {
             group.arm_W /= pushed;
         }
         Some(group)
+    }
+
+    /// How fast two bodies part by these changes of velocity, which the impulses made, along the impulse.
+    fn kept_m_s(&self, gains: &[Gain; 2]) -> f64 {
+        let work =
+            |gain: &Gain, sign: f64, angular: &Vector3<f64>| self.impulse_W.dot(&gain.v) * sign + angular.dot(&gain.w);
+        (work(&gains[0], 1.0, &self.angular_W[0]) + work(&gains[1], -1.0, &self.angular_W[1])) / self.impulse_W.norm()
     }
 }
 
@@ -134,7 +151,10 @@ impl GhostJudge<'_> {
             |ends: &[Stand; 2]| [(a, &ends[0]), (b, &ends[1])].map(|(i, to)| Leg::to((&kicked.bodies[i]).into(), to));
         let (with, without) = (legs(&[end(a, &Gain::NONE), end(b, &Gain::NONE)]), legs(&without));
         let size_rel = self.weigh(group, kicked, &without, over_s);
-        if size_rel > 0.0 && self.is_early(group, &gains, [&with, &without], over_s) { 0.0 } else { size_rel }
+        // What lasts through steps that kick half-way is turned back by as much as it came.
+        let comes = |judge: &mut Self| more_s > 0.0 && judge.come(group, kicked, more_s);
+        let is_there = size_rel > 0.0 && (self.is_early(group, &gains, [&with, &without], over_s) || comes(self));
+        if is_there { 0.0 } else { size_rel }
     }
 
     /// Without the impulses the bodies come as much nearer as they should, up to what a step does not see of their
@@ -151,10 +171,7 @@ impl GhostJudge<'_> {
         if unseen_m == 0.0 {
             return false;
         }
-        let work =
-            |gain: &Gain, sign: f64, angular: &Vector3<f64>| group.impulse_W.dot(&gain.v) * sign + angular.dot(&gain.w);
-        let kept_m = over_s * (work(&gains[0], 1.0, &group.angular_W[0]) + work(&gains[1], -1.0, &group.angular_W[1]))
-            / group.impulse_W.norm();
+        let kept_m = over_s * group.kept_m_s(gains);
         let comes_nearer = |[gap_m, left_m]: [f64; 2]| left_m <= unseen_m && gap_m - left_m >= NEARER * kept_m;
         // Another corner may be as near to a face with the impulse as this one is without it.
         let legs = [with, without];
@@ -212,7 +229,29 @@ impl GhostJudge<'_> {
             Leg { from: at.into(), moved: (v - gain.v) * time_s, turned: (w - gain.w) * time_s }
         };
         let legs = [leg(group.bodies.0, &gains[0]), leg(group.bodies.1.unwrap_or(group.bodies.0), &gains[1])];
-        self.weigh(group, before, &legs, 0.0)
+        let is_there = self.come_nearer(group, before, &legs, time_s * group.kept_m_s(&gains))
+            || (group.rebounds && self.come(group, before, time_s));
+        if is_there { 0.0 } else { self.weigh(group, before, &legs, 0.0) }
+    }
+
+    /// Two bodies go inside along the normal as they came: what rebounds may be pushed by less than others part them
+    /// by.
+    fn come(&mut self, group: &Group, before: &State, time_s: f64) -> bool {
+        let leg = |i: usize| {
+            let at = &before.bodies[i];
+            Leg { from: at.into(), moved: at.v_WB * time_s, turned: at.w_WB * time_s }
+        };
+        let legs = [group.bodies.0, group.bodies.1.unwrap_or(group.bodies.0)].map(leg);
+        let closed_m = self.closed_m(group, before);
+        let [a, b] = legs.map(|leg| leg.at(1.0));
+        let Some(other) = group.bodies.1 else { return self.is_in_container(group, &a, closed_m) };
+        let origin_W = b.p_WB;
+        let [a, b] = [(group.bodies.0, &a), (other, &b)].map(|(i, at)| posed(self.model, i, at, &origin_W));
+        a.zip(b).is_some_and(|(a, b)| {
+            let parting = part(&a, &b, self.memory);
+            // Not into another face.
+            parting.gap_m < -closed_m && parting.normal.dot(&group.normal).abs() >= ALONG
+        })
     }
 
     /// Forces over a time, given as impulses, at a state in it.
@@ -228,7 +267,23 @@ impl GhostJudge<'_> {
             turned: -gain.w * time_s,
         };
         let legs = [leg(group.bodies.0, &gains[0]), leg(group.bodies.1.unwrap_or(group.bodies.0), &gains[1])];
+        if self.come_nearer(group, at, &legs, time_s * group.kept_m_s(&gains)) {
+            return 0.0;
+        }
         self.weigh(group, at, &legs, over_s)
+    }
+
+    /// Two bodies come nearer on these ways by what should have kept them apart by so much, all but touching.
+    fn come_nearer(&mut self, group: &Group, at: &State, legs: &[Leg; 2], kept_m: f64) -> bool {
+        let Some(other) = group.bodies.1 else { return false };
+        let (beside_m, closed_m) = (BESIDE * self.size_m(group), self.closed_m(group, at));
+        let mut pair = NearPair { bodies: [group.bodies.0, other], axis: Vector3::zeros() };
+        let mut gap_at =
+            |way: f64| gap_m(self.model, &mut pair, legs.each_ref().map(|leg| leg.at(way)), f64::INFINITY, self.memory);
+        let [from_m, to_m] = [0.0, 1.0].map(&mut gap_at);
+        // What mostly passes by comes nearer by less than can be told at first.
+        (from_m <= beside_m && from_m - to_m >= NEARER * kept_m)
+            || (to_m < from_m.min(0.0) && gap_at(FURTHER) < -closed_m)
     }
 
     /// M⁻¹ times the group's impulses.
@@ -275,12 +330,7 @@ impl GhostJudge<'_> {
     /// The size of the impulse, if the bodies nowhere overlap on these ways; else 0.
     fn weigh(&mut self, group: &Group, at: &State, legs: &[Leg; 2], over_s: f64) -> f64 {
         let closed_m = self.closed_m(group, at);
-        // A half-space is entered deepest at an end.
-        let overlaps = match group.bodies.1 {
-            Some(other) => self.overlap(group.bodies.0, other, legs, closed_m),
-            None => [1.0, 0.0].iter().any(|way| self.is_in_container(group, &legs[0].at(*way), closed_m)),
-        };
-        if overlaps {
+        if self.go_inside(group, legs, closed_m) {
             return 0.0;
         }
         let bodies = [Some(group.bodies.0), group.bodies.1];
@@ -293,6 +343,15 @@ impl GhostJudge<'_> {
         let momentum = self.model.bodies[i].mass_kg * (at.bodies[i].v_WB.norm() + v.norm());
         // What rests without a force: as if it had come with a millionth of what it gets.
         size / momentum.max(1e-6 * size)
+    }
+
+    /// Somewhere on these ways.
+    fn go_inside(&mut self, group: &Group, legs: &[Leg; 2], closed_m: f64) -> bool {
+        match group.bodies.1 {
+            Some(other) => self.overlap(group.bodies.0, other, legs, closed_m),
+            // A half-space is entered deepest at an end.
+            None => [1.0, 0.0].iter().any(|way| self.is_in_container(group, &legs[0].at(*way), closed_m)),
+        }
     }
 
     fn overlap(&mut self, a: usize, b: usize, legs: &[Leg; 2], closed_m: f64) -> bool {

@@ -13,6 +13,11 @@ use nalgebra::Vector3;
 /// tangent, and bear next to each other.
 const TANGENT: f64 = 1e-6;
 
+/// Sine of the angle between an edge and a cap's plane up to which it lies there: what turns up over the rim has
+/// another normal (`rim_on_edge`). (That of two rims is hardly told by their axes, as long as these are next to
+/// parallel.)
+pub(super) const LIES: f64 = 1e-8;
+
 /// A cap of a cylinder, from the centre of mass, body axes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Disc {
@@ -120,7 +125,13 @@ impl OnRim {
     }
 
     pub(super) fn inside_m(&self, at: [&BodyState; 2]) -> f64 {
-        self.place(at).inside_m
+        let Place { n, along, inside_m, .. } = self.place(at);
+        match &self.outline {
+            Outline::Line(line) if line.radius_m == 0.0 => {
+                inside_m.min((LIES - n.dot(&along).abs()) * self.cap.radius_m)
+            }
+            Outline::Line(_) | Outline::Rim(_) => inside_m,
+        }
     }
 
     pub(super) fn here<'a>(&self, found: &Contact, bodies: &impl Fn(usize) -> &'a BodyState) -> (Contact, Rates) {

@@ -1,7 +1,7 @@
 //! Which kind of contact one is that the contact test has found.
 
 use super::ball_on_line::Beside;
-use super::crossing::{Disc, OnRim, Outline};
+use super::crossing::{Disc, LIES, OnRim, Outline};
 use super::curved::{Curved, Side};
 use super::lines::Crossing;
 use super::parts::Parts;
@@ -145,15 +145,16 @@ pub(super) fn rim_on_edge<'a>(
     let at = bodies.map(place);
     let out_W = if of == 0 { -found.normal } else { found.normal };
     let own_B = at[of].q_WB.inverse_transform_vector(&out_W);
-    // What lies flat on a cap crosses its outline (`crossing`).
-    if kind(features[of]) == ARC && own_B.xz().norm() <= ROLLS {
-        return None;
-    }
     let out_B = Vector3::y() * own_B.y.signum();
     let cap = (centre + out_B * *half_height_m, out_B, *radius_m);
     // The point of the edge that is next to what was found.
     let ends = edge_ends_W(solid, &pose_of_solid(base_centre, at[1 - of]), features[1 - of])?;
     let d = (ends[1] - ends[0]).try_normalize(0.0)?;
+    // What lies flat on a cap crosses its outline (`crossing`).
+    let lies = (at[of].q_WB * out_B).dot(&d).abs() <= LIES;
+    if lies && kind(features[of]) == ARC && own_B.xz().norm() <= ROLLS {
+        return None;
+    }
     let on_W = ends[0] + d * d.dot(&(found.p_WC - ends[0]));
     let own = |v: Vector3<f64>| at[1 - of].q_WB.inverse_transform_vector(&v);
     let Spot::Line(edge) = shown(base, &own(on_W - at[1 - of].p_WB), &own(-out_W), 0.0)?.spot else { return None };
@@ -222,7 +223,12 @@ fn over_face(
     // point.
     let is_told = match part {
         Part::Ball(ball) => ball.radius_m > 0.0,
-        Part::Rim { axis_B, .. } => (at(of).q_WB * axis_B).cross(&out_W).norm() > LEANS,
+        Part::Rim { centre_B, axis_B, radius_m } if (at(of).q_WB * axis_B).cross(&out_W).norm() <= LEANS => {
+            let cap = (*centre_B, axis_B * -(at(of).q_WB * axis_B).dot(&out_W).signum(), *radius_m);
+            let edge = edge_beside(&model.bodies[base], at(base), found, plane)?;
+            return RimOnEdge::new(found, &at, of == found.body, cap, edge).map(Parts::RimOnEdge);
+        }
+        Part::Rim { .. } => true,
         Part::Ellipsoid { .. } => !matches!(plane.border, Border::Round { .. }),
     };
     if !is_told || (matches!(part, Part::Rim { .. }) && matches!(plane.border, Border::Round { .. })) {
@@ -255,6 +261,20 @@ fn beside_cap(body: &Body, of: &mut Option<Facing>) {
         let (axis_B, radius_m) = (Vector3::y(), *radius_m);
         let centre_B = centre + face.normal_B * *half_height_m;
         *facing = Facing { spot: Spot::Part(Part::Rim { centre_B, axis_B, radius_m }), face: None };
+    }
+}
+
+/// The edge of a face that is next to what was found.
+fn edge_beside(body: &Body, at: &BodyState, found: &Contact, plane: &Plane) -> Option<Line> {
+    let (Border::Walls(walls), n) = (&plane.border, plane.normal) else { return None };
+    let p_B = at.q_WB.inverse_transform_vector(&(found.p_WC - at.p_WB));
+    let on = p_B + n * (plane.offset_m - n.dot(&p_B));
+    let inside_m = |(wall, offset_m): &(Vector3<f64>, f64)| offset_m - wall.dot(&on);
+    let nearest = walls.iter().min_by(|a, b| inside_m(a).total_cmp(&inside_m(b)))?;
+    let along = nearest.0 - n * n.dot(&nearest.0);
+    match shown(body, &(on + along * (inside_m(nearest) / along.norm_squared())), &n, 0.0)?.spot {
+        Spot::Line(edge) => Some(edge),
+        Spot::Part(_) | Spot::Inside => None,
     }
 }
 

@@ -74,6 +74,9 @@ const MOST_ARRIVING: u32 = 200;
 /// Of the band: where an axis leaves it is not asked more closely.
 const PART_OF_BAND: f64 = 0.1;
 
+/// Of how deep one is.
+const DEEPER: f64 = 0.01;
+
 /// Parts of two bodies that face each other.
 struct Parted {
     /// The least gap.
@@ -404,7 +407,7 @@ impl<'a> Two<'a> {
             let look = Look { gap_m: touch.gap_m, rate_m_s, toward_m_s2, known_s: near_m / closing, ..Look::EMPTY };
             let touches = look.is_touching(*delta_m, *slow_m_s);
             let lingers = !touches && look.gap_m <= *delta_m && look.rate_m_s <= *slow_m_s;
-            let of_touch_s = self.rolling_s(now, touch, &look);
+            let of_touch_s = self.rolling_s(now, touch, &look).max(self.deeper_s(touch.gap_m, closing));
             safe_s = safe_s.min(of_touch_s);
             others_s = if touches { others_s } else { others_s.min(of_touch_s) };
             touching |= touches;
@@ -413,6 +416,12 @@ impl<'a> Two<'a> {
         let way_m = near_m.max(self.smaller_m() * WAY);
         let way_s = way_m / closing.max(f64::MIN_POSITIVE);
         Parted { least_m, safe_s: safe_s.min(way_s), others_s: others_s.min(way_s), touching, lingering }
+    }
+
+    /// In which what is deep inside and comes out gets deeper by no more than a part of that: what steps of equal
+    /// length have left is not to be seen more sharply.
+    fn deeper_s(&self, gap_m: f64, closing_m_s: f64) -> f64 {
+        if gap_m < -self.band_m() { DEEPER * -gap_m / closing_m_s.max(f64::MIN_POSITIVE) } else { 0.0 }
     }
 
     /// The safe time of such a look, of a cap that is nearly flat: its lowest point rolls along the rim. Not where one

@@ -217,7 +217,10 @@ impl EventDriven {
                 self.detect(model, state);
                 let (gathered, solved) = (self.gathered.get_mut(), &mut self.solved);
                 blow = impact::jam(model, state, &self.found, gathered, solved, &mut self.work);
-                self.stalled = (!blow).then_some(Criterion::Painleve);
+                // Of one contact there is no such impulse; of several none may have been found.
+                let is_alone = self.found.len() == 1 && model.pins.is_empty();
+                self.stalled = (!blow && is_alone).then_some(Criterion::Painleve);
+                self.trouble |= !blow && !is_alone;
                 self.next = Event::Change(Change::default());
             }
         };

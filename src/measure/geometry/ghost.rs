@@ -330,7 +330,12 @@ impl GhostJudge<'_> {
     /// The size of the impulse, if the bodies nowhere overlap on these ways; else 0.
     fn weigh(&mut self, group: &Group, at: &State, legs: &[Leg; 2], over_s: f64) -> f64 {
         let closed_m = self.closed_m(group, at);
-        if self.go_inside(group, legs, closed_m) {
+        // A half-space is entered deepest at an end.
+        let overlaps = match group.bodies.1 {
+            Some(other) => self.overlap(group.bodies.0, other, legs, closed_m),
+            None => [1.0, 0.0].iter().any(|way| self.is_in_container(group, &legs[0].at(*way), closed_m)),
+        };
+        if overlaps {
             return 0.0;
         }
         let bodies = [Some(group.bodies.0), group.bodies.1];
@@ -343,15 +348,6 @@ impl GhostJudge<'_> {
         let momentum = self.model.bodies[i].mass_kg * (at.bodies[i].v_WB.norm() + v.norm());
         // What rests without a force: as if it had come with a millionth of what it gets.
         size / momentum.max(1e-6 * size)
-    }
-
-    /// Somewhere on these ways.
-    fn go_inside(&mut self, group: &Group, legs: &[Leg; 2], closed_m: f64) -> bool {
-        match group.bodies.1 {
-            Some(other) => self.overlap(group.bodies.0, other, legs, closed_m),
-            // A half-space is entered deepest at an end.
-            None => [1.0, 0.0].iter().any(|way| self.is_in_container(group, &legs[0].at(*way), closed_m)),
-        }
     }
 
     fn overlap(&mut self, a: usize, b: usize, legs: &[Leg; 2], closed_m: f64) -> bool {

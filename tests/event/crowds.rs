@@ -245,26 +245,9 @@ fn closing_a_gap_carries_nothing_away() {
 }
 
 /// A can on a leaning prism, an edge of which lies across its cap for a moment and then turns up over the rim.
-const EDGE_OVER_A_RIM: &str = "
-scene:
-  gravity_m_s2: [0, -9.81, 0]
-  friction: 0
-  restitution: 0
-  container: { plane: { normal: [0, 1, 0] } }
-  bodies:
-    - { name: b5, shape: { cylinder: { radius_m: 0.183, height_m: 0.41 } }, mass_kg: 2.59, orientation: { axis: [0, 1, 0], angle_deg: 88.8 }, velocity_m_s: [0.8327, 0, -0.2059], position_m: [-0.001032920079, 2.231, -0.016295231322] }
-    - { name: b4, shape: { convex: { vertices_m: [[0.084, -0.241, 0.0], [0.025957427527, -0.241, 0.079888747369], [-0.067957427527, -0.241, 0.049373961193], [-0.067957427527, -0.241, -0.049373961193], [0.025957427527, -0.241, -0.079888747369], [0.084, 0.241, 0.0], [0.025957427527, 0.241, 0.079888747369], [-0.067957427527, 0.241, 0.049373961193], [-0.067957427527, 0.241, -0.049373961193], [0.025957427527, 0.241, -0.079888747369]] } }, mass_kg: 2.25, orientation: { axis: [0, 1, 0], angle_deg: 0 }, velocity_m_s: [0.8327, 0, -0.2059], position_m: [-0.038110279052, 1.785, 0] }
-    - { name: b3, shape: { box: { size_m: [0.338, 0.47, 0.236] } }, mass_kg: 0.56, orientation: { axis: [0, 1, 0], angle_deg: 0 }, velocity_m_s: [0.8327, 0, -0.2059], position_m: [-0.038543189968, 1.309, 0] }
-    - { name: b2, shape: { box: { size_m: [0.43, 0.416, 0.186] } }, mass_kg: 2.88, orientation: { axis: [0, 1, 0], angle_deg: 61.0 }, velocity_m_s: [0.8327, 0, -0.2059], position_m: [0, 0.866, 0] }
-    - { name: b1, shape: { box: { size_m: [0.37, 0.446, 0.242] } }, mass_kg: 1.42, orientation: { axis: [0, 1, 0], angle_deg: 0 }, velocity_m_s: [0.8327, 0, -0.2059], position_m: [0.049532154293, 0.435, 0] }
-    - { name: b0, shape: { box: { size_m: [0.18, 0.212, 0.256] } }, mass_kg: 1.88, orientation: { axis: [0, 1, 0], angle_deg: 0 }, velocity_m_s: [0, 0, 0], position_m: [0, 0.106, -0.029599021825] }
-method: { event-driven: { tolerance: 1e-6 } }
-time: { end_s: 0.56 }
-";
-
 #[test]
 fn an_edge_that_turns_up_over_a_rim_is_held_along_both() {
-    let measured = measured(EDGE_OVER_A_RIM, &[]);
+    let measured = measured(STACK_THAT_ROCKS, &["time.end_s=0.56"]);
     assert_eq!((measured.outcome, measured.work.fallbacks), (Outcome::Finished, 0));
     // measured: 0; 0.018 where it went on along the cap's normal, and off it by a micrometre in a step
     assert_eq!(measured.ghost_impulse_max_rel, Some(0.0));

@@ -219,19 +219,20 @@ fn over_face(
     let base = plane.of?;
     let at = |i: usize| &state.bodies[i];
     let out_W = at(base).q_WB * plane.normal;
-    // Of a rim that is nearly flat, and of one that ends a cap, but beside a ball, the normal alone does not tell the
-    // point.
-    let is_told = match part {
-        Part::Ball(ball) => ball.radius_m > 0.0,
-        Part::Rim { centre_B, axis_B, radius_m } if (at(of).q_WB * axis_B).cross(&out_W).norm() <= LEANS => {
-            let cap = (*centre_B, axis_B * -(at(of).q_WB * axis_B).dot(&out_W).signum(), *radius_m);
+    if let Part::Rim { centre_B, axis_B, radius_m } = part {
+        let axis_W = at(of).q_WB * axis_B;
+        if axis_W.cross(&out_W).norm() <= LEANS {
+            let cap = (*centre_B, axis_B * -axis_W.dot(&out_W).signum(), *radius_m);
             let edge = edge_beside(&model.bodies[base], at(base), found, plane)?;
             return RimOnEdge::new(found, &at, of == found.body, cap, edge).map(Parts::RimOnEdge);
         }
-        Part::Rim { .. } => true,
-        Part::Ellipsoid { .. } => !matches!(plane.border, Border::Round { .. }),
+    }
+    // Where a cap ends, the normal alone tells the point of a ball only.
+    let is_told = match part {
+        Part::Ball(ball) => ball.radius_m > 0.0,
+        Part::Rim { .. } | Part::Ellipsoid { .. } => !matches!(plane.border, Border::Round { .. }),
     };
-    if !is_told || (matches!(part, Part::Rim { .. }) && matches!(plane.border, Border::Round { .. })) {
+    if !is_told {
         return None;
     }
     let (contact, _) = plane::here(found, &at, of, part, plane);

@@ -15,8 +15,9 @@ use super::figure::{Figure, Stand, posed};
 use super::leg::{Leg, most_m};
 use super::near::NearPair;
 use super::overlap::part;
+use super::parting::Parting;
 use super::passage::gap_m;
-use super::posed::gap_along_m;
+use super::posed::{Posed, gap_along_m};
 use crate::collide::SolvedContact;
 use crate::model::Model;
 use crate::model::container::Face;
@@ -125,7 +126,7 @@ pub struct GhostJudge<'a> {
     pub memory: &'a mut Expansion,
 }
 
-impl GhostJudge<'_> {
+impl<'a> GhostJudge<'a> {
     /// A kick at a state, after which the bodies move for a time `over_s` up to the next one; `after` is the state a
     /// time `more_s` before that.
     pub fn kicked(&mut self, group: &Group, [kicked, after]: [&State; 2], over_s: f64, more_s: f64) -> f64 {
@@ -152,8 +153,9 @@ impl GhostJudge<'_> {
         let (with, without) = (legs(&[end(a, &Gain::NONE), end(b, &Gain::NONE)]), legs(&without));
         let size_rel = self.weigh(group, kicked, &without, over_s);
         // What lasts through steps that kick half-way is turned back by as much as it came.
-        let comes = |judge: &mut Self| more_s > 0.0 && judge.come(group, kicked, more_s);
-        let is_there = size_rel > 0.0 && (self.is_early(group, &gains, [&with, &without], over_s) || comes(self));
+        let is_there = size_rel > 0.0
+            && (self.is_early(group, &gains, [&with, &without], over_s)
+                || (more_s > 0.0 && self.come(group, kicked, more_s)));
         if is_there { 0.0 } else { size_rel }
     }
 
@@ -190,10 +192,7 @@ impl GhostJudge<'_> {
 
     fn end_gap_m(&mut self, group: &Group, legs: &[Leg; 2]) -> f64 {
         match group.bodies.1 {
-            Some(other) => {
-                let mut pair = NearPair { bodies: [group.bodies.0, other], axis: Vector3::zeros() };
-                gap_m(self.model, &mut pair, legs.each_ref().map(|leg| leg.at(1.0)), f64::INFINITY, self.memory)
-            }
+            Some(other) => self.gap_at_m([group.bodies.0, other], legs, 1.0),
             None => {
                 let (figure, body) = (&self.figures[group.bodies.0], &self.model.bodies[group.bodies.0]);
                 let faces = self.model.container.iter().flat_map(|container| &container.faces);
@@ -203,6 +202,12 @@ impl GhostJudge<'_> {
                 along.filter_map(depth_m).map(|depth_m| -depth_m).fold(f64::INFINITY, f64::min)
             }
         }
+    }
+
+    /// Of two bodies, so far on their ways.
+    fn gap_at_m(&mut self, bodies: [usize; 2], legs: &[Leg; 2], way: f64) -> f64 {
+        let mut pair = NearPair { bodies, axis: Vector3::zeros() };
+        gap_m(self.model, &mut pair, legs.each_ref().map(|leg| leg.at(way)), f64::INFINITY, self.memory)
     }
 
     /// A blow, which changed velocities alone; the largest of its impulses in N s.
@@ -229,9 +234,11 @@ impl GhostJudge<'_> {
             Leg { from: at.into(), moved: (v - gain.v) * time_s, turned: (w - gain.w) * time_s }
         };
         let legs = [leg(group.bodies.0, &gains[0]), leg(group.bodies.1.unwrap_or(group.bodies.0), &gains[1])];
-        let is_there = self.come_nearer(group, before, &legs, time_s * group.kept_m_s(&gains))
-            || (group.rebounds && self.come(group, before, time_s));
-        if is_there { 0.0 } else { self.weigh(group, before, &legs, 0.0) }
+        let size_rel = self.weigh(group, before, &legs, 0.0);
+        let is_there = size_rel > 0.0
+            && (self.come_nearer(group, before, &legs, time_s * group.kept_m_s(&gains))
+                || (group.rebounds && self.come(group, before, time_s)));
+        if is_there { 0.0 } else { size_rel }
     }
 
     /// Two bodies go inside along the normal as they came: what rebounds may be pushed by less than others part them
@@ -243,15 +250,13 @@ impl GhostJudge<'_> {
         };
         let legs = [group.bodies.0, group.bodies.1.unwrap_or(group.bodies.0)].map(leg);
         let closed_m = self.closed_m(group, before);
-        let [a, b] = legs.map(|leg| leg.at(1.0));
-        let Some(other) = group.bodies.1 else { return self.is_in_container(group, &a, closed_m) };
-        let origin_W = b.p_WB;
-        let [a, b] = [(group.bodies.0, &a), (other, &b)].map(|(i, at)| posed(self.model, i, at, &origin_W));
-        a.zip(b).is_some_and(|(a, b)| {
-            let parting = part(&a, &b, self.memory);
-            // Not into another face.
-            parting.gap_m < -closed_m && parting.normal.dot(&group.normal).abs() >= ALONG
-        })
+        let at = legs.map(|leg| leg.at(1.0));
+        if group.bodies.1.is_none() {
+            return self.is_in_container(group, &at[0], closed_m);
+        }
+        // Not into another face.
+        let is_along = |parting: &Parting| parting.normal.dot(&group.normal).abs() >= ALONG;
+        self.parting(group, &at).is_some_and(|parting| parting.gap_m < -closed_m && is_along(&parting))
     }
 
     /// Forces over a time, given as impulses, at a state in it.
@@ -267,23 +272,20 @@ impl GhostJudge<'_> {
             turned: -gain.w * time_s,
         };
         let legs = [leg(group.bodies.0, &gains[0]), leg(group.bodies.1.unwrap_or(group.bodies.0), &gains[1])];
-        if self.come_nearer(group, at, &legs, time_s * group.kept_m_s(&gains)) {
-            return 0.0;
-        }
-        self.weigh(group, at, &legs, over_s)
+        let size_rel = self.weigh(group, at, &legs, over_s);
+        let is_there = size_rel > 0.0 && self.come_nearer(group, at, &legs, time_s * group.kept_m_s(&gains));
+        if is_there { 0.0 } else { size_rel }
     }
 
     /// Two bodies come nearer on these ways by what should have kept them apart by so much, all but touching.
     fn come_nearer(&mut self, group: &Group, at: &State, legs: &[Leg; 2], kept_m: f64) -> bool {
         let Some(other) = group.bodies.1 else { return false };
         let (beside_m, closed_m) = (BESIDE * self.size_m(group), self.closed_m(group, at));
-        let mut pair = NearPair { bodies: [group.bodies.0, other], axis: Vector3::zeros() };
-        let mut gap_at =
-            |way: f64| gap_m(self.model, &mut pair, legs.each_ref().map(|leg| leg.at(way)), f64::INFINITY, self.memory);
-        let [from_m, to_m] = [0.0, 1.0].map(&mut gap_at);
+        let mut gap_at_m = |way: f64| self.gap_at_m([group.bodies.0, other], legs, way);
+        let [from_m, to_m] = [0.0, 1.0].map(&mut gap_at_m);
         // What mostly passes by comes nearer by less than can be told at first.
         (from_m <= beside_m && from_m - to_m >= NEARER * kept_m)
-            || (to_m < from_m.min(0.0) && gap_at(FURTHER) < -closed_m)
+            || (to_m < from_m.min(0.0) && gap_at_m(FURTHER) < -closed_m)
     }
 
     /// M⁻¹ times the group's impulses.
@@ -384,18 +386,26 @@ impl GhostJudge<'_> {
 
     /// Whether the two bodies overlap where they stand.
     fn are_inside(&mut self, group: &Group, at: &[Stand; 2], closed_m: f64) -> bool {
-        let Some(other) = group.bodies.1 else { return self.is_in_container(group, &at[0], closed_m) };
-        let origin_W = at[1].p_WB;
-        let [a, b] = [(group.bodies.0, &at[0]), (other, &at[1])].map(|(i, at)| posed(self.model, i, at, &origin_W));
-        a.zip(b).is_some_and(|(a, b)| part(&a, &b, self.memory).gap_m < -closed_m)
+        if group.bodies.1.is_none() {
+            return self.is_in_container(group, &at[0], closed_m);
+        }
+        self.parting(group, at).is_some_and(|parting| parting.gap_m < -closed_m)
+    }
+
+    /// What parts the two bodies most where they stand.
+    fn parting(&mut self, group: &Group, at: &[Stand; 2]) -> Option<Parting> {
+        self.both(group, at).map(|[a, b]| part(&a, &b, self.memory))
+    }
+
+    /// The two bodies where they stand. None: there is one alone, or one has no shape.
+    fn both(&self, group: &Group, at: &[Stand; 2]) -> Option<[Posed<'a>; 2]> {
+        let of = |i: usize, own: &Stand| posed(self.model, i, own, &at[1].p_WB);
+        Some([of(group.bodies.0, &at[0])?, of(group.bodies.1?, &at[1])?])
     }
 
     /// Whether the two bodies touch where they stand, along the group's normal and along no other.
     fn just_meet(&self, group: &Group, at: &[Stand; 2], closed_m: f64) -> bool {
-        let Some(other) = group.bodies.1 else { return false };
-        let origin_W = at[1].p_WB;
-        let [a, b] = [(group.bodies.0, &at[0]), (other, &at[1])].map(|(i, at)| posed(self.model, i, at, &origin_W));
-        a.zip(b).is_some_and(|(a, b)| gap_along_m(&a, &b, &group.normal).abs() <= closed_m)
+        self.both(group, at).is_some_and(|[a, b]| gap_along_m(&a, &b, &group.normal).abs() <= closed_m)
     }
 
     /// In the faces that have the group's normal, or in any if none has.

@@ -7,6 +7,7 @@
 //! whichever else would sink: a cap that tips does so over one point, in the direction of its tilt. A rim that falls
 //! flat goes on about its last point, up to the moment when the cap is flat; then all of it strikes.
 
+use super::decide::SAME;
 use super::descent::Descent;
 use super::flush::{is_one_base, seat};
 use super::forces::{Held, meeting_m_s};
@@ -473,11 +474,14 @@ pub fn has_turned(model: &Model, held: &[Held], state: &State) -> bool {
             return lean.norm() < LANDS * FLAT;
         }
         let Some(toward_B) = of_own.toward_B() else { return false };
-        let same = |other: &&Held| {
-            rim(other).is_some_and(|of| of_own.is_same((model, state), [&own.touch, &other.touch], &of))
+        let same = |other: &Held| {
+            let of = rim(other).filter(|of| of_own.is_same((model, state), [&own.touch, &other.touch], of))?;
+            of.toward_B()
         };
+        let others: Vec<Vector3<f64>> = held.iter().filter_map(same).collect();
+        let is_new = |(i, d): (usize, &Vector3<f64>)| others[..i].iter().all(|other| (other - d).norm() > SAME);
         // Three of its points hold a cap flat.
-        let is_flat = held.iter().filter(same).count() >= 3;
+        let is_flat = others.iter().enumerate().filter(|of| is_new(*of)).count() >= 3;
         !is_flat && (lean.norm() > TIPS * FLAT || lean.dot(&(at.q_WB * toward_B)) < -BEYOND)
     })
 }

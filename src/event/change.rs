@@ -59,6 +59,8 @@ pub struct Margins {
 pub struct Looking<'a> {
     pub paths: Paths<'a>,
     pub held: &'a [Held],
+    /// Its end puts to rest what holds: only borders are looked at, and caps.
+    pub ends: bool,
     pub gathered: &'a mut Gathered,
     /// Forces of the last look.
     pub last: &'a mut LastForces,
@@ -102,7 +104,7 @@ impl Looking<'_> {
     /// A time between two looks at which what sticks at both has slipped: where its grip, which falls from the one and
     /// rises to the other, is least. A convex grip is above its tangents; where those meet above zero, nothing slips.
     fn slips_between(&mut self, mut low_s: f64, mut high_s: f64) -> Option<f64> {
-        if self.paths.dense.is_empty() || !self.held.iter().any(|held| held.mode == Mode::Stick) {
+        if self.ends || self.paths.dense.is_empty() || !self.held.iter().any(|held| held.mode == Mode::Stick) {
             return None;
         }
         let beside_s = (high_s - low_s) * BESIDE;
@@ -181,6 +183,9 @@ impl Looking<'_> {
         }
         if self.has_turned() {
             return -1.0;
+        }
+        if self.ends {
+            return border_m;
         }
         let slip = self.slip_left();
         if slip < 0.0 {
@@ -265,7 +270,7 @@ impl Looking<'_> {
     fn what(&mut self, t_s: f64) -> Change {
         let mut change = Change::default();
         self.look(t_s);
-        if self.paths.dense.is_empty() {
+        if self.ends || self.paths.dense.is_empty() {
             return change;
         }
         let Margins { least, solved, .. } = self.seen(t_s).clone();

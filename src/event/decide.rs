@@ -9,6 +9,7 @@ use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, Solved, edge, meeting_m
 use super::last_forces::LastForces;
 use super::law::{Law, MANY, ROUNDING, by_law, goes_on};
 use super::proportion::in_proportion;
+use super::shares::lawful_shares;
 use super::slip;
 use super::touch::Touch;
 use crate::collide::Key;
@@ -199,7 +200,7 @@ fn decide_island(
         Decision::Holds(held, Box::new(aligned.unwrap_or(solved)))
     };
     if touches.len() <= MANY
-        && let Some((modes, solved)) = goes_on_or_slides(gathered, &modes)
+        && let Some((modes, solved)) = goes_on_or_slides(gathered, &modes, work)
     {
         return hold(&mut modes.into_iter().enumerate(), solved);
     }
@@ -266,7 +267,7 @@ fn alone(gathered: &Gathered, mode: Mode) -> Option<Alone> {
 }
 
 /// What was there, if it goes on, or slides where it fails; with its forces.
-fn goes_on_or_slides(gathered: &Gathered, modes: &[Mode]) -> Option<(Vec<Mode>, Solved)> {
+fn goes_on_or_slides(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Option<(Vec<Mode>, Solved)> {
     let share = |modes: &[Mode]| gathered.hold_as(modes.iter().copied(), Selection::Least);
     let as_it_was = share(modes);
     if !as_it_was.holds {
@@ -276,7 +277,9 @@ fn goes_on_or_slides(gathered: &Gathered, modes: &[Mode]) -> Option<(Vec<Mode>, 
     if is_pressing(&as_it_was, modes) && failing.is_empty() {
         return Some((modes.to_vec(), as_it_was));
     }
-    if let Some(solved) = in_proportion(gathered, modes, &as_it_was) {
+    if let Some(solved) =
+        in_proportion(gathered, modes, &as_it_was).or_else(|| lawful_shares(gathered, modes, &as_it_was, work))
+    {
         return Some((modes.to_vec(), solved));
     }
     let sliding = made_to_slide(gathered, &as_it_was, modes, &failing);
@@ -438,7 +441,8 @@ fn law_of(
     let mut own = Gathered::until(gathered.deadline);
     own.gather(model, state, part.iter().map(|held| &held.touch));
     let modes: Vec<Mode> = own.modes(&part).collect();
-    if let Some(solved) = in_proportion(&own, &modes, &own.hold_as(modes.iter().copied(), Selection::Least)) {
+    let shared = own.hold_as(modes.iter().copied(), Selection::Least);
+    if let Some(solved) = in_proportion(&own, &modes, &shared).or_else(|| lawful_shares(&own, &modes, &shared, work)) {
         let left = least_left(part.iter().zip(&solved.p));
         return Some((solved.p, left));
     }

@@ -145,10 +145,17 @@ pub fn pushes(model: &Model, [before, after]: [&State; 2], found: &[Contact]) ->
     found.iter().any(|contact| strikes(model, after, contact) && !strikes(model, before, contact))
 }
 
-/// What touches, is not held, and comes nearer.
-pub fn coming(model: &Model, state: &State, held: &[Held], found: &[Contact]) -> Vec<Contact> {
+/// What touches and is not held.
+pub fn others(held: &[Held], found: &[Contact]) -> Vec<Contact> {
     let is_held = |contact: &Contact| held.iter().any(|held| held.touch.key() == contact.key());
-    found.iter().filter(|contact| strikes(model, state, contact) && !is_held(contact)).copied().collect()
+    found.iter().filter(|contact| !is_held(contact)).copied().collect()
+}
+
+/// The same, as far as it comes nearer.
+pub fn coming(model: &Model, state: &State, held: &[Held], found: &[Contact]) -> Vec<Contact> {
+    let mut coming = others(held, found);
+    coming.retain(|contact| strikes(model, state, contact));
+    coming
 }
 
 /// Forces of contacts, world axes; none if one of them pulls or is outside of its cone.

@@ -493,7 +493,8 @@ pub(super) fn unknowns(island: &[usize], rows: &[Rows]) -> SmallVec<[Unknown; FE
     let mut unknowns = SmallVec::new();
     for &block in island {
         match rows[block] {
-            Rows::Normal(along) => unknowns.push(Unknown { block, along, row: 0 }),
+            // Forces are the smallest as the law has it, with their friction.
+            Rows::Normal(along) => unknowns.push(Unknown { block, along: along.normalize(), row: 0 }),
             Rows::All => unknowns.extend((0..3).map(|row| Unknown { block, along: Vector3::ith(row, 1.0), row })),
         }
     }

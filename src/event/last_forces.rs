@@ -69,11 +69,11 @@ impl LastForces {
 }
 
 /// Whether a contact goes on by these forces, and neither pulls nor needs more friction than it has.
-fn is_lawful(gathered: &Gathered, i: usize, mode: Mode, solved: &Solved) -> bool {
+pub(super) fn is_lawful(gathered: &Gathered, i: usize, mode: Mode, solved: &Solved) -> bool {
     let (block, p) = (&gathered.problem.blocks[i], &solved.p[i]);
     let (a, none) = (block.velocity(&solved.added), ROUNDING * gathered.scale());
     match mode {
-        Mode::Stick => p.x >= 0.0 && p.yz().norm() <= block.friction * p.x && a.amax() <= none,
+        Mode::Stick => p.x >= 0.0 && p.yz().norm() <= block.friction * p.x * (1.0 + ROUNDING) && a.amax() <= none,
         Mode::Slide(_) => p.x >= 0.0 && a.x.abs() <= none,
     }
 }

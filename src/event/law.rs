@@ -32,7 +32,7 @@ const MOST: u32 = 100;
 const LEFT: f64 = 1e-10;
 
 /// Fictitious slip over the largest acceleration.
-const FAST: f64 = 1e3;
+pub const FAST: f64 = 1e3;
 
 /// Times that the direction of the fictitious slip is set right, by a thousandth each time, and what of it is rounding.
 const TURNS: u32 = 5;

@@ -5,7 +5,7 @@
 //! - `forces`: the forces that keep what is in contact together; `pushing`: those of which none pulls; `last_forces`:
 //!   those of the last look
 //! - `decide`: which contacts hold, stick, slide; `law`: the law of contact of all at once; `proportion`: the forces of
-//!   a pile that slides as one
+//!   a pile that slides as one; `shares`: those by which all go on
 //! - `settle`, `motion`: closed forms between events, and bounds; `dense`: all other motion, `field`: its equations;
 //!   `slip`: where that is stiff; `stiff`: its steps there
 //! - `caps`: of cylinders, that lie flat, fall flat and tip, `pressing`: over which point; `descent`, `rolling`: how a
@@ -45,6 +45,7 @@ mod pushing;
 pub mod radau_tableau;
 mod rolling;
 pub mod settle;
+mod shares;
 pub mod shown;
 pub mod slip;
 pub mod stiff;

@@ -75,7 +75,7 @@ const MOST_ARRIVING: u32 = 200;
 const PART_OF_BAND: f64 = 0.1;
 
 /// Of how deep one is.
-const DEEPER: f64 = 0.01;
+const DEEPER: f64 = 0.1;
 
 /// Parts of two bodies that face each other.
 struct Parted {

@@ -12,7 +12,7 @@
 //! whose end impulses obey the law.
 //!
 //! Of more than three coplanar contacts that turn, how they share the load is not given by the motion of rigid bodies,
-//! and decides how fast they turn. The shares are the smallest ones in the sense of Σ p_n², none of which pulls.
+//! and decides how fast they turn. The shares are the smallest ones in the sense of Σ |p|², none of which pulls.
 
 use super::forces::{Gathered, Held, Mode, Slip, Solved, meeting_m_s};
 use super::touch::Touch;

@@ -24,7 +24,7 @@ pub mod position;
 pub mod problem;
 mod proximal;
 mod slope;
-mod smallest;
+pub mod smallest;
 pub mod solver;
 mod speeds;
 pub mod start;

@@ -10,18 +10,17 @@ use crate::collide::{Contact, Detector, Key, Reach, SolvedContact};
 use crate::deadline::Deadline;
 use crate::event::caps::{self, Sinking};
 use crate::event::change::Looking;
-use crate::event::decide::{Change, Decision, Margin, decide, margin};
+use crate::event::decide::{Change, Margin, margin};
 use crate::event::dense::{Dense, project};
-use crate::event::ending::{self, steady};
+use crate::event::ending;
 use crate::event::field::Field;
-use crate::event::forces::{Gathered, Held, Solved};
+use crate::event::forces::{Gathered, Held};
 use crate::event::impact;
 use crate::event::last_forces::LastForces;
 use crate::event::look::{Paths, Window};
 use crate::event::motion::Motion;
 use crate::event::patience::Patience;
 use crate::event::pressing::{Pressed, pressed, turn};
-use crate::event::settle::{Forces, settle};
 use crate::event::slip::{self, Pace, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch;
@@ -40,7 +39,7 @@ use std::cell::RefCell;
 
 /// What ends a stretch.
 #[derive(Clone, Debug)]
-enum Event {
+pub(super) enum Event {
     /// The beginning: whatever touches.
     Start,
     Impact,
@@ -67,8 +66,8 @@ pub(super) enum Span {
 }
 
 pub struct EventDriven {
-    tolerance: f64,
-    slow: Slow,
+    pub(super) tolerance: f64,
+    pub(super) slow: Slow,
     /// Of the integrator: a force that swings is not stepped over.
     longest_s: f64,
     law: Impact,
@@ -80,28 +79,28 @@ pub struct EventDriven {
     pub(super) steady_W: Vec<Vector3<f64>>,
     pub(super) dense: Dense,
     /// Ends of slips that are known in closed form.
-    ends_s: Option<f64>,
-    next: Event,
+    pub(super) ends_s: Option<f64>,
+    pub(super) next: Event,
     /// What has begun to open since the last impact, and where.
     opened: Vec<(Key, Vector3<f64>)>,
     detector: Detector,
-    found: Vec<Contact>,
+    pub(super) found: Vec<Contact>,
     /// Looked into from outside between two steps, too.
     pub(super) gathered: RefCell<Gathered>,
     /// Forces of the last look at what is held.
     pub(super) last: LastForces,
-    zeno: Zeno,
+    pub(super) zeno: Zeno,
     /// Of the projection.
-    placing: Gathered,
+    pub(super) placing: Gathered,
     /// The state before what holds was put to rest, and the time that this takes.
-    kicked: State,
-    ending_s: Option<f64>,
+    pub(super) kicked: State,
+    pub(super) ending_s: Option<f64>,
     /// How the next step of the integrator may be made.
     pace: Pace,
     scratch: State,
     patience: Patience,
     /// Events lead no further from here.
-    trouble: bool,
+    pub(super) trouble: bool,
     /// Steps of equal length instead.
     stretch: Option<Stretch>,
     pub(super) span: Span,
@@ -113,13 +112,17 @@ pub struct EventDriven {
 }
 
 /// Error of one step of the integrator, relative to the tolerance.
-const LOCAL: f64 = 0.01;
+pub(super) const LOCAL: f64 = 0.01;
 
 /// Change of a velocity by the projection, over the integrator's own error, that is none of it.
 const SLAP: f64 = 1e3;
 
 /// Points of a rim that are tried, one after another: each is nearer to the one that bears.
-const POINTS: u32 = 40;
+pub(super) const POINTS: u32 = 40;
+
+/// Steps of the integrator in the time in which something is put to rest, at most: every one is up to five times as
+/// long as the one before.
+const SHORTER: u32 = 32;
 
 impl EventDriven {
     pub fn new(settings: &Settings, plan: &Plan, model: &Model, start: &State) -> Self {
@@ -328,69 +331,6 @@ impl EventDriven {
         true
     }
 
-    /// What holds from now on, and how everything moves.
-    fn regroup(&mut self, model: &Model, state: &mut State, change: &Change) {
-        let slow_m_s = if change.slips_on { 0.0 } else { self.slow.fading_m_s() };
-        let change = &Change { slow_m_s, ..change.clone() };
-        let (mut solved, mut sinking) = (Solved::default(), Sinking::default());
-        for _ in 0..POINTS {
-            let Some(touches) = self.resting(model, state) else {
-                self.trouble = true;
-                return;
-            };
-            if touches.is_empty() && model.pins.is_empty() {
-                self.held.clear();
-                self.settle(model, state, &Solved::default());
-                return;
-            }
-            match decide(model, state, touches, change, self.gathered.get_mut(), &mut self.work) {
-                Decision::Holds(held, forces) => (self.held, solved) = (held, *forces),
-                Decision::Jams => {
-                    self.next = Event::Jam;
-                    return;
-                }
-                Decision::Unsolved => {
-                    self.trouble = true;
-                    return;
-                }
-            }
-            if !self.add_sinking(model, state, &solved, &mut sinking) {
-                break;
-            }
-        }
-        self.last.begin(self.gathered.get_mut(), self.held.len(), &solved);
-        self.kicked.copy_from(state);
-        let placed = project(model, state, &self.held, &mut self.placing);
-        let gathered = self.gathered.get_mut();
-        if placed.moved || self.held.len() != gathered.here.len() {
-            // Those of the law, where redundant contacts could share them otherwise.
-            Margin { solved, .. } = margin(model, state, &self.held, (gathered, &mut self.last), &mut self.work);
-        }
-        // However slowly: else that would strike at once, and open again what has been put to rest.
-        let is_pushed = ending::pushes(model, [&self.kicked, state], &self.found);
-        if is_pushed || ending::changes(model, [&self.kicked, state], ending::NOTHING) {
-            self.ending_s = Some(ending::lasts_s(model, (&self.placing, &placed.p), (gathered, &solved)));
-        }
-        self.steady_W = steady(gathered, &solved, self.held.len());
-        self.settle(model, state, &solved);
-    }
-
-    /// Adds the point of a cap at rest that would sink, if one would, to what touches.
-    fn add_sinking(&mut self, model: &Model, state: &State, solved: &Solved, sinking: &mut Sinking) -> bool {
-        let gathered = self.gathered.get_mut();
-        if solved.added.is_empty() || gathered.free.is_empty() {
-            return false;
-        }
-        let least = caps::TIPS_AT_LEAST * gathered.free.iter().map(|free| free.v.norm()).fold(0.0, f64::max);
-        let rates = |i: usize, arm_W: &Vector3<f64>| {
-            let (of, w) = (solved.acceleration(gathered, i), state.bodies[i].w_WB);
-            [of.v + of.w.cross(arm_W) + w.cross(&w.cross(arm_W)), of.w]
-        };
-        let zeno = &self.zeno;
-        let rests = |contact: &Contact| !zeno.leaves(model, state, contact);
-        sinking.add(model, state, &mut self.found, (3, rests), (rates, |_: &Contact| least))
-    }
-
     /// Smooth motion, with what had to be put to rest before it. True: that took no time, and is all of the step.
     fn go_on(&mut self, model: &Model, state: &mut State, ending_s: Option<f64>, end_s: f64) -> bool {
         self.look_at_slips(model, state, true);
@@ -404,7 +344,14 @@ impl EventDriven {
         let mut others = if at_once { ending::coming(model, state, &self.held, &self.found) } else { Vec::new() };
         if !at_once {
             let to_s = over_s.map_or(end_s, |over_s| end_s.min(from_s + over_s));
-            self.advance(model, state, to_s);
+            self.advance(model, state, to_s, ending_s.is_some());
+            // Steps of the integrator do not cut it short, in which the weight could not make these impulses.
+            for _ in 0..SHORTER {
+                if ending_s.is_none() || self.trouble || !matches!(self.next, Event::Step) || state.time_s >= to_s {
+                    break;
+                }
+                self.advance(model, state, to_s, true);
+            }
             // What leaves its line may be seen to fade only then.
             if ending_s.is_none() && self.pace.ends_s.is_none() {
                 return false;
@@ -413,13 +360,20 @@ impl EventDriven {
                 // What is put to rest is so against others that touch: they take part.
                 self.motion_to(model, state, to_s);
                 self.detect(model, state);
-                let is_held = |contact: &Contact| self.held.iter().any(|held| held.touch.key() == contact.key());
-                others.extend(self.found.iter().filter(|contact| !is_held(contact)).copied());
+                others = ending::others(&self.held, &self.found);
             }
         }
         self.scratch.copy_from(state);
-        let (states, gathered) = ([&mut self.kicked, &mut *state], &mut self.placing);
-        self.solved = ending::end(model, states, &self.held, &others, gathered, &mut self.work);
+        self.end(model, state, &others);
+        // So do those that are only just open, where that drives them back: they would strike at once, and open again
+        // what has been put to rest.
+        if ending::pushes(model, [&self.scratch, state], &self.found) {
+            state.copy_from(&self.scratch);
+            self.detect(model, state);
+            others = ending::others(&self.held, &self.found);
+            self.scratch.copy_from(state);
+            self.end(model, state, &others);
+        }
         if ending_s.is_none() || !others.is_empty() || ending::changes(model, [&self.scratch, state], ending::NOTHING) {
             // Not all of it holds, or slides on; before its end it does.
             let slips_on = ending_s.is_none() && over_s.is_none_or(|over_s| state.time_s < from_s + over_s);
@@ -430,31 +384,15 @@ impl EventDriven {
         at_once
     }
 
-    /// Of what touches, what does not leave. None: a contact of parts whose motion is not known.
-    fn resting(&self, model: &Model, state: &State) -> Option<Vec<Touch>> {
-        let mut resting = Vec::new();
-        for contact in &self.found {
-            if self.zeno.leaves(model, state, contact) {
-                continue;
-            }
-            resting.push(Touch::new(model, state, contact)?);
-        }
-        Some(resting)
+    /// Puts what is held to rest, with others that touch.
+    fn end(&mut self, model: &Model, state: &mut State, others: &[Contact]) {
+        let states = [&mut self.kicked, state];
+        self.solved = ending::end(model, states, &self.held, others, &mut self.placing, &mut self.work);
     }
 
-    /// How everything moves from now on.
-    fn settle(&mut self, model: &Model, state: &mut State, solved: &Solved) {
-        let forces = Forces { gathered: self.gathered.get_mut(), solved };
-        self.ends_s = settle(model, state, &self.held, forces, &mut self.motions);
-        let is_dense = |i: &usize| matches!(self.motions[*i], Motion::Dense(_));
-        let dense: Vec<usize> = (0..model.bodies.len()).filter(is_dense).collect();
-        if self.dense.bodies != dense {
-            self.dense = Dense::new(model, dense, state, LOCAL * self.tolerance);
-        }
-    }
-
-    /// Smooth motion up to the next event, or to the end of a step of the integrator.
-    fn advance(&mut self, model: &Model, state: &mut State, end_s: f64) {
+    /// Smooth motion up to the next event, or to the end of a step of the integrator. `ends`: what is put to rest is so
+    /// at the end of it, where the law says by what impulses, whatever holds in between.
+    fn advance(&mut self, model: &Model, state: &mut State, end_s: f64, ends: bool) {
         let mut to_s = end_s;
         if !self.integrate(model, state, end_s) {
             self.trouble = true;
@@ -473,7 +411,8 @@ impl EventDriven {
             let until = self.work.newton_steps + self.patience.left(&self.work);
             let (gathered, at, work) = (self.gathered.get_mut(), &mut self.scratch, &mut self.work);
             let last = &mut self.last;
-            let mut looking = Looking { paths, held: &self.held, gathered, last, at, work, until, seen: Vec::new() };
+            let mut looking =
+                Looking { paths, held: &self.held, ends, gathered, last, at, work, until, seen: Vec::new() };
             if let Some((t_s, change)) = looking.first(state.time_s, to_s) {
                 let turned = looking.has_turned();
                 (to_s, self.next) = (t_s, if turned { Event::Impact } else { Event::Change(change) });

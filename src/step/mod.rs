@@ -16,6 +16,7 @@ mod moments;
 mod penalty;
 mod push_out;
 mod rebounds;
+mod regroup;
 mod scratch;
 mod stepper;
 mod still;

@@ -9,12 +9,14 @@ mod cube;
 mod edges;
 mod never_hangs;
 mod painleve;
+mod rims;
 mod round_parts;
 mod same;
 mod seams;
 mod sharing;
 mod spinning;
 mod squeezed;
+mod stacks;
 mod symmetries;
 mod tolerance;
 

@@ -4,6 +4,7 @@
 //! over an edge tips when its centre of mass has passed the line between two of them.
 
 use super::rates::{Rates, pair};
+use super::two_rims::{Circle, TwoRims};
 use crate::collide::Contact;
 use crate::event::shown::{Border, Face, Line};
 use crate::state::BodyState;
@@ -14,16 +15,15 @@ use nalgebra::Vector3;
 const TANGENT: f64 = 1e-6;
 
 /// Sine of the angle between an edge and a cap's plane up to which it lies there: what turns up over the rim has
-/// another normal (`rim_on_edge`). (That of two rims is hardly told by their axes, as long as these are next to
-/// parallel.)
+/// another normal (`rim_on_edge`, `two_rims`).
 pub(super) const LIES: f64 = 1e-8;
 
 /// A cap of a cylinder, from the centre of mass, body axes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Disc {
-    centre_B: Vector3<f64>,
-    out_B: Vector3<f64>,
-    radius_m: f64,
+    pub(super) centre_B: Vector3<f64>,
+    pub(super) out_B: Vector3<f64>,
+    pub(super) radius_m: f64,
 }
 
 impl Disc {
@@ -124,8 +124,25 @@ impl OnRim {
         }
     }
 
+    /// Of two rims whose caps are tilted against each other. None: they are not, or the rims are next to tangent.
+    fn two_rims(&self, at: [&BodyState; 2], p: &Vector3<f64>) -> Option<TwoRims> {
+        let Outline::Rim(other) = &self.outline else { return None };
+        let circle = |of: &BodyState, disc: &Disc| Circle {
+            centre: of.p_WB + of.q_WB * disc.centre_B,
+            axis: of.q_WB * disc.out_B,
+            radius_m: disc.radius_m,
+        };
+        let [of_cap, of_other] = self.sides(at);
+        let circles = [circle(of_cap, &self.cap), circle(of_other, other)];
+        let tilt = circles[0].axis.cross(&circles[1].axis).norm();
+        if tilt <= LIES { None } else { TwoRims::near(circles.each_ref(), p) }
+    }
+
     pub(super) fn inside_m(&self, at: [&BodyState; 2]) -> f64 {
-        let Place { n, along, inside_m, .. } = self.place(at);
+        let Place { p, n, along, inside_m, .. } = self.place(at);
+        if let Some(rims) = self.two_rims(at, &p) {
+            return rims.inside_m.min(inside_m);
+        }
         match &self.outline {
             Outline::Line(line) if line.radius_m == 0.0 => {
                 inside_m.min((LIES - n.dot(&along).abs()) * self.cap.radius_m)
@@ -138,6 +155,9 @@ impl OnRim {
         let at = pair(found, bodies);
         let [of_cap, of_other] = self.sides(at);
         let Place { p, centre, n, along, .. } = self.place(at);
+        if let Some(rims) = self.two_rims(at, &p) {
+            return rims.here(found, [of_cap, of_other], self.first);
+        }
         let n_rate = of_cap.w_WB.cross(&n);
         let point = |of: &BodyState, p: &Vector3<f64>| of.v_WB + of.w_WB.cross(&(p - of.p_WB));
         let with_other = match &self.outline {

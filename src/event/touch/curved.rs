@@ -6,6 +6,7 @@
 //! every t across n (and the line), u the bodies' velocity against each other at the point.
 
 use super::rates::{Rates, pair};
+use super::two_rims::{Circle, TwoRims};
 use crate::collide::Contact;
 use crate::event::shown::{Ball, Line, Part, within_m};
 use crate::state::BodyState;
@@ -25,6 +26,8 @@ pub(super) struct Curved {
     normals_B: [Vector3<f64>; 2],
     /// Of rims: the sign of their axes outward.
     outward: [f64; 2],
+    /// Where they were found, in the axes of the first body.
+    found_B: Vector3<f64>,
 }
 
 /// Steps to the normal, which is known nearly.
@@ -151,7 +154,22 @@ impl Curved {
             _ => 1.0,
         };
         let outward = [outward(0), outward(1)];
-        Some(Curved { sides, normals_B, outward })
+        let [first, _] = pair(found, bodies);
+        let found_B = first.q_WB.inverse_transform_vector(&(found.p_WC - first.p_WB));
+        Some(Curved { sides, normals_B, outward, found_B })
+    }
+
+    /// Of two rims that cross next to where they were found: their points tell more than a normal.
+    fn two_rims(&self, at: [&BodyState; 2]) -> Option<TwoRims> {
+        let circle = |i: usize| match &self.sides[i] {
+            Side::Part(Part::Rim { centre_B, axis_B, radius_m }) => Some(Circle {
+                centre: at[i].p_WB + at[i].q_WB * centre_B,
+                axis: at[i].q_WB * axis_B * self.outward[i],
+                radius_m: *radius_m,
+            }),
+            _ => None,
+        };
+        TwoRims::near([&circle(0)?, &circle(1)?], &(at[0].p_WB + at[0].q_WB * self.found_B))
     }
 
     fn meeting<'a>(&'a self, at: [&'a BodyState; 2]) -> Meeting<'a> {
@@ -197,6 +215,9 @@ impl Curved {
     }
 
     pub(super) fn inside_m(&self, at: [&BodyState; 2]) -> f64 {
+        if let Some(rims) = self.two_rims(at) {
+            return rims.inside_m;
+        }
         let Meeting { placed: [a, b], n, supports, beyond_m, .. } = self.meeting(at);
         if let Some(beyond_m) = beyond_m {
             let along = |of: &Placed, out: Vector3<f64>| match of.side {
@@ -212,6 +233,9 @@ impl Curved {
 
     pub(super) fn here<'a>(&self, found: &Contact, bodies: &impl Fn(usize) -> &'a BodyState) -> (Contact, Rates) {
         let at = pair(found, bodies);
+        if let Some(rims) = self.two_rims(at) {
+            return rims.here(found, at, true);
+        }
         let Meeting { placed, n, supports: [a, b], gap_m, across, .. } = self.meeting(at);
         let [w_a, w_b] = at.map(|at| at.w_WB);
         let M = a.H + b.H + Matrix3::identity() * gap_m;

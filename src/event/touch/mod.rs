@@ -18,6 +18,7 @@ mod rates;
 mod recognise;
 mod rim_on_edge;
 mod standing;
+mod two_rims;
 
 pub use moving::{Here, Touch};
 pub use standing::Standing;

@@ -96,6 +96,9 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
     let toward = |side: usize, out: Vector3<f64>| {
         face_toward(&model.bodies[bodies[side]], &at[side].q_WB.inverse_transform_vector(&out))
     };
+    if let Some(crossing) = rims_crossing(model, state, found, bodies) {
+        return Some(Parts::OnRim(crossing));
+    }
     let (mut a, mut b) = (show(0, -found.normal), show(1, found.normal));
     if found.feature == (VERTEX, VERTEX) {
         [(&mut a, 0), (&mut b, 1)].into_iter().for_each(|(of, side)| beside_cap(&model.bodies[bodies[side]], of));
@@ -128,6 +131,27 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
     near.into_iter().find_map(|(of, face, own)| Some(on(of, &face?, 1 - of, spot(own).as_ref())))
 }
 
+/// Two caps whose rims cross, by the names that the contact test gives them, however they are tilted.
+fn rims_crossing(model: &Model, state: &State, found: &Contact, bodies: [usize; 2]) -> Option<OnRim> {
+    let cap = |side: usize, out_W: Vector3<f64>| {
+        let (Solid::Cylinder { radius_m, half_height_m }, centre) = model.bodies[bodies[side]].solid()? else {
+            return None;
+        };
+        let out_B = Vector3::y() * state.bodies[bodies[side]].q_WB.inverse_transform_vector(&out_W).y.signum();
+        Some(Disc { centre_B: centre + out_B * *half_height_m, out_B, radius_m: *radius_m })
+    };
+    if !crosses(found.feature.0) || !crosses(found.feature.1) {
+        return None;
+    }
+    let (own, other) = (cap(0, -found.normal)?, cap(1, found.normal)?);
+    Some(OnRim::new(found, &|i: usize| &state.bodies[i], true, own, Outline::Rim(other)))
+}
+
+/// Whether it is a point of an arc's ends.
+fn crosses(feature: u32) -> bool {
+    feature == ARC || feature == ARC | 1
+}
+
 /// A cap next to flat whose rim crosses an edge, by the names that the contact test gives them: the point is known to
 /// it less than the other kinds take to tell what is there.
 pub(super) fn rim_on_edge<'a>(
@@ -137,8 +161,8 @@ pub(super) fn rim_on_edge<'a>(
 ) -> Option<RimOnEdge> {
     let bodies = [found.body, found.other?];
     let features = [found.feature.0, found.feature.1];
-    let crosses = |feature: u32| kind(feature) == VERTEX || feature == ARC || feature == ARC | 1;
-    let of = (0..2).find(|k| crosses(features[*k]) && kind(features[1 - k]) == EDGE)?;
+    let of =
+        (0..2).find(|k| (kind(features[*k]) == VERTEX || crosses(features[*k])) && kind(features[1 - k]) == EDGE)?;
     let (Solid::Cylinder { radius_m, half_height_m }, centre) = model.bodies[bodies[of]].solid()? else { return None };
     let base = &model.bodies[bodies[1 - of]];
     let (solid @ (Solid::Box { .. } | Solid::Convex(_)), base_centre) = base.solid()? else { return None };
@@ -311,17 +335,15 @@ fn facing(
 /// What crosses a rim there, if the contact test says so: whether the cap is of the first body, and what of the other
 /// one it is.
 fn crossing(feature: (u32, u32), a: &Facing, b: &Facing) -> Option<(bool, Disc, Outline)> {
-    let crosses = |feature: u32| feature == ARC || feature == ARC | 1;
     let cap = |facing: &Facing| facing.face.as_ref().and_then(Disc::of);
     let with = |first: bool, of: &Facing, other: &Facing| match &other.spot {
         Spot::Line(line) => Some((first, cap(of)?, Outline::Line(line.clone()))),
         _ => None,
     };
     match (crosses(feature.0), crosses(feature.1)) {
-        (true, true) => Some((true, cap(a)?, Outline::Rim(cap(b)?))),
         (true, false) => with(true, a, b),
         (false, true) => with(false, b, a),
-        (false, false) => None,
+        _ => None,
     }
 }
 

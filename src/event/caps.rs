@@ -474,6 +474,9 @@ pub fn has_turned(model: &Model, held: &[Held], state: &State) -> bool {
             return lean.norm() < LANDS * FLAT;
         }
         let Some(toward_B) = of_own.toward_B() else { return false };
+        if lean.norm() <= TIPS * FLAT && lean.dot(&(at.q_WB * toward_B)) >= -BEYOND {
+            return false;
+        }
         let same = |other: &Held| {
             let of = rim(other).filter(|of| of_own.is_same((model, state), [&own.touch, &other.touch], of))?;
             of.toward_B()
@@ -481,8 +484,7 @@ pub fn has_turned(model: &Model, held: &[Held], state: &State) -> bool {
         let others: Vec<Vector3<f64>> = held.iter().filter_map(same).collect();
         let is_new = |(i, d): (usize, &Vector3<f64>)| others[..i].iter().all(|other| (other - d).norm() > SAME);
         // Three of its points hold a cap flat.
-        let is_flat = others.iter().enumerate().filter(|of| is_new(*of)).count() >= 3;
-        !is_flat && (lean.norm() > TIPS * FLAT || lean.dot(&(at.q_WB * toward_B)) < -BEYOND)
+        others.iter().enumerate().filter(|of| is_new(*of)).count() < 3
     })
 }
 

@@ -8,7 +8,6 @@
 use super::forces::{Gathered, Held, Mode, NO_SLIP, Slip, Solved, edge, meeting_m_s};
 use super::last_forces::LastForces;
 use super::law::{Law, MANY, ROUNDING, by_law, goes_on};
-use super::proportion::in_proportion;
 use super::shares::lawful_shares;
 use super::slip;
 use super::touch::Touch;
@@ -277,9 +276,7 @@ fn goes_on_or_slides(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Op
     if is_pressing(&as_it_was, modes) && failing.is_empty() {
         return Some((modes.to_vec(), as_it_was));
     }
-    if let Some(solved) =
-        in_proportion(gathered, modes, &as_it_was).or_else(|| lawful_shares(gathered, modes, &as_it_was, work))
-    {
+    if let Some(solved) = lawful_shares(gathered, modes, &as_it_was, work) {
         return Some((modes.to_vec(), solved));
     }
     let sliding = made_to_slide(gathered, &as_it_was, modes, &failing);
@@ -442,7 +439,7 @@ fn law_of(
     own.gather(model, state, part.iter().map(|held| &held.touch));
     let modes: Vec<Mode> = own.modes(&part).collect();
     let shared = own.hold_as(modes.iter().copied(), Selection::Least);
-    if let Some(solved) = in_proportion(&own, &modes, &shared).or_else(|| lawful_shares(&own, &modes, &shared, work)) {
+    if let Some(solved) = lawful_shares(&own, &modes, &shared, work) {
         let left = least_left(part.iter().zip(&solved.p));
         return Some((solved.p, left));
     }

@@ -32,7 +32,7 @@ const MOST: u32 = 100;
 const LEFT: f64 = 1e-10;
 
 /// Fictitious slip over the largest acceleration.
-pub const FAST: f64 = 1e3;
+const FAST: f64 = 1e3;
 
 /// Times that the direction of the fictitious slip is set right, by a thousandth each time, and what of it is rounding.
 const TURNS: u32 = 5;
@@ -58,15 +58,7 @@ pub fn by_law(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Law {
     let mut solved = gathered.without_forces();
     // Forces are against the fictitious slip and what accelerates it: what of that is across is taken off.
     for turn in 0..TURNS {
-        for (((block, own), mode), aside) in
-            problem.blocks.iter_mut().zip(&gathered.problem.blocks).zip(modes).zip(&aside)
-        {
-            if let Mode::Slide(d) = mode {
-                let slip_W = d * (FAST * scale) - aside;
-                block.b.y = own.b.y + slip_W.dot(&block.frame[1]);
-                block.b.z = own.b.z + slip_W.dot(&block.frame[2]);
-            }
-        }
+        slip_fast(gathered, modes, &aside, &mut problem);
         // Little has changed after the first.
         let is_solved =
             turn > 0 && newton::solve_near(&problem, &newton::to_rounding(FEW, gathered.deadline), &mut p, work);
@@ -82,9 +74,7 @@ pub fn by_law(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Law {
             if let Mode::Slide(d) = mode
                 && *d != Vector3::zeros()
             {
-                let block = &gathered.problem.blocks[i];
-                let a_W = block.along_W(&block.velocity(&solved.added));
-                let across = a_W - d * d.dot(&a_W);
+                let across = across_W(&gathered.problem.blocks[i], d, &solved);
                 if solved.p[i].x > 0.0 {
                     turned = turned.max((across - aside[i]).norm());
                 }
@@ -119,6 +109,24 @@ pub fn by_law(gathered: &Gathered, modes: &[Mode], work: &mut Work) -> Law {
         held.push((i, mode));
     }
     Law::Holds(held, Box::new(solved))
+}
+
+/// Gives what slides its fictitious slip, less what of it is aside.
+pub fn slip_fast(gathered: &Gathered, modes: &[Mode], aside: &[Vector3<f64>], problem: &mut ContactProblem) {
+    let fast = FAST * gathered.scale();
+    for (((block, own), mode), aside) in problem.blocks.iter_mut().zip(&gathered.problem.blocks).zip(modes).zip(aside) {
+        if let Mode::Slide(d) = mode {
+            let slip_W = d * fast - aside;
+            block.b.y = own.b.y + slip_W.dot(&block.frame[1]);
+            block.b.z = own.b.z + slip_W.dot(&block.frame[2]);
+        }
+    }
+}
+
+/// Of a contact's acceleration, what is across its direction, along the surface.
+pub fn across_W(block: &Block, d: &Vector3<f64>, solved: &Solved) -> Vector3<f64> {
+    let a_W = block.along_W(&block.velocity(&solved.added));
+    a_W - d * d.dot(&a_W)
 }
 
 /// Contacts that one of the simple answers is looked for of.

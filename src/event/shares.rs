@@ -8,30 +8,33 @@
 
 use super::forces::{Gathered, Mode, Solved};
 use super::last_forces::is_lawful;
-use super::law::{FAST, ROUNDING};
-use super::proportion::at_edge;
+use super::law::{ROUNDING, across_W, slip_fast};
+use super::proportion::{at_edge, in_proportion};
 use crate::solve::island::islands;
 use crate::solve::smallest;
 use crate::work::Work;
+use nalgebra::Vector3;
 
-/// The smallest forces with the motion of these, of contacts that press and have their friction within their cones.
-/// None: there are none.
+/// Forces with the motion of these, of contacts that press and have their friction within their cones. None: there are
+/// none.
 pub fn lawful_shares(gathered: &Gathered, modes: &[Mode], solved: &Solved, work: &mut Work) -> Option<Solved> {
+    in_proportion(gathered, modes, solved).or_else(|| smallest_shares(gathered, modes, solved, work))
+}
+
+/// The smallest of them.
+fn smallest_shares(gathered: &Gathered, modes: &[Mode], solved: &Solved, work: &mut Work) -> Option<Solved> {
     if !solved.holds || solved.largest() == 0.0 {
         return None;
     }
     let edges = at_edge(gathered, modes, solved)?;
     let mut problem = gathered.problem.clone();
-    let fast = FAST * gathered.scale();
-    for ((block, own), mode) in problem.blocks.iter_mut().zip(&gathered.problem.blocks).zip(&edges) {
-        if let Mode::Slide(d) = mode {
-            // All of it, that is, along its direction.
-            let across_W = own.along_W(&own.velocity(&solved.added));
-            let slip_W = d * fast - (across_W - d * d.dot(&across_W));
-            block.b.y += slip_W.dot(&block.frame[1]);
-            block.b.z += slip_W.dot(&block.frame[2]);
-        }
-    }
+    // Along its direction, that is.
+    let aside = |(mode, block)| match mode {
+        &Mode::Slide(d) if d != Vector3::zeros() => across_W(block, &d, solved),
+        _ => Vector3::zeros(),
+    };
+    let aside: Vec<Vector3<f64>> = edges.iter().zip(&gathered.problem.blocks).map(aside).collect();
+    slip_fast(gathered, &edges, &aside, &mut problem);
     let mut p = solved.p.clone();
     for island in islands(&problem, gathered.deadline) {
         let (least, _) = smallest::impulses(&island, &island.at(island.impulses(&p)), ROUNDING, &mut work.newton_steps);

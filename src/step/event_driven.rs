@@ -122,7 +122,7 @@ pub(super) const POINTS: u32 = 40;
 
 /// Steps of the integrator in the time in which something is put to rest, at most: every one is up to five times as
 /// long as the one before.
-const SHORTER: u32 = 32;
+const SHORTER: u32 = 33;
 
 impl EventDriven {
     pub fn new(settings: &Settings, plan: &Plan, model: &Model, start: &State) -> Self {
@@ -344,13 +344,13 @@ impl EventDriven {
         let mut others = if at_once { ending::coming(model, state, &self.held, &self.found) } else { Vec::new() };
         if !at_once {
             let to_s = over_s.map_or(end_s, |over_s| end_s.min(from_s + over_s));
-            self.advance(model, state, to_s, ending_s.is_some());
-            // Steps of the integrator do not cut it short, in which the weight could not make these impulses.
+            let ends = ending_s.is_some();
             for _ in 0..SHORTER {
-                if ending_s.is_none() || self.trouble || !matches!(self.next, Event::Step) || state.time_s >= to_s {
+                self.advance(model, state, to_s, ends);
+                // Steps of the integrator do not cut an end short: the weight could not make its impulses in them.
+                if !ends || self.trouble || !matches!(self.next, Event::Step) || state.time_s >= to_s {
                     break;
                 }
-                self.advance(model, state, to_s, true);
             }
             // What leaves its line may be seen to fade only then.
             if ending_s.is_none() && self.pace.ends_s.is_none() {

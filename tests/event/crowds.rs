@@ -1,6 +1,7 @@
 //! Several bodies of all shapes (from `.ci/crowds.py`): parts of them that came into each other unseen, or whose motion
 //! along each other was not known.
 
+use super::followed;
 use crate::yaml::measured;
 use gotai::outcome::Outcome;
 use gotai::rows::Measured;
@@ -22,8 +23,7 @@ time: { end_s: 0.6 }
 
 #[test]
 fn what_lies_nearly_along_a_face_comes_down_with_its_other_end_too() {
-    let Measured { outcome, penetration_max_m, work, .. } = measured(CAN_OVER_A_SEAM, &["time.end_s=0.36"]);
-    assert_eq!((outcome, work.fallbacks), (Outcome::Finished, 0));
+    let Measured { penetration_max_m, .. } = followed(CAN_OVER_A_SEAM, &["time.end_s=0.36"]);
     // measured: 4.0e-12; 5.6e-6 before the first moment was looked for
     assert!(penetration_max_m.unwrap() < 1e-10, "{penetration_max_m:?}");
 }
@@ -138,10 +138,8 @@ time: { end_s: 0.6 }
 
 #[test]
 fn what_is_put_to_rest_pushes_nothing_that_has_to_strike_for_it() {
-    let Measured { outcome, penetration_max_m, residual_max, work, .. } =
-        measured(STACK_THAT_ROCKS, &["time.end_s=0.53"]);
+    let Measured { penetration_max_m, residual_max, work, .. } = followed(STACK_THAT_ROCKS, &["time.end_s=0.53"]);
     // A corner put to rest at 7e-11 m/s pushed an edge that struck at once, and opened the corner again, 200 times.
-    assert_eq!((outcome, work.fallbacks), (Outcome::Finished, 0));
     // measured: 144; 233 and a stretch of steps before
     assert!(work.events < 200, "{}", work.events);
     // measured: 5.7e-11 and 5.0e-8
@@ -165,8 +163,7 @@ time: { end_s: 0.3 }
 /// Was: half of the can's weight by a contact that is not there, and 6 s.
 #[test]
 fn a_ball_on_a_can_that_wobbles_over_seams_has_no_contact_that_is_not_there() {
-    let measured = measured(BALL_ON_A_CAN, &[]);
-    assert_eq!((measured.outcome, measured.work.fallbacks), (Outcome::Finished, 0));
+    let measured = followed(BALL_ON_A_CAN, &[]);
     assert_eq!(measured.ghost_impulse_max_rel, Some(0.0));
     // measured: 2.8e-12, and 162; 3,418
     assert!(measured.residual_max.unwrap() < 1e-8 && measured.work.events < 400, "{measured:?}");
@@ -190,8 +187,7 @@ time: { end_s: 0.0055 }
 /// Was: the law of all contacts was solved at every look for a change of forces, fifty of them a change.
 #[test]
 fn when_forces_change_costs_few_solutions_of_the_law() {
-    let measured = measured(BOXES_ON_A_CAN, &[]);
-    assert_eq!((measured.outcome, measured.work.fallbacks), (Outcome::Finished, 0));
+    let measured = followed(BOXES_ON_A_CAN, &[]);
     // measured: 1,166; 45,753
     // measured: 5,047, of which the law of one change takes 1,100; 45,753
     assert!(measured.work.newton_steps < 8_000, "{}", measured.work.newton_steps);
@@ -219,8 +215,7 @@ time: { end_s: 0.5 }
 /// A prism of three corners comes to rest beside a box whose contacts say the same thing twice.
 #[test]
 fn what_is_put_to_rest_is_so_whatever_rests_beside_it() {
-    let measured = measured(PRISMS_AND_BOXES, &[]);
-    assert_eq!((measured.outcome, measured.work.fallbacks), (Outcome::Finished, 0));
+    let measured = followed(PRISMS_AND_BOXES, &[]);
     // measured: 1.1e-11; 9.3e-5 where no island was put to rest if one was not; and 2.3e-11 m
     assert!(measured.residual_max.unwrap() < 1e-8 && measured.penetration_max_m.unwrap() < 1e-10, "{measured:?}");
 }
@@ -250,8 +245,7 @@ fn closing_a_gap_carries_nothing_away() {
 /// A can on a leaning prism, an edge of which lies across its cap for a moment and then turns up over the rim.
 #[test]
 fn an_edge_that_turns_up_over_a_rim_is_held_along_both() {
-    let measured = measured(STACK_THAT_ROCKS, &["time.end_s=0.56"]);
-    assert_eq!((measured.outcome, measured.work.fallbacks), (Outcome::Finished, 0));
+    let measured = followed(STACK_THAT_ROCKS, &["time.end_s=0.56"]);
     // measured: 0; 0.018 where it went on along the cap's normal, and off it by a micrometre in a step
     assert_eq!(measured.ghost_impulse_max_rel, Some(0.0));
     // measured: 5.0e-8 and 3.4e-10 m

@@ -39,6 +39,13 @@ fn worst_error(measured: &Measured) -> f64 {
     all.iter().map(|error| error.unwrap()).fold(0.0, f64::max)
 }
 
+/// A run that ends, every event of which was followed: no steps of equal length.
+fn followed(text: &str, sets: &[&str]) -> Measured {
+    let measured = crate::yaml::measured(text, sets);
+    assert_eq!((measured.outcome, measured.work.fallbacks), (Outcome::Finished, 0));
+    measured
+}
+
 fn apart_m(a: &State, b: &State) -> f64 {
     Errors::between(a, b).position_m
 }

@@ -133,18 +133,19 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
 
 /// Two caps whose rims cross, by the names that the contact test gives them, however they are tilted.
 fn rims_crossing(model: &Model, state: &State, found: &Contact, bodies: [usize; 2]) -> Option<OnRim> {
-    let cap = |side: usize, out_W: Vector3<f64>| {
-        let (Solid::Cylinder { radius_m, half_height_m }, centre) = model.bodies[bodies[side]].solid()? else {
-            return None;
-        };
-        let out_B = Vector3::y() * state.bodies[bodies[side]].q_WB.inverse_transform_vector(&out_W).y.signum();
-        Some(Disc { centre_B: centre + out_B * *half_height_m, out_B, radius_m: *radius_m })
-    };
     if !crosses(found.feature.0) || !crosses(found.feature.1) {
         return None;
     }
+    let cap = |side: usize, out_W| cap(&model.bodies[bodies[side]], &state.bodies[bodies[side]], out_W);
     let (own, other) = (cap(0, -found.normal)?, cap(1, found.normal)?);
     Some(OnRim::new(found, &|i: usize| &state.bodies[i], true, own, Outline::Rim(other)))
+}
+
+/// The cap of a cylinder that faces a direction.
+fn cap(body: &Body, at: &BodyState, out_W: Vector3<f64>) -> Option<Disc> {
+    let (Solid::Cylinder { radius_m, half_height_m }, centre) = body.solid()? else { return None };
+    let out_B = Vector3::y() * at.q_WB.inverse_transform_vector(&out_W).y.signum();
+    Some(Disc { centre_B: centre + out_B * *half_height_m, out_B, radius_m: *radius_m })
 }
 
 /// Whether it is a point of an arc's ends.
@@ -163,20 +164,17 @@ pub(super) fn rim_on_edge<'a>(
     let features = [found.feature.0, found.feature.1];
     let of =
         (0..2).find(|k| (kind(features[*k]) == VERTEX || crosses(features[*k])) && kind(features[1 - k]) == EDGE)?;
-    let (Solid::Cylinder { radius_m, half_height_m }, centre) = model.bodies[bodies[of]].solid()? else { return None };
     let base = &model.bodies[bodies[1 - of]];
     let (solid @ (Solid::Box { .. } | Solid::Convex(_)), base_centre) = base.solid()? else { return None };
     let at = bodies.map(place);
     let out_W = if of == 0 { -found.normal } else { found.normal };
-    let own_B = at[of].q_WB.inverse_transform_vector(&out_W);
-    let out_B = Vector3::y() * own_B.y.signum();
-    let cap = (centre + out_B * *half_height_m, out_B, *radius_m);
+    let cap = cap(&model.bodies[bodies[of]], at[of], out_W)?;
     // The point of the edge that is next to what was found.
     let ends = edge_ends_W(solid, &pose_of_solid(base_centre, at[1 - of]), features[1 - of])?;
     let d = (ends[1] - ends[0]).try_normalize(0.0)?;
     // What lies flat on a cap crosses its outline (`crossing`).
-    let lies = (at[of].q_WB * out_B).dot(&d).abs() <= LIES;
-    if lies && kind(features[of]) == ARC && own_B.xz().norm() <= ROLLS {
+    let lies = (at[of].q_WB * cap.out_B).dot(&d).abs() <= LIES;
+    if lies && kind(features[of]) == ARC && at[of].q_WB.inverse_transform_vector(&out_W).xz().norm() <= ROLLS {
         return None;
     }
     let on_W = ends[0] + d * d.dot(&(found.p_WC - ends[0]));
@@ -246,7 +244,8 @@ fn over_face(
     if let Part::Rim { centre_B, axis_B, radius_m } = part {
         let axis_W = at(of).q_WB * axis_B;
         if axis_W.cross(&out_W).norm() <= LEANS {
-            let cap = (*centre_B, axis_B * -axis_W.dot(&out_W).signum(), *radius_m);
+            let out_B = axis_B * -axis_W.dot(&out_W).signum();
+            let cap = Disc { centre_B: *centre_B, out_B, radius_m: *radius_m };
             let edge = edge_beside(&model.bodies[base], at(base), found, plane)?;
             return RimOnEdge::new(found, &at, of == found.body, cap, edge).map(Parts::RimOnEdge);
         }

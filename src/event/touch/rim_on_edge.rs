@@ -5,6 +5,7 @@
 //! normal: it is where the distance of the rim from the edge is stationary, t·w = 0 with w from the edge, across it, to
 //! the rim.
 
+use super::crossing::Disc;
 use super::rates::{Rates, pair};
 use crate::collide::Contact;
 use crate::event::shown::{Line, within_m};
@@ -60,7 +61,7 @@ impl RimOnEdge {
         found: &Contact,
         bodies: &impl Fn(usize) -> &'a BodyState,
         first: bool,
-        (centre_B, out_B, radius_m): (Vector3<f64>, Vector3<f64>, f64),
+        Disc { centre_B, out_B, radius_m }: Disc,
         edge: Line,
     ) -> Option<Self> {
         let [a, b] = pair(found, bodies);

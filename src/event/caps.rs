@@ -17,7 +17,7 @@ use crate::collide::Contact;
 use crate::collide::closed::{SOME, delta_m};
 use crate::integrate::rotation::exponential;
 use crate::model::{Body, Geometry, Model};
-use crate::shape::cylinder::{FLAT, RIM, kind};
+use crate::shape::cylinder::{FACE, FLAT, RIM, kind, middle_of_arc};
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
@@ -42,6 +42,9 @@ pub const TIPS_AT_LEAST: f64 = 1e-9;
 
 /// A point of the rim that sinks slower, of the speed of the bodies, does not.
 const SINKS: f64 = 1e-12;
+
+/// A tilt (rad) of two caps to which the contact test's normal is that of both.
+const LYING: f64 = 1e-4;
 
 /// Points that stand for a flat cap.
 pub(super) const STAND: usize = 4;
@@ -181,6 +184,51 @@ pub fn level_found(model: &Model, state: &mut State, found: &[Contact]) -> bool 
         }
     }
     moved
+}
+
+/// The normal, from the second of two bodies to the first, of what stands with a rim on another cap: that one's. The
+/// contact test has one for both of them, which are tilted against each other by as little as tells whether the rim
+/// rolls. None: something else touches.
+pub fn cap_under_rim_W(
+    bodies: [(&Body, &BodyState); 2],
+    feature: (u32, u32),
+    normal: &Vector3<f64>,
+) -> Option<Vector3<f64>> {
+    let side = rim_side(feature)?;
+    let ((body, at), sign, of_base) =
+        if side == 0 { (bodies[1], 1.0, feature.1) } else { (bodies[0], -1.0, feature.0) };
+    let inward = normal * -sign;
+    let cap = Cap::facing(body, at, &inward).filter(|_| of_base == FACE)?;
+    (cap.lean_W(at, &inward).norm() <= LYING).then(|| at.q_WB * cap.out_B * sign)
+}
+
+/// Gives all that stands so its normal.
+pub fn along_caps(model: &Model, state: &State, found: &mut [Contact]) {
+    for contact in found {
+        let Some(other) = contact.other else { continue };
+        let bodies = [contact.body, other].map(|i| (&model.bodies[i], &state.bodies[i]));
+        contact.normal = cap_under_rim_W(bodies, contact.feature, &contact.normal).unwrap_or(contact.normal);
+    }
+}
+
+/// Leaves out the middle of an arc of a rim that rolls, where its lowest point has been found: beside that, it is the
+/// same point again, and would stay behind.
+pub fn leave_arcs(model: &Model, state: &State, found: &mut Vec<Contact>) {
+    let rolls = |contact: &Contact| {
+        let side = rim_side(contact.feature)?;
+        let other = contact.other?;
+        let (of, normal) = if side == 0 { (contact.body, contact.normal) } else { (other, -contact.normal) };
+        let at = &state.bodies[of];
+        let cap = Cap::facing(&model.bodies[of], at, &normal)?;
+        (cap.lean_W(at, &normal).norm() > ROLLS).then_some((contact.body, other, side))
+    };
+    let rolling: Vec<(usize, usize, u32)> = found.iter().filter_map(rolls).collect();
+    found.retain(|contact| {
+        let is_its = |(body, other, side): &(usize, usize, u32)| {
+            (contact.body, contact.other) == (*body, Some(*other)) && middle_of_arc(contact.feature) == Some(*side)
+        };
+        !rolling.iter().any(is_its)
+    });
 }
 
 /// A flat cap that a contact is of.

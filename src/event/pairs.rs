@@ -1,6 +1,6 @@
 //! When two bodies come to touch with parts that are not held (`watch`).
 
-use super::caps::{Cap, are_of_one_rim};
+use super::caps::{Cap, are_of_one_rim, cap_under_rim_W};
 use super::decide::SAME;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::look::{Look, Paths, Window, march};
@@ -308,6 +308,10 @@ impl<'a> Two<'a> {
         found.clear();
         let reach_m = self.sizes[0] + self.sizes[1];
         touches_beside(self.solids[0], &now.poses[0], self.solids[1], &now.poses[1], reach_m, found);
+        let bodies = [0, 1].map(|k| (self.bodies[k], &now.at[k]));
+        for touch in found {
+            touch.normal = cap_under_rim_W(bodies, touch.feature, &touch.normal).unwrap_or(touch.normal);
+        }
     }
 
     fn band_m(&self) -> f64 {
@@ -523,16 +527,18 @@ impl<'a> Two<'a> {
         held.iter().any(is_same) || self.is_kept(held, now, touch)
     }
 
-    /// Whether a rim that rolls, of the one that moves, is held at its lowest point in the same plane: nothing else of
-    /// its cap comes down there.
-    fn is_below_rim(&self, now: &Now, held: &Contact, touch: &Found) -> bool {
-        let moving = usize::from(self.bodies[0].driven);
-        let is_first = held.body == self.pair[moving];
+    /// Whether a rim that rolls, of this one of the pair, is held at its lowest point in the same plane: nothing else
+    /// of its cap comes down there.
+    fn is_below_rim(&self, now: &Now, held: &Contact, touch: &Found, of: usize) -> bool {
+        if !held.ends().any(|(i, ..)| i == self.pair[of]) {
+            return false;
+        }
+        let is_first = held.body == self.pair[of];
         let (own, base) = if is_first { held.feature } else { (held.feature.1, held.feature.0) };
         // Along the normal from what it stands on.
-        let normal = if moving == 0 { held.normal } else { -held.normal };
-        let at = &now.at[moving];
-        let cap = Cap::facing(self.bodies[moving], at, &normal);
+        let normal = if of == 0 { held.normal } else { -held.normal };
+        let at = &now.at[of];
+        let cap = Cap::facing(self.bodies[of], at, &normal);
         let from_held = touch.p_W - held.p_WC;
         let is_of_cap = (at.q_WB * Vector3::y()).dot(&from_held).abs() <= NEAR * self.smaller_m();
         let is_in_plane = normal.dot(&from_held).abs() <= FLUSH * self.smaller_m();
@@ -549,7 +555,7 @@ impl<'a> Two<'a> {
         let flush = |contact: &&&Contact| {
             contact.normal.cross(&touch.normal).norm() <= FLUSH && contact.normal.dot(&touch.normal) > 0.0
         };
-        if held.iter().filter(flush).any(|contact| self.is_below_rim(now, contact, touch)) {
+        if held.iter().filter(flush).any(|contact| (0..2).any(|of| self.is_below_rim(now, contact, touch, of))) {
             return true;
         }
         let mut flush = held.iter().filter(flush).map(|contact| contact.p_WC);

@@ -11,6 +11,11 @@ use crate::work::Work;
 const AT_ONCE: u32 = 200;
 const AT_ONCE_S: f64 = 1e-9;
 
+/// Steps, however they end, in a part of the time of a stretch: a slip so slow that its direction hardly lasts. What
+/// begins from nothing takes some hundred, each longer than the one before.
+const STEPS_IN: f64 = 1e-6;
+const MANY_STEPS: u32 = 1_000;
+
 /// More events than this in the time of a stretch are too many: those that cost an integration, and others.
 const MANY_DENSE: u64 = 2_000;
 const MANY: u64 = 100_000;
@@ -46,6 +51,9 @@ pub struct Patience {
     spent: u64,
     /// Events without any time between them.
     at_once: u32,
+    /// Steps since a time.
+    steps_from_s: f64,
+    steps: u32,
     /// When counting of events began, with how many.
     from_s: f64,
     events: u64,
@@ -65,6 +73,8 @@ impl Patience {
             counted_s: start_s,
             spent: 0,
             at_once: 0,
+            steps_from_s: start_s,
+            steps: 0,
             from_s: start_s,
             events: 0,
             ended_s: f64::NEG_INFINITY,
@@ -80,6 +90,10 @@ impl Patience {
     /// Whether events come faster, or cost more, than steps of equal length would.
     pub fn is_over(&mut self, [from_s, to_s]: [f64; 2], work: &Work, is_dense: bool) -> bool {
         self.at_once = if to_s - from_s > AT_ONCE_S * self.stretch_s { 0 } else { self.at_once + 1 };
+        self.steps += 1;
+        if to_s - self.steps_from_s > STEPS_IN * self.stretch_s {
+            (self.steps_from_s, self.steps) = (to_s, 0);
+        }
         if to_s - self.from_s > self.stretch_s {
             (self.from_s, self.events) = (to_s, work.events);
         }
@@ -89,7 +103,7 @@ impl Patience {
         self.give(to_s, work);
         let part = self.level.min(LEAST_PART);
         let at_once = (AT_ONCE >> part).max(LEAST_AT_ONCE);
-        self.at_once > at_once || work.events - self.events > most >> part || is_spent
+        self.at_once > at_once || self.steps > MANY_STEPS || work.events - self.events > most >> part || is_spent
     }
 
     /// What time gives.
@@ -119,6 +133,7 @@ impl Patience {
     /// Back to events: to try them again costs something in any case.
     pub fn begin(&mut self, at_s: f64, work: &Work) {
         (self.ended_s, self.at_once) = (at_s, 0);
+        (self.steps_from_s, self.steps) = (at_s, 0);
         (self.from_s, self.events) = (at_s, work.events);
         self.give(at_s, work);
         let least = (GIVEN * self.effort as f64) as u64;

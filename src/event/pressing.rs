@@ -35,15 +35,28 @@ const AT_CHORD: f64 = 1.001;
 /// A cap's share of the largest force: less does not press.
 const PRESSES: f64 = 1e-6;
 
-/// A flat cap that is pressed near its rim.
+/// A flat cap and what it stands on.
 #[derive(Clone, Debug)]
-pub struct Pressed {
+struct CapOn {
     of: usize,
     base: Option<usize>,
     /// Of the container.
     face: u32,
     /// Number of its cap's first point.
     first: u32,
+}
+
+/// A flat cap, and the directions (body axes) of the four points that stand for it, from its centre.
+#[derive(Clone, Debug)]
+pub struct Laid {
+    cap: CapOn,
+    directions_B: [Vector3<f64>; 4],
+}
+
+/// A flat cap that is pressed near its rim.
+#[derive(Clone, Debug)]
+pub struct Pressed {
+    cap: CapOn,
     /// From the centre of the cap (unit).
     toward_B: Vector3<f64>,
     /// The angle to either of the points about it.
@@ -52,8 +65,15 @@ pub struct Pressed {
     tips: bool,
 }
 
-/// Flat caps of what is held that are pressed near their rims.
-pub fn pressed(model: &Model, state: &State, held: &[Held], gathered: &mut Gathered, work: &mut Work) -> Vec<Pressed> {
+/// Flat caps of what is held that are pressed near their rims, as far as they tip or a point of theirs opens that leaves
+/// fewer than three: what happens to others changes nothing of where a cap bears.
+pub fn pressed(
+    model: &Model,
+    state: &State,
+    (held, opening): (&[Held], &[(Key, Vector3<f64>)]),
+    gathered: &mut Gathered,
+    work: &mut Work,
+) -> Vec<Pressed> {
     if !held.iter().any(|held| held.touch.standing(state).is_some_and(|of| of.is_on_rim(model))) {
         return Vec::new();
     }
@@ -83,23 +103,33 @@ pub fn pressed(model: &Model, state: &State, held: &[Held], gathered: &mut Gathe
         let inside = (1.0 - centre_B.norm()).max(0.0);
         let Some(toward_B) = centre_B.try_normalize(0.0).filter(|_| inside < NEAR_RIM) else { continue };
         let (key, of) = (held[i].touch.key(), rim.standing.of);
+        let tips = own.len() == 2 || inside <= AT_CHORD * 0.5 * LEAST_RAD * LEAST_RAD;
+        let opens = |j: &usize| opening.iter().any(|(key, _)| *key == held[*j].touch.key());
+        let bears = |j: &&usize| forces[**j].x > PRESSES * presses && !opens(j);
+        if !tips && (!own.iter().any(opens) || own.iter().filter(bears).count() > 2) {
+            continue;
+        }
+        let base = held[i].touch.bodies().find(|body| *body != of);
         pressed.push(Pressed {
-            of,
-            base: held[i].touch.bodies().find(|body| *body != of),
-            face: key.2.0,
-            first: rim.cap.first(),
+            cap: CapOn { of, base, face: key.2.0, first: rim.cap.first() },
             toward_B,
             beside_rad: (BESIDE * inside.sqrt()).max(LEAST_RAD),
-            tips: own.len() == 2 || inside <= AT_CHORD * 0.5 * LEAST_RAD * LEAST_RAD,
+            tips,
         });
     }
     pressed
 }
 
 /// Has every flat cap among what touches stand on four points: where it is pressed near its rim, about that; else the
-/// first of them where it comes down, or, if it does not turn over, on those that are the body's own. Of pressed caps
-/// `change` then says what opens.
-pub fn turn(model: &Model, state: &State, found: &mut Vec<Contact>, (pressed, change): (&[Pressed], &mut Change)) {
+/// first of them where it comes down, or, if it does not turn over, on those that stood for it before (`laid`), or that
+/// are the body's own. Of pressed caps `change` then says what opens.
+pub fn turn(
+    model: &Model,
+    state: &State,
+    (found, laid): (&mut Vec<Contact>, &mut Vec<Laid>),
+    (pressed, change): (&[Pressed], &mut Change),
+) {
+    let before = std::mem::take(laid);
     found.retain(|contact| Footing::of(model, state, contact).is_none_or(|footing| footing.node < POINTS));
     each_cap(model, state, found, |found, group, footing| {
         if group.len() < STAND {
@@ -111,19 +141,21 @@ pub fn turn(model: &Model, state: &State, found: &mut Vec<Contact>, (pressed, ch
         let turns = footing.cap.radius_m * descent.norm() > NO_SLIP * speed_m_s;
         let at = &state.bodies[footing.of];
         let along_B = if turns { at.q_WB.inverse_transform_vector(&descent).normalize() } else { Vector3::zeros() };
-        let is_it = |of: &&Pressed| {
-            of.is_of((model, state), footing.of, footing.base, first.feature.0, first.feature.1) && (!turns || of.tips)
-        };
-        let pressed = pressed.iter().find(is_it);
-        let directions_B = pressed.map_or_else(|| rim_directions(&along_B), Pressed::directions_B);
+        let (face, node) = first.feature;
+        let is_of = |cap: &CapOn| cap.is_of((model, state), footing.of, footing.base, (face, node));
+        let pressed = pressed.iter().find(|of| is_of(&of.cap) && (!turns || of.tips));
+        let stood = before.iter().find(|of| !turns && is_of(&of.cap)).map(|of| of.directions_B);
+        let directions_B = pressed.map(Pressed::directions_B).or(stood).unwrap_or_else(|| rim_directions(&along_B));
+        let cap = CapOn { of: footing.of, base: footing.base, face, first: footing.cap.first() };
+        laid.push(Laid { cap, directions_B });
         let most = |of: fn(&Contact) -> f64| found[group.clone()].iter().map(of).fold(0.0, f64::max);
         let restitution = most(|contact| contact.restitution);
         let tangential_restitution = most(|contact| contact.tangential_restitution);
-        let before = found[group.clone()].to_vec();
+        let own = found[group.clone()].to_vec();
         for ((contact, u_B), node) in found[group.clone()].iter_mut().zip(directions_B).zip(0..) {
             let like = Contact { restitution, tangential_restitution, ..first };
             *contact = footing.point(state, &like, &u_B, node);
-            seat(model, state, contact, &before);
+            seat(model, state, contact, &own);
         }
         if let Some(pressed) = pressed {
             pressed.follow(model, state, &found[group.start..group.start + 4], change);
@@ -132,9 +164,15 @@ pub fn turn(model: &Model, state: &State, found: &mut Vec<Contact>, (pressed, ch
     });
 }
 
-impl Pressed {
+impl CapOn {
     /// Whether it is this cap's, of a contact with this base, or this face of the container.
-    fn is_of(&self, (model, state): (&Model, &State), of: usize, base: Option<usize>, face: u32, node: u32) -> bool {
+    fn is_of(
+        &self,
+        (model, state): (&Model, &State),
+        of: usize,
+        base: Option<usize>,
+        (face, node): (u32, u32),
+    ) -> bool {
         let is_its_base = match (self.base, base) {
             (Some(own), Some(base)) => is_one_base(model, state, [own, base]),
             (None, None) => self.face == face && self.has(node),
@@ -146,7 +184,9 @@ impl Pressed {
     fn has(&self, node: u32) -> bool {
         node % POINTS / 4 * 4 == self.first
     }
+}
 
+impl Pressed {
     /// Directions of the four points, from the centre of the cap.
     fn directions_B(&self) -> [Vector3<f64>; 4] {
         let turned = |by_rad: f64| UnitQuaternion::from_axis_angle(&Vector3::y_axis(), by_rad) * self.toward_B;
@@ -158,10 +198,10 @@ impl Pressed {
     fn follow(&self, model: &Model, state: &State, laid: &[Contact], change: &mut Change) {
         let is_other = |(key, _): &(Key, Vector3<f64>)| {
             let (body, other, feature) = *key;
-            let base = if body == self.of { other } else { Some(body) };
-            let of = if body == self.of { Some(body) } else { other };
+            let base = if body == self.cap.of { other } else { Some(body) };
+            let of = if body == self.cap.of { Some(body) } else { other };
             let is_of_rim = other.is_none() || rim_side(feature).is_some();
-            !(is_of_rim && of.is_some_and(|of| self.is_of((model, state), of, base, feature.0, feature.1)))
+            !(is_of_rim && of.is_some_and(|of| self.cap.is_of((model, state), of, base, feature)))
         };
         change.opening.retain(is_other);
         change.opened.retain(is_other);

@@ -113,6 +113,10 @@ pub struct Facing {
 /// Of a unit vector: the normal is the face's.
 const ALONG: f64 = 1e-9;
 
+/// The same of what is between the ends of a round side: a normal is known to the contact test to the root of rounding
+/// only, and nothing else is there.
+const ASIDE: f64 = 1e-6;
+
 /// Of a cap's tilt (rad): a steeper one rolls along its rim, one less steep stands on points of the body (`caps`).
 pub const ROLLS: f64 = 1.75 * FLAT;
 
@@ -169,6 +173,7 @@ pub fn shown(body: &Body, p_B: &Vector3<f64>, out_B: &Vector3<f64>, gap_m: f64) 
         }
         Solid::Cylinder { radius_m, half_height_m } => {
             let (normal_B, end) = (y * out_B.y.signum(), centre + y * half_height_m.copysign(out_B.y));
+            let is_at_end = own.y.abs() >= half_height_m - near;
             if (out_B - normal_B).norm() <= ROLLS {
                 let border = Border::Round { centre_B: *centre, radius_m: *radius_m };
                 let face = Face { normal_B, offset_m: normal_B.dot(&end), border };
@@ -176,9 +181,11 @@ pub fn shown(body: &Body, p_B: &Vector3<f64>, out_B: &Vector3<f64>, gap_m: f64) 
                 let is_on_rim = (radial.norm() - radius_m).abs() <= near;
                 let spot = if is_on_rim { ball(end + radial, 0.0, Vec::new()) } else { Spot::Inside };
                 Facing { spot, face: Some(face) }
-            } else if out_B.y.abs() <= ALONG {
+            } else if out_B.y.abs() <= if is_at_end { ALONG } else { ASIDE } {
                 only(side(own.y.clamp(-half_height_m, *half_height_m), *radius_m, *half_height_m))
             } else {
+                // Of a round side that all but lies, the rim that is higher touches as well.
+                let end = if is_at_end { centre + y * half_height_m.copysign(own.y) } else { end };
                 only(Spot::Part(Part::Rim { centre_B: end, axis_B: y, radius_m: *radius_m }))
             }
         }

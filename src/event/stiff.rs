@@ -84,7 +84,9 @@ impl Field<'_> {
             let (here, Mode::Slide(d)) = (&self.gathered.here[i], modes[i]) else { continue };
             let (slip, t_W) = (here.slip_W(), here.contact.normal.cross(&d));
             let speed = d.dot(&slip);
-            if speed <= 0.0 {
+            // What has just begun keeps the direction in which it did.
+            let keeps = matches!(self.held[i].slip, Slip::Young(until_m_s) if slip.norm() <= until_m_s);
+            if speed <= 0.0 || keeps {
                 continue;
             }
             let changes = told.as_ref().and_then(|told| told.turn(i, &t_W));

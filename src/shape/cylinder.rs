@@ -14,8 +14,13 @@ pub const FLAT: f64 = 1e-10;
 pub const FACE: u32 = 0;
 pub const VERTEX: u32 = 1 << 28;
 
-/// The same: an edge, by the numbers of its corners in 14 bits each, the smaller one first.
+/// The same: an edge, by the numbers of its corners in 12 bits each from the 14th and the first on, the smaller one first.
 pub const EDGE: u32 = 2 << 28;
+
+/// In the name of an edge that lies along the other solid's: so it does at the first end of what they have in common,
+/// and at the second one.
+const FIRST_END: u32 = 1 << 26;
+const SECOND_END: u32 = 1 << 27;
 
 /// The same: a point of a rim, by its number.
 pub const RIM: u32 = 3 << 28;
@@ -26,6 +31,25 @@ pub const ARC: u32 = 4 << 28;
 /// Which of these a feature is, without its number.
 pub fn kind(feature: u32) -> u32 {
     feature >> 28 << 28
+}
+
+/// Of names of what crosses: the side whose rim has an arc there, if it is the middle of one.
+pub fn middle_of_arc((of, other): (u32, u32)) -> Option<u32> {
+    match (of, other) {
+        _ if of == ARC | 2 => Some(0),
+        _ if other == ARC | 2 || other == ARC | 3 => Some(1),
+        _ => None,
+    }
+}
+
+/// The names of two edges that lie side by side, at the first or second end of what they have in common.
+pub fn side_by_side(edges: (u32, u32), is_second: bool) -> (u32, u32) {
+    (edges.0, edges.1 | if is_second { SECOND_END } else { FIRST_END })
+}
+
+/// Whether they are such names.
+pub fn are_side_by_side((edge, other): (u32, u32)) -> bool {
+    kind(edge) == EDGE && kind(other) == EDGE && other & (FIRST_END | SECOND_END) != 0
 }
 
 pub fn bounding_radius_m(radius_m: f64, half_height_m: f64) -> f64 {

@@ -7,6 +7,7 @@
 //! Hodgman, Comm. ACM 17 (1974) 32, would name such points at random.)
 
 use super::axis::{Axis, Face};
+use super::cylinder::side_by_side;
 use super::placed::{FACING, PARALLEL, Placed};
 use nalgebra::Vector3;
 
@@ -395,9 +396,9 @@ pub fn of_lines(a: &Placed, b: &Placed, n: &Vector3<f64>, size_m: f64, visit: &m
     let [(i, p0), (j, p1)] = a.support_line(&-n, slack_m);
     let [(k, q0), (l, q1)] = b.support_line(n, slack_m);
     let (u, v) = (p1 - p0, q1 - q0);
-    let (long_u, long_v) = (u.norm(), v.norm());
-    let is_parallel = i != j && k != l && u.cross(&v).norm() <= PARALLEL * long_u * long_v;
-    if !is_parallel {
+    let long_u = u.norm();
+    let are_lines = i != j && k != l;
+    if !are_lines || !lie_along(a, b, &u, &v, slack_m) {
         let (s, t) = closest_parts(&p0, &u, &q0, &v);
         let name = |i, j| if i == j { feature::vertex(i) } else { feature::edge(i, j) };
         return visit(Opposite { on_a: p0 + u * s, on_b: q0 + v * t, feature: (name(i, j), name(k, l)) });
@@ -407,13 +408,48 @@ pub fn of_lines(a: &Placed, b: &Placed, n: &Vector3<f64>, size_m: f64, visit: &m
     let (start, end) = (q_from.min(q_to).max(0.0), q_from.max(q_to).min(long_u));
     let on_b = |x: f64| q0 + v * ((x - q_from) / (q_to - q_from)).clamp(0.0, 1.0);
     let both = (feature::edge(i, j), feature::edge(k, l));
-    for (end_number, x) in [start, end].into_iter().enumerate() {
-        if end_number == 0 || end - start > slack_m {
+    for (is_second, x) in [(false, start), (true, end)] {
+        if !is_second || end - start > slack_m {
             let x = if start > end { 0.5 * (start + end) } else { x };
-            let feature = (both.0, both.1 | (end_number as u32) << 27);
-            visit(Opposite { on_a: p0 + along * x.clamp(0.0, long_u), on_b: on_b(x), feature });
+            let (on_a, on_b) = (p0 + along * x.clamp(0.0, long_u), on_b(x));
+            // What is sharp is touched where it is, what is round there as well.
+            let apart = n * n.dot(&(on_a - on_b));
+            let (on_a, on_b) = match [a, b].map(Placed::round_m) {
+                [0.0, round_m] if round_m > 0.0 => (on_a, on_a - apart),
+                [round_m, 0.0] if round_m > 0.0 => (on_b + apart, on_b),
+                _ => (on_a, on_b),
+            };
+            visit(Opposite { on_a, on_b, feature: side_by_side(both, is_second) });
         }
     }
+}
+
+/// Of unit vectors: a normal that was found nearly, and the one that it is.
+const NEARLY_IT: f64 = 1e-4;
+
+/// The direction between a corner and the line of a round side that face each other along this one, which is known to
+/// the root of rounding: as far as the distance tells. None: something else does.
+pub fn of_corner_on_round(a: &Placed, b: &Placed, n: &Vector3<f64>, size_m: f64) -> Option<Vector3<f64>> {
+    let slack_m = ONE_POINT * size_m;
+    let (lines, is_round) = ([a.support_line(&-n, slack_m), b.support_line(n, slack_m)], [a, b].map(Placed::is_round));
+    let is_corner = |[(i, _), (j, _)]: &[(u32, Vector3<f64>); 2]| i == j;
+    let (corner, round, sign) = match lines.each_ref().map(is_corner) {
+        [true, false] if is_round[1] && a.is_polytope() => (lines[0][0].1, b, 1.0),
+        [false, true] if is_round[0] && b.is_polytope() => (lines[1][0].1, a, -1.0),
+        _ => return None,
+    };
+    let from = corner - round.p;
+    let exact = (from - round.axis() * round.axis().dot(&from)).try_normalize(0.0)? * sign;
+    ((exact - n).norm() <= NEARLY_IT).then_some(exact)
+}
+
+/// Whether two lines are parallel, or what is round is nowhere along them farther from the other one than what is one
+/// point: it would roll over all of them within less than rounding of a turn.
+fn lie_along(a: &Placed, b: &Placed, u: &Vector3<f64>, v: &Vector3<f64>, slack_m: f64) -> bool {
+    let (long_u, long_v) = (u.norm(), v.norm());
+    let sine = u.cross(v).norm() / (long_u * long_v);
+    let aside_m = 0.5 * sine * long_u.min(long_v);
+    sine <= PARALLEL || aside_m * aside_m <= 2.0 * (a.round_m() + b.round_m()) * slack_m
 }
 
 /// Parameters of the nearest points of two segments p + s u, q + t v (C. Ericson, Real-Time Collision Detection, 2005,

@@ -4,7 +4,7 @@
 //! the axis between the cores (`axis.rs`), then the corners of what lies opposite along it (`manifold.rs`).
 
 use super::axis::{Axis, Face, axis, separation};
-use super::manifold::{Opposite, closest_parts, of_face, of_lines, of_nearest_edges};
+use super::manifold::{Opposite, closest_parts, of_corner_on_round, of_face, of_lines, of_nearest_edges};
 use super::placed::Placed;
 use super::solid::{Meeting, Pose, Solid};
 use nalgebra::Vector3;
@@ -90,7 +90,7 @@ pub fn edge_ends_W(solid: &Solid, pose: &Pose, feature: u32) -> Option<[Vector3<
 
 /// Numbers of an edge's corners.
 fn corners(feature: u32) -> [u32; 2] {
-    [14, 0].map(|shift| feature >> shift & 0x3fff)
+    [14, 0].map(|shift| feature >> shift & 0xfff)
 }
 
 /// The axis between two cores, what else it may be where no face lies opposite (`axis::axis`), and the solids'
@@ -140,6 +140,8 @@ impl Collect<'_> {
             of_nearest_edges(a, b, &facing, &mut |at| self.add(normal, self.turned(&axis.normal, normal, at)));
         }
         if !self.visited {
+            let exact = of_corner_on_round(a, b, normal, size_m);
+            let normal = exact.as_ref().unwrap_or(normal);
             of_lines(a, b, normal, size_m, &mut |at| self.add(normal, at));
         }
     }

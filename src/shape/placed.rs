@@ -39,6 +39,19 @@ impl<'a> Placed<'a> {
         }
     }
 
+    /// A cylinder, whose round side is of its core.
+    pub fn is_round(&self) -> bool {
+        matches!(self.solid, Solid::Cylinder { .. })
+    }
+
+    /// Radius of its round side; 0 of what has none.
+    pub fn round_m(&self) -> f64 {
+        match self.solid {
+            Solid::Capsule { radius_m, .. } | Solid::Cylinder { radius_m, .. } => *radius_m,
+            _ => 0.0,
+        }
+    }
+
     /// Whether a face has this point before or behind it, along its normal.
     pub fn is_below(&self, face: u32, p: &Vector3<f64>) -> bool {
         let normal = self.face_normal(face);

@@ -20,7 +20,7 @@ use crate::event::last_forces::LastForces;
 use crate::event::look::{Paths, Window};
 use crate::event::motion::Motion;
 use crate::event::patience::Patience;
-use crate::event::pressing::{Pressed, pressed, turn};
+use crate::event::pressing::{Laid, Pressed, pressed, turn};
 use crate::event::slip::{self, Pace, Slow};
 use crate::event::touch::Touch;
 use crate::event::watch;
@@ -85,6 +85,8 @@ pub struct EventDriven {
     opened: Vec<(Key, Vector3<f64>)>,
     detector: Detector,
     pub(super) found: Vec<Contact>,
+    /// Flat caps of the last look at what touches.
+    laid: Vec<Laid>,
     /// Looked into from outside between two steps, too.
     pub(super) gathered: RefCell<Gathered>,
     /// Forces of the last look at what is held.
@@ -141,6 +143,7 @@ impl EventDriven {
             opened: Vec::new(),
             detector: Detector::default(),
             found: Vec::with_capacity(16),
+            laid: Vec::new(),
             gathered: RefCell::default(),
             last: LastForces::default(),
             zeno: Zeno::new(settings.tolerance),
@@ -206,12 +209,13 @@ impl EventDriven {
                 }
             }
             Event::Struck => {
-                turn(model, state, &mut self.found, (&[], &mut Change::default()));
+                turn(model, state, (&mut self.found, &mut self.laid), (&[], &mut Change::default()));
                 self.regroup(model, state, &Change::default());
             }
             Event::Change(change) => {
                 let mut change = Change { opened: self.opened.clone(), ..change };
-                let pressed = pressed(model, state, &self.held, self.gathered.get_mut(), &mut self.work);
+                let held = (&self.held[..], &change.opening[..]);
+                let pressed = pressed(model, state, held, self.gathered.get_mut(), &mut self.work);
                 self.detect_as(model, state, (&pressed, &mut change));
                 self.regroup(model, state, &change);
                 self.opened.extend_from_slice(&change.opening);
@@ -248,6 +252,7 @@ impl EventDriven {
         self.stretch = Some(stretch);
         self.motions.clear();
         self.held.clear();
+        self.laid.clear();
         self.dense = Dense::default();
     }
 
@@ -286,7 +291,7 @@ impl EventDriven {
             if model.touching_pairs {
                 which::choose(model, state, &mut self.found, self.gathered.get_mut(), &mut self.work);
             }
-            turn(model, state, &mut self.found, pressed);
+            turn(model, state, (&mut self.found, &mut self.laid), pressed);
         }
     }
 
@@ -296,6 +301,8 @@ impl EventDriven {
         if model.touching_pairs {
             self.found = self.found.iter().flat_map(|contact| Touch::refined(model, state, contact)).collect();
             self.found.sort_by_key(Contact::key);
+            caps::along_caps(model, state, &mut self.found);
+            caps::leave_arcs(model, state, &mut self.found);
         }
         keep_closed(model, state, &mut self.found);
     }

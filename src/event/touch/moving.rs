@@ -94,7 +94,7 @@ impl Touch {
         Touch::of(model, state, found, Parts::RimOnEdge(crossing))
     }
 
-    /// Both points in which a rim crosses an edge, where that has been found between two bodies in these states, and
+    /// Both points in which a rim crosses an edge that hardly pierces its cap, where that has been found between two bodies in these states, and
     /// the sine of the angle there. None: something else has been found.
     pub fn crossings(
         model: &Model,
@@ -113,7 +113,7 @@ impl Touch {
         let smaller_m = bodies.map(|i| model.bodies[i].bounding_radius_m).into_iter().fold(f64::INFINITY, f64::min);
         let nearest = meeting(&first, found.feature);
         let off_m = (nearest.0.gap_m - found.gap_m).abs();
-        let is_it = off_m <= ELSEWHERE * smaller_m && first.inside_m(both) >= -BORDER * smaller_m;
+        let is_it = off_m <= ELSEWHERE * smaller_m && first.inside_m(both) >= -BORDER * smaller_m && first.lies(both);
         is_it.then(|| [nearest, meeting(&first.other(both), other_name(found.feature))])
     }
 

@@ -10,7 +10,7 @@ use super::rim_on_edge::RimOnEdge;
 use crate::collide::Contact;
 use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, ROLLS, Spot, face_toward, shown};
 use crate::model::{Body, Geometry, Model, pose_of_solid};
-use crate::shape::cylinder::{ARC, EDGE, FACE, RIM, VERTEX, kind};
+use crate::shape::cylinder::{ARC, EDGE, FACE, RIM, VERTEX, are_side_by_side, kind};
 use crate::shape::pair::edge_ends_W;
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
@@ -312,7 +312,7 @@ fn facing(
     let at = [found.body, found.other?].map(|i| &state.bodies[i]);
     if let (Spot::Line(line_A), Spot::Line(line_B)) = (&a.spot, &b.spot) {
         let cross = (at[0].q_WB * line_A.direction_B).cross(&(at[1].q_WB * line_B.direction_B));
-        if cross.norm() > PARALLEL {
+        if cross.norm() > PARALLEL && !are_side_by_side(found.feature) {
             return Some(Parts::Lines([line_A.clone(), line_B.clone()]));
         }
     }

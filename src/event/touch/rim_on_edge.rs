@@ -81,6 +81,13 @@ impl RimOnEdge {
         RimOnEdge { toward_B: toward_B - along_B * (2.0 * along_B.dot(&toward_B)), ..self.clone() }
     }
 
+    /// Whether the edge crosses the rim twice: it is nearer to the cap than to its axis.
+    pub(super) fn lies(&self, at: [&BodyState; 2]) -> bool {
+        let [of_rim, of_edge] = self.sides(at);
+        let along = (of_rim.q_WB * self.out_B).dot(&(of_edge.q_WB * self.edge.direction_B));
+        along.abs() < std::f64::consts::FRAC_1_SQRT_2
+    }
+
     /// Of the rim and of the edge.
     fn sides<'a>(&self, [a, b]: [&'a BodyState; 2]) -> [&'a BodyState; 2] {
         if self.first { [a, b] } else { [b, a] }

@@ -65,8 +65,8 @@ pub struct Pressed {
     tips: bool,
 }
 
-/// Flat caps of what is held that are pressed near their rims, as far as they tip or a point of theirs opens that leaves
-/// fewer than three: what happens to others changes nothing of where a cap bears.
+/// Flat caps of what is held that are pressed near their rims, as far as they tip or a point of theirs opens that
+/// leaves fewer than three: what happens to others changes nothing of where a cap bears.
 pub fn pressed(
     model: &Model,
     state: &State,

@@ -17,7 +17,7 @@ use crate::collide::Contact;
 use crate::collide::closed::{SOME, delta_m};
 use crate::integrate::rotation::exponential;
 use crate::model::{Body, Geometry, Model};
-use crate::shape::cylinder::{FACE, FLAT, RIM, kind, middle_of_arc};
+use crate::shape::cylinder::{ARC, FACE, FLAT, RIM, kind, middle_of_arc};
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
 use nalgebra::Vector3;
@@ -186,7 +186,7 @@ pub fn level_found(model: &Model, state: &mut State, found: &[Contact]) -> bool 
     moved
 }
 
-/// The normal, from the second of two bodies to the first, of what stands with a rim on another cap: that one's. The
+/// The normal, from the second of two bodies to the first, of a point of a rim on another cap: that one's. The
 /// contact test has one for both of them, which are tilted against each other by as little as tells whether the rim
 /// rolls. None: something else touches.
 pub fn cap_under_rim_W(
@@ -194,11 +194,13 @@ pub fn cap_under_rim_W(
     feature: (u32, u32),
     normal: &Vector3<f64>,
 ) -> Option<Vector3<f64>> {
-    let side = rim_side(feature)?;
-    let ((body, at), sign, of_base) =
-        if side == 0 { (bodies[1], 1.0, feature.1) } else { (bodies[0], -1.0, feature.0) };
+    let of_base = |side: u32| if side == 0 { feature.1 } else { feature.0 };
+    let of_rim = rim_side(feature).filter(|side| of_base(*side) == FACE);
+    let of_arc = || middle_of_arc(feature).filter(|side| kind(of_base(*side)) == ARC);
+    let side = of_rim.or_else(of_arc)?;
+    let ((body, at), sign) = if side == 0 { (bodies[1], 1.0) } else { (bodies[0], -1.0) };
     let inward = normal * -sign;
-    let cap = Cap::facing(body, at, &inward).filter(|_| of_base == FACE)?;
+    let cap = Cap::facing(body, at, &inward)?;
     (cap.lean_W(at, &inward).norm() <= LYING).then(|| at.q_WB * cap.out_B * sign)
 }
 

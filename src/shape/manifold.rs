@@ -427,19 +427,20 @@ pub fn of_lines(a: &Placed, b: &Placed, n: &Vector3<f64>, size_m: f64, visit: &m
 /// Of unit vectors: a normal that was found nearly, and the one that it is.
 const NEARLY_IT: f64 = 1e-4;
 
-/// The direction between a corner and the line of a round side that face each other along this one, which is known to
-/// the root of rounding: as far as the distance tells. None: something else does.
+/// The direction between a corner and a round side that face each other along this one, which is known to the root of
+/// rounding: as far as the distance tells. None: something else does.
 pub fn of_corner_on_round(a: &Placed, b: &Placed, n: &Vector3<f64>, size_m: f64) -> Option<Vector3<f64>> {
     let slack_m = ONE_POINT * size_m;
-    let (lines, is_round) = ([a.support_line(&-n, slack_m), b.support_line(n, slack_m)], [a, b].map(Placed::is_round));
-    let is_corner = |[(i, _), (j, _)]: &[(u32, Vector3<f64>); 2]| i == j;
-    let (corner, round, sign) = match lines.each_ref().map(is_corner) {
-        [true, false] if is_round[1] && a.is_polytope() => (lines[0][0].1, b, 1.0),
-        [false, true] if is_round[0] && b.is_polytope() => (lines[1][0].1, a, -1.0),
+    let corner = |of: &Placed, d: Vector3<f64>| {
+        let [(i, corner), (j, _)] = of.support_line(&d, slack_m);
+        (of.is_polytope() && of.radius_m() == 0.0 && i == j).then_some(corner)
+    };
+    let (from, sign) = match (corner(a, -n), corner(b, *n)) {
+        (Some(corner), None) => (b.from_round(&corner, n)?, 1.0),
+        (None, Some(corner)) => (a.from_round(&corner, n)?, -1.0),
         _ => return None,
     };
-    let from = corner - round.p;
-    let exact = (from - round.axis() * round.axis().dot(&from)).try_normalize(0.0)? * sign;
+    let exact = from.try_normalize(0.0)? * sign;
     ((exact - n).norm() <= NEARLY_IT).then_some(exact)
 }
 

@@ -39,9 +39,17 @@ impl<'a> Placed<'a> {
         }
     }
 
-    /// A cylinder, whose round side is of its core.
-    pub fn is_round(&self) -> bool {
-        matches!(self.solid, Solid::Cylinder { .. })
+    /// From the middle line of what is round to a point beside it; None: it faces along d with something else.
+    pub fn from_round(&self, p: &Vector3<f64>, d: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let from = p - self.p;
+        let along_m = self.axis().dot(&from);
+        match self.solid {
+            Solid::Capsule { half_height_m, .. } => {
+                Some(from - self.axis() * along_m.clamp(-half_height_m, *half_height_m))
+            }
+            Solid::Cylinder { .. } if d.dot(&self.axis()).abs() < PARALLEL => Some(from - self.axis() * along_m),
+            _ => None,
+        }
     }
 
     /// Radius of its round side; 0 of what has none.
@@ -193,6 +201,7 @@ impl<'a> Placed<'a> {
                 let half = self.axis() * *half_height_m;
                 [(0, side - half), (1, side + half)]
             }
+            Solid::Capsule { .. } if d.dot(&self.axis()).abs() < PARALLEL => [0, 1].map(|i| (i, self.vertex(i))),
             _ if !self.is_polytope() => [(0, self.support(d)); 2],
             _ => {
                 let farthest = (0..self.vertices()).map(|i| d.dot(&self.vertex(i))).fold(f64::NEG_INFINITY, f64::max);

@@ -346,6 +346,15 @@ fn crossing(feature: (u32, u32), a: &Facing, b: &Facing) -> Option<(bool, Disc, 
     }
 }
 
+/// Of its length: nearer to it is the end of a line.
+const ENDS: f64 = 1e-8;
+
+/// Whether a line ends where it was found.
+fn ends(line: &Line) -> bool {
+    let [from_m, to_m] = line.ends_m;
+    from_m.abs().min(to_m.abs()) <= ENDS * (to_m - from_m)
+}
+
 /// Without any face.
 fn round(a: &Spot, b: &Spot) -> Option<Parts> {
     let ball = |spot: &Spot| match spot {
@@ -359,7 +368,10 @@ fn round(a: &Spot, b: &Spot) -> Option<Parts> {
         (Some(a), Some(b), ..) if a.radius_m + b.radius_m > 0.0 => Some(Parts::Balls([a, b])),
         (Some(ball), _, _, Spot::Line(line)) => on_line(true, ball, line),
         (_, Some(ball), Spot::Line(line), _) => on_line(false, ball, line),
-        // Side by side: a point of the one's middle line stays so, however it rolls.
+        // Side by side: a point of the one's middle line stays so, however it rolls; the end of the one that ends there.
+        (.., Spot::Line(line), Spot::Line(own)) if ends(own) => {
+            on_line(false, Ball::new(own.point_B, own.radius_m), line)
+        }
         (.., Spot::Line(own), Spot::Line(line)) => on_line(true, Ball::new(own.point_B, own.radius_m), line),
         _ => None,
     }

@@ -254,9 +254,10 @@ impl<'a> Two<'a> {
         let Some(touch_s) = touch_s else { return self.unseen_s(window, work) };
         let few_m = FEW * self.now(touch_s, work).delta_m;
         match looks {
-            // Another part has come nearer than those that were looked at: what lies along a face, but next to.
+            // Another part has come nearer than those that were looked at: what lies along a face, but next to, or the
+            // other end of what has just struck with one.
             [Some((open_s, open_m)), Some((deep_s, deep_m))]
-                if deep_s == touch_s && open_m > 0.0 && deep_m < -few_m =>
+                if deep_s == touch_s && open_m >= -few_m && deep_m < -few_m =>
             {
                 Some(self.closes_s([open_s, deep_s], few_m, work))
             }

@@ -14,7 +14,7 @@ pub const FLAT: f64 = 1e-10;
 pub const FACE: u32 = 0;
 pub const VERTEX: u32 = 1 << 28;
 
-/// The same: an edge, by the numbers of its corners in 12 bits each from the 14th and the first on, the smaller one first.
+/// The same: an edge, by the numbers of its corners, of 12 bits each: the smaller one from the 14th on, the other one.
 pub const EDGE: u32 = 2 << 28;
 
 /// In the name of an edge that lies along the other solid's: so it does at the first end of what they have in common,

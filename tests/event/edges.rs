@@ -182,8 +182,8 @@ time: {{ end_s: 0.3 }}
     assert!(apart_m < 1e-8 && worst[0] < 1e-9 && worst[1] < 1e-11, "{apart_m:e} {worst:?}");
 }
 
-/// The edge of a block, upright, and a can that comes with one end of its round side and rocks on to the other; `skew_rad`
-/// across that.
+/// The edge of a block, upright, and a can that comes with one end of its round side and rocks on to the other;
+/// `skew_rad` across that.
 fn rocks_along_an_edge(height_m: f64, friction: f64, restitution: f64, skew_rad: f64) -> String {
     let tilt_rad = 0.01_f64;
     let angle_deg = skew_rad.hypot(tilt_rad).to_degrees();

@@ -368,7 +368,8 @@ fn round(a: &Spot, b: &Spot) -> Option<Parts> {
         (Some(a), Some(b), ..) if a.radius_m + b.radius_m > 0.0 => Some(Parts::Balls([a, b])),
         (Some(ball), _, _, Spot::Line(line)) => on_line(true, ball, line),
         (_, Some(ball), Spot::Line(line), _) => on_line(false, ball, line),
-        // Side by side: a point of the one's middle line stays so, however it rolls; the end of the one that ends there.
+        // Side by side: a point of the one's middle line stays so, however it rolls; of the one that ends there, its
+        // end.
         (.., Spot::Line(line), Spot::Line(own)) if ends(own) => {
             on_line(false, Ball::new(own.point_B, own.radius_m), line)
         }

@@ -436,8 +436,8 @@ pub fn of_corner_on_round(a: &Placed, b: &Placed, n: &Vector3<f64>, size_m: f64)
         (of.is_polytope() && of.radius_m() == 0.0 && i == j).then_some(corner)
     };
     let (from, sign) = match (corner(a, -n), corner(b, *n)) {
-        (Some(corner), None) => (b.from_round(&corner, n)?, 1.0),
-        (None, Some(corner)) => (a.from_round(&corner, n)?, -1.0),
+        (Some(corner), None) => (b.beside_round(&corner, n)?, 1.0),
+        (None, Some(corner)) => (a.beside_round(&corner, n)?, -1.0),
         _ => return None,
     };
     let exact = from.try_normalize(0.0)? * sign;

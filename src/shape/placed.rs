@@ -40,7 +40,7 @@ impl<'a> Placed<'a> {
     }
 
     /// From the middle line of what is round to a point beside it; None: it faces along d with something else.
-    pub fn from_round(&self, p: &Vector3<f64>, d: &Vector3<f64>) -> Option<Vector3<f64>> {
+    pub fn beside_round(&self, p: &Vector3<f64>, d: &Vector3<f64>) -> Option<Vector3<f64>> {
         let from = p - self.p;
         let along_m = self.axis().dot(&from);
         match self.solid {

@@ -94,8 +94,8 @@ impl Touch {
         Touch::of(model, state, found, Parts::RimOnEdge(crossing))
     }
 
-    /// Both points in which a rim crosses an edge that lies nearer to its cap than to its axis, where that has been found
-    /// between two bodies in these states, and the sine of the angle there. None: something else has been found.
+    /// Both points in which a rim crosses an edge that lies nearer to its cap than to its axis, where that has been
+    /// found between two bodies in these states, and the sine of the angle there. None: something else has been found.
     pub fn crossings(
         model: &Model,
         bodies: [usize; 2],

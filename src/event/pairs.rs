@@ -7,7 +7,7 @@ use super::look::{Look, Paths, Window, march};
 use super::motion::Bounds;
 use super::rolling::rolling;
 use super::shown::ROLLS;
-use super::touch::Touch;
+use super::touch::{Touch, is_past_end};
 use super::which::{GRAZING, Sharing};
 use crate::collide::Contact;
 use crate::collide::closed::delta_m;
@@ -310,6 +310,7 @@ impl<'a> Two<'a> {
         let reach_m = self.sizes[0] + self.sizes[1];
         touches_beside(self.solids[0], &now.poses[0], self.solids[1], &now.poses[1], reach_m, found);
         let bodies = [0, 1].map(|k| (self.bodies[k], &now.at[k]));
+        found.retain(|touch| !is_past_end(bodies, touch.feature, &touch.p_W));
         for touch in found {
             touch.normal = cap_under_rim_W(bodies, touch.feature, &touch.normal).unwrap_or(touch.normal);
         }

@@ -22,7 +22,7 @@ use crate::event::motion::Motion;
 use crate::event::patience::Patience;
 use crate::event::pressing::{Laid, Pressed, pressed, turn};
 use crate::event::slip::{self, Pace, Slow};
-use crate::event::touch::Touch;
+use crate::event::touch::{Touch, is_past_end};
 use crate::event::watch;
 use crate::event::which;
 use crate::event::zeno::{self, Zeno, keep_closed, lose_together};
@@ -299,6 +299,11 @@ impl EventDriven {
         let reach = Reach { margin: MARGIN };
         self.detector.detect(model, state, &reach, &mut self.found, &mut self.work);
         if model.touching_pairs {
+            let is_past = |contact: &Contact| {
+                let bodies = |other: usize| [contact.body, other].map(|i| (&model.bodies[i], &state.bodies[i]));
+                contact.other.is_some_and(|other| is_past_end(bodies(other), contact.feature, &contact.p_WC))
+            };
+            self.found.retain(|contact| !is_past(contact));
             self.found = self.found.iter().flat_map(|contact| Touch::refined(model, state, contact)).collect();
             self.found.sort_by_key(Contact::key);
             caps::along_caps(model, state, &mut self.found);

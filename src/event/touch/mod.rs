@@ -13,6 +13,7 @@ mod curved;
 mod lines;
 mod moving;
 mod parts;
+mod past_end;
 mod plane;
 mod rates;
 mod recognise;
@@ -21,4 +22,5 @@ mod standing;
 mod two_rims;
 
 pub use moving::{Here, Touch};
+pub use past_end::is_past_end;
 pub use standing::Standing;

@@ -19,7 +19,7 @@ use nalgebra::Vector3;
 
 /// Of the bounding radii: so far beyond a border is not beyond it. The contact test takes points as one within half of
 /// it.
-const BORDER: f64 = 2e-9;
+pub(super) const BORDER: f64 = 2e-9;
 
 /// Of the smaller body's size: so near to it, what is round and has come over a border is on the edge there.
 const ON_EDGE: f64 = 1e-8;

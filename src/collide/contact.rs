@@ -1,9 +1,9 @@
 //! One point of contact.
 
-use crate::model::Model;
 use crate::model::pins::Anchor;
+use crate::model::{Body, Model};
 use crate::shape::solid::Meeting;
-use crate::state::BodyState;
+use crate::state::{BodyState, State};
 use nalgebra::Vector3;
 
 /// What a body touches or is pinned to: a face of the container by its place, a body by its index, or a point of the
@@ -74,6 +74,11 @@ impl Contact {
     pub fn ends(&self) -> impl Iterator<Item = (usize, Vector3<f64>, f64)> {
         let other = self.other.map(|other| (other, self.r_OC_W, -1.0));
         std::iter::once((self.body, self.r_BC_W, 1.0)).chain(other)
+    }
+
+    /// Its two bodies, where they are; None: it is of one and the container.
+    pub fn both<'a>(&self, model: &'a Model, state: &'a State) -> Option<[(&'a Body, &'a BodyState); 2]> {
+        Some([self.body, self.other?].map(|i| (&model.bodies[i], &state.bodies[i])))
     }
 
     /// Whether it and another contact push a body that they share, and that forces move, against each other.

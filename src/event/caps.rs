@@ -95,6 +95,11 @@ impl Cap {
         self.lean_W(at, normal).norm() <= FLAT
     }
 
+    /// Whether it is tilted by so much that it stands on the lowest point of its rim, which rolls.
+    pub(super) fn rolls(&self, at: &BodyState, normal: &Vector3<f64>) -> bool {
+        self.lean_W(at, normal).norm() > ROLLS
+    }
+
     /// Number of its first point.
     pub fn first(&self) -> u32 {
         self.first
@@ -207,8 +212,7 @@ pub fn cap_under_rim_W(
 /// Gives all that stands so its normal.
 pub fn along_caps(model: &Model, state: &State, found: &mut [Contact]) {
     for contact in found {
-        let Some(other) = contact.other else { continue };
-        let bodies = [contact.body, other].map(|i| (&model.bodies[i], &state.bodies[i]));
+        let Some(bodies) = contact.both(model, state) else { continue };
         contact.normal = cap_under_rim_W(bodies, contact.feature, &contact.normal).unwrap_or(contact.normal);
     }
 }
@@ -222,7 +226,7 @@ pub fn leave_arcs(model: &Model, state: &State, found: &mut Vec<Contact>) {
         let (of, normal) = if side == 0 { (contact.body, contact.normal) } else { (other, -contact.normal) };
         let at = &state.bodies[of];
         let cap = Cap::facing(&model.bodies[of], at, &normal)?;
-        (cap.lean_W(at, &normal).norm() > ROLLS).then_some((contact.body, other, side))
+        cap.rolls(at, &normal).then_some((contact.body, other, side))
     };
     let rolling: Vec<(usize, usize, u32)> = found.iter().filter_map(rolls).collect();
     found.retain(|contact| {

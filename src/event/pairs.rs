@@ -6,7 +6,6 @@ use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::look::{Look, Paths, Window, march};
 use super::motion::Bounds;
 use super::rolling::rolling;
-use super::shown::ROLLS;
 use super::touch::{Touch, is_past_end};
 use super::which::{GRAZING, Sharing};
 use crate::collide::Contact;
@@ -544,8 +543,8 @@ impl<'a> Two<'a> {
         let from_held = touch.p_W - held.p_WC;
         let is_of_cap = (at.q_WB * Vector3::y()).dot(&from_held).abs() <= NEAR * self.smaller_m();
         let is_in_plane = normal.dot(&from_held).abs() <= FLUSH * self.smaller_m();
-        let rolls = |cap: Cap| cap.lean_W(at, &normal).norm() > ROLLS;
-        kind(own) == RIM && base == FACE && is_of_cap && is_in_plane && cap.is_some_and(rolls)
+        let rolls = || cap.is_some_and(|cap| cap.rolls(at, &normal));
+        kind(own) == RIM && base == FACE && is_of_cap && is_in_plane && rolls()
     }
 
     /// Whether what is held keeps it, too: a point of the plane of three points, or of the line of two, where faces lie

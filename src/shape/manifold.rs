@@ -430,6 +430,10 @@ const NEARLY_IT: f64 = 1e-4;
 /// The direction between a corner and a round side that face each other along this one, which is known to the root of
 /// rounding: as far as the distance tells. None: something else does.
 pub fn of_corner_on_round(a: &Placed, b: &Placed, n: &Vector3<f64>, size_m: f64) -> Option<Vector3<f64>> {
+    // Edges that cross, most of all, ask no further.
+    if a.round_m() == 0.0 && b.round_m() == 0.0 {
+        return None;
+    }
     let slack_m = ONE_POINT * size_m;
     let corner = |of: &Placed, d: Vector3<f64>| {
         let [(i, corner), (j, _)] = of.support_line(&d, slack_m);

@@ -300,8 +300,8 @@ impl EventDriven {
         self.detector.detect(model, state, &reach, &mut self.found, &mut self.work);
         if model.touching_pairs {
             let is_past = |contact: &Contact| {
-                let bodies = |other: usize| [contact.body, other].map(|i| (&model.bodies[i], &state.bodies[i]));
-                contact.other.is_some_and(|other| is_past_end(bodies(other), contact.feature, &contact.p_WC))
+                let bodies = contact.both(model, state);
+                bodies.is_some_and(|bodies| is_past_end(bodies, contact.feature, &contact.p_WC))
             };
             self.found.retain(|contact| !is_past(contact));
             self.found = self.found.iter().flat_map(|contact| Touch::refined(model, state, contact)).collect();

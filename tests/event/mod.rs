@@ -20,12 +20,14 @@ mod stacks;
 mod symmetries;
 mod tolerance;
 
+use crate::yaml::{experiment, run};
 use gotai::clock::Clock;
 use gotai::experiment::types::Experiment;
 use gotai::measure::error::Errors;
 use gotai::outcome::Outcome;
 use gotai::plan::Plan;
 use gotai::rows::Measured;
+use gotai::run::Ended;
 use gotai::shown::Acted;
 use gotai::state::State;
 use gotai::step::Stepper;
@@ -41,9 +43,25 @@ fn worst_error(measured: &Measured) -> f64 {
 
 /// A run that ends, every event of which was followed: no steps of equal length.
 fn followed(text: &str, sets: &[&str]) -> Measured {
-    let measured = crate::yaml::measured(text, sets);
-    assert_eq!((measured.outcome, measured.work.fallbacks), (Outcome::Finished, 0));
-    measured
+    followed_to(text, sets).measured
+}
+
+/// The same, and where it led.
+fn followed_to(text: &str, sets: &[&str]) -> Ended {
+    let ended = run(&experiment(text, sets));
+    assert_eq!((ended.measured.outcome, ended.measured.work.fallbacks), (Outcome::Finished, 0));
+    ended
+}
+
+/// The same at tolerances of 1e-6 and 1e-8, each without ghosts and right by `judge`; and how far apart they end.
+fn followed_alike(text: &str, judge: impl Fn(&Measured)) -> f64 {
+    let ended = ["1e-6", "1e-8"].map(|tolerance| {
+        let ended = followed_to(text, &[&format!("method.event-driven.tolerance={tolerance}")]);
+        assert_eq!(ended.measured.ghost_impulse_max_rel, Some(0.0), "{text}");
+        judge(&ended.measured);
+        ended.state
+    });
+    apart_m(&ended[0], &ended[1])
 }
 
 fn apart_m(a: &State, b: &State) -> f64 {

@@ -10,7 +10,7 @@ use super::rim_on_edge::RimOnEdge;
 use crate::collide::Contact;
 use crate::event::shown::{Ball, Border, Face, Facing, Line, Part, ROLLS, Spot, face_toward, shown};
 use crate::model::{Body, Geometry, Model, pose_of_solid};
-use crate::shape::cylinder::{ARC, EDGE, FACE, RIM, VERTEX, are_side_by_side, kind};
+use crate::shape::cylinder::{ARC, EDGE, FACE, RIM, VERTEX, are_side_by_side, kind, middle_of_arc};
 use crate::shape::pair::edge_ends_W;
 use crate::shape::solid::Solid;
 use crate::state::{BodyState, State};
@@ -108,14 +108,14 @@ fn between(model: &Model, state: &State, found: &Contact, other: usize) -> Optio
     // The contact test says which of two has the corner, where edges lie along each other or faces lie almost flat.
     // So do the middles of arcs.
     let is_corner = |feature: u32| [VERTEX, RIM].contains(&kind(feature));
-    let is_arc = |feature: u32| kind(feature) == ARC;
+    let middle = middle_of_arc(found.feature);
     match found.feature {
-        (of, of_b) if (of == FACE && is_corner(of_b)) || (!is_arc(of) && of_b == ARC | 2) || of == ARC | 3 => {
+        (of, of_b) if (of == FACE && is_corner(of_b)) || middle == Some(1) => {
             if let Some(face) = face(&a).or_else(|| toward(0, -found.normal)) {
                 return Some(on(1, &face, 0, spot(&b).as_ref()));
             }
         }
-        (of, of_b) if (of_b == FACE && is_corner(of)) || of == ARC | 2 => {
+        (of, of_b) if (of_b == FACE && is_corner(of)) || middle == Some(0) => {
             if let Some(face) = face(&b).or_else(|| toward(1, found.normal)) {
                 return Some(on(0, &face, 1, spot(&a).as_ref()));
             }

@@ -11,7 +11,7 @@
 //!   straight lines meet the other body. Deep inside each other they have several peaks; of pairs a tenth of their size
 //!   deep, one in 10⁴ ends at one that is not the highest.
 
-use super::gjk::between;
+use super::gjk::{between, between_from};
 use super::placed::Placed;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
@@ -164,7 +164,7 @@ fn of_curved(a: &Placed, b: &Placed, flat: &Option<Axis>, size_m: f64) -> (Vecto
 fn climb(a: &Placed, b: &Placed, guess: (Vector3<f64>, f64), size_m: f64) -> (Vector3<f64>, f64) {
     let mut best = guess;
     // Long moves blunt, short ones leave little between the bodies to measure a direction by.
-    let apart_m = 0.05 * size_m;
+    let (apart_m, mut turned) = (LONG * size_m, 0.0);
     for _ in 0..100 {
         let (n, gap_m) = best;
         let moved_m = (apart_m - gap_m).max(0.0);
@@ -173,11 +173,25 @@ fn climb(a: &Placed, b: &Placed, guess: (Vector3<f64>, f64), size_m: f64) -> (Ve
         if next_gap_m <= gap_m {
             break;
         }
-        best = (next, next_gap_m);
-        if moved_m == 0.0 || (next - n).norm() < 1e-4 {
+        (best, turned) = ((next, next_gap_m), (next - n).norm());
+        if moved_m == 0.0 || turned < 1e-4 {
             break;
         }
     }
+    // What is beside a face turns from its normal by no more than its distance in such a move.
+    let is_beside = a.faces() + b.faces() > 0 && turned > EQUAL && best.1 >= -shallow_m(a, b);
+    for _ in 0..if is_beside { CLOSER } else { 0 } {
+        let next = sharpened(a, b, closer(a, b, best, size_m), size_m);
+        if next.1 <= best.1 + EQUAL * size_m {
+            break;
+        }
+        best = next;
+    }
+    sharpened(a, b, best, size_m)
+}
+
+/// The peak near a direction that is near it.
+fn sharpened(a: &Placed, b: &Placed, best: (Vector3<f64>, f64), size_m: f64) -> (Vector3<f64>, f64) {
     // Straight lines that are nearly across the axis may be meant to be; the separation tells.
     let mut refined = (best.0, f64::NEG_INFINITY);
     let mut tried = None;
@@ -193,6 +207,28 @@ fn climb(a: &Placed, b: &Placed, guess: (Vector3<f64>, f64), size_m: f64) -> (Ve
         }
     }
     if refined.1 >= best.1 - EQUAL * size_m { refined } else { best }
+}
+
+/// Moves apart that a direction is measured by, of the size: a long one, and how much shorter the next one is.
+const LONG: f64 = 0.05;
+const SHORTER: f64 = 0.05;
+/// Most looks at bodies that are closer than a long move tells.
+const CLOSER: usize = 8;
+
+/// The same of bodies that are beside each other by less than a long move tells, as a rim that all but comes to a
+/// corner at its height: moved by ever less.
+fn closer(a: &Placed, b: &Placed, guess: (Vector3<f64>, f64), size_m: f64) -> (Vector3<f64>, f64) {
+    let mut best = guess;
+    let mut apart_m = SHORTER * LONG * size_m;
+    while apart_m > TOUCHING * size_m {
+        let next = between_from(a, b, &(best.0 * (apart_m - best.1).max(0.0)), &best.0).normalize();
+        let next_gap_m = separation(a, b, &next);
+        if next_gap_m > best.1 {
+            best = (next, next_gap_m);
+        }
+        apart_m *= SHORTER;
+    }
+    best
 }
 
 /// Directions to begin with.

@@ -11,8 +11,13 @@ const CONVERGED: f64 = 1e-15;
 
 /// The shortest vector from the core of `b` to the core of `a` moved by `shift`. They must not overlap.
 pub fn between(a: &Placed, b: &Placed, shift: &Vector3<f64>) -> Vector3<f64> {
+    between_from(a, b, shift, &(a.p + shift - b.p))
+}
+
+/// The same, from a guess of its direction: what is far from it among large bodies costs digits.
+pub fn between_from(a: &Placed, b: &Placed, shift: &Vector3<f64>, guess: &Vector3<f64>) -> Vector3<f64> {
     let support = |d: &Vector3<f64>| a.support(&-d) + shift - b.support(d);
-    let mut v = support(&(a.p + shift - b.p));
+    let mut v = support(guess);
     let mut simplex = [v; 4];
     let mut corners = 1;
     for _ in 0..MOST_STEPS {

@@ -90,6 +90,8 @@ pub(super) struct Foreseen {
     hit_s: Option<f64>,
     /// The first time at which bodies have turned too far beside each other for their way to be known.
     turned_s: Option<f64>,
+    /// The first time at which bodies that are asked to stay apart turn deep into each other.
+    deep_s: Option<f64>,
     /// Of every body: it turns so far beside another one that its turn is to be one in closed form.
     pub(super) turns_far: Vec<bool>,
     /// The step ends where bodies hit each other: what meets then is the next one's.
@@ -150,7 +152,8 @@ impl Foreseen {
         last: &[(Key, Vector3<f64>)],
         step_s: f64,
     ) {
-        (self.round, self.is_given_up, self.hit_s, self.turned_s) = (0, false, None, None);
+        (self.round, self.is_given_up) = (0, false);
+        (self.hit_s, self.turned_s, self.deep_s) = (None, None, None);
         self.fall_m.clear();
         let bodies = model.bodies.iter().zip(&state.bodies).zip(&scratch.free);
         self.fall_m.extend(bodies.map(|((body, at), free)| {
@@ -202,11 +205,13 @@ impl Foreseen {
         self.contacts.is_empty() && self.doubts.list().is_empty()
     }
 
-    /// When the step is to end, of which so much is left after its kick: where bodies hit each other, or have turned
-    /// too far.
+    /// When the step is to end, of which so much is left after its kick: where bodies hit each other, turn into each
+    /// other, or have turned too far.
     pub(super) fn cut_s(&self, after_s: f64) -> Option<f64> {
         let turned_s = self.turned_s.filter(|turned_s| *turned_s < SHORTER * after_s);
-        [self.hit_s, turned_s].into_iter().flatten().reduce(f64::min)
+        let deep_s = self.deep_s.filter(|deep_s| *deep_s < AT_THE_END * after_s);
+        let deep_s = deep_s.map(|deep_s| deep_s.min(SHORTER * after_s));
+        [self.hit_s, turned_s, deep_s].into_iter().flatten().reduce(f64::min)
     }
 
     /// Fills `contacts` and `doubts`.
@@ -400,7 +405,7 @@ impl Foreseen {
         scratch: &mut Scratch,
         (approach, step_s): (Approach, f64),
     ) {
-        let Foreseen { contacts, doubts, turned_s, turns_far, cuts, .. } = self;
+        let Foreseen { contacts, doubts, turned_s, deep_s, turns_far, cuts, .. } = self;
         let pairs = contacts.chunk_by(|a, b| (a.body, a.other) == (b.body, b.other));
         let asked = pairs.filter_map(|group| Some(([group[0].body, group[0].other?], false)));
         let doubted = doubts.list().iter().filter(|doubt| doubt.is_imposed).map(|doubt| (doubt.pair, true));
@@ -416,10 +421,11 @@ impl Foreseen {
             // What slides far along a face that turns is inside it before that has turned far.
             let too_far_s = way.turned_s().filter(|_| is_doubted);
             too_far_s.iter().for_each(|other_s| note_earlier(turned_s, *other_s));
-            let until_s = turned_s.filter(|turned_s| *turned_s < SHORTER * step_s).unwrap_or(step_s);
+            let known_s = [turned_s.filter(|turned_s| *turned_s < SHORTER * step_s), *deep_s];
+            let until_s = known_s.into_iter().flatten().fold(step_s, f64::min);
             let times = 1.0 + f64::from(*cuts) / OFTEN;
-            let deep_s = is_far.then(|| way.deep_s(times, until_s, work)).flatten();
-            deep_s.iter().for_each(|other_s| note_earlier(turned_s, *other_s));
+            let other_s = is_far.then(|| way.deep_s(times, until_s, work)).flatten();
+            other_s.iter().for_each(|other_s| note_earlier(deep_s, *other_s));
         }
     }
 }

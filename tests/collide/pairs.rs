@@ -3,7 +3,7 @@
 //! better.
 
 use super::oracle::{Draws, beside, level_at, separation, solids};
-use gotai::shape::pair::touches;
+use gotai::shape::pair::{apart, touches};
 use gotai::shape::solid::{Meeting, Pose, Solid};
 use nalgebra::{Isometry3, Vector3};
 
@@ -105,4 +105,33 @@ fn the_gap_is_continuous_along_a_path_through_contact() {
             before = Some(gap_m);
         }
     });
+}
+
+/// A cap at the height of a face or of another cap that it does not stand on, by ever less, anywhere.
+#[test]
+fn what_is_beside_another_one_at_its_height_is_as_far_away_as_that() {
+    let block = Solid::Box { half_m: Vector3::new(20.0, 0.5, 20.0) };
+    let can = Solid::Cylinder { radius_m: 0.15, half_height_m: 0.1 };
+    let toward = Vector3::new(0.6, 0.0, 0.8);
+    let mut draws = Draws(4);
+    for beside_m in [1e-7, 3e-7, 1e-6, 2.4e-6, 1e-5, 1e-4, 1e-3] {
+        let away_m = 0.15 + beside_m;
+        for (other, p_W) in [
+            (&block, Vector3::new(20.0, 0.6, 20.0) + toward * away_m),
+            (&block, Vector3::new(20.0 + away_m, 0.6, 3.7)),
+            (&block, Vector3::new(20.0 + away_m, 0.6, 20.0 - 1e-9)),
+            (&can, Vector3::new(0.0, 0.2, 0.0) + toward * (0.15 + away_m)),
+        ] {
+            for _ in 0..20 {
+                let motion = Isometry3::from_parts(draws.vector().into(), draws.attitude());
+                let moved =
+                    |p_W: Vector3<f64>| Pose { p_W: motion * p_W + motion.translation.vector, q_W: motion.rotation };
+                let found = apart(&can, &moved(p_W), other, &moved(Vector3::zeros()));
+                let up = found.normal.dot(&(motion.rotation * Vector3::y()));
+                // measured: 1.1e-14 m, rounding of 20 m, and 1.0e-15; was 0 m, and 1, up to 2.4 µm
+                assert!((found.gap_m - beside_m).abs() < 1e-13, "{beside_m} {found:?}");
+                assert!(up.abs() < 1e-13, "{beside_m} {found:?}");
+            }
+        }
+    }
 }

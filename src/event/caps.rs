@@ -217,24 +217,23 @@ pub fn along_caps(model: &Model, state: &State, found: &mut [Contact]) {
     }
 }
 
-/// Leaves out the middle of an arc of a rim that rolls, where its lowest point has been found: beside that, it is the
-/// same point again, and would stay behind.
+/// Which of two bodies has a rim that rolls, if this is that one's lowest point. The middle of an arc of it is the same
+/// point again, beside that, and would stay behind: it is neither found nor watched.
+pub fn rolling_side(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), normal: &Vector3<f64>) -> Option<u32> {
+    let side = rim_side(feature)?;
+    let (body, at) = bodies[side as usize];
+    let normal = if side == 0 { *normal } else { -normal };
+    Cap::facing(body, at, &normal)?.rolls(at, &normal).then_some(side)
+}
+
+/// Leaves out the middles of arcs of rims that roll, where their lowest points have been found.
 pub fn leave_arcs(model: &Model, state: &State, found: &mut Vec<Contact>) {
     let rolls = |contact: &Contact| {
-        let side = rim_side(contact.feature)?;
-        let other = contact.other?;
-        let (of, normal) = if side == 0 { (contact.body, contact.normal) } else { (other, -contact.normal) };
-        let at = &state.bodies[of];
-        let cap = Cap::facing(&model.bodies[of], at, &normal)?;
-        cap.rolls(at, &normal).then_some((contact.body, other, side))
+        let side = rolling_side(contact.both(model, state)?, contact.feature, &contact.normal)?;
+        Some((contact.body, contact.other, Some(side)))
     };
-    let rolling: Vec<(usize, usize, u32)> = found.iter().filter_map(rolls).collect();
-    found.retain(|contact| {
-        let is_its = |(body, other, side): &(usize, usize, u32)| {
-            (contact.body, contact.other) == (*body, Some(*other)) && middle_of_arc(contact.feature) == Some(*side)
-        };
-        !rolling.iter().any(is_its)
-    });
+    let rolling: Vec<_> = found.iter().filter_map(rolls).collect();
+    found.retain(|contact| !rolling.contains(&(contact.body, contact.other, middle_of_arc(contact.feature))));
 }
 
 /// A flat cap that a contact is of.

@@ -1,6 +1,6 @@
 //! When two bodies come to touch with parts that are not held (`watch`).
 
-use super::caps::{Cap, are_of_one_rim, cap_under_rim_W};
+use super::caps::{Cap, are_of_one_rim, cap_under_rim_W, rolling_side};
 use super::decide::SAME;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::look::{Look, Paths, Window, march};
@@ -12,7 +12,7 @@ use crate::collide::Contact;
 use crate::collide::closed::delta_m;
 use crate::model::{Body, pose_of_solid};
 use crate::shape::band::{Along, BAND, touches_beside};
-use crate::shape::cylinder::{EDGE, FACE, RIM, VERTEX, kind};
+use crate::shape::cylinder::{EDGE, FACE, RIM, VERTEX, kind, middle_of_arc};
 use crate::shape::solid::{Meeting as Found, Pose, Solid};
 use crate::state::BodyState;
 use crate::work::Work;
@@ -310,9 +310,12 @@ impl<'a> Two<'a> {
         touches_beside(self.solids[0], &now.poses[0], self.solids[1], &now.poses[1], reach_m, found);
         let bodies = [0, 1].map(|k| (self.bodies[k], &now.at[k]));
         found.retain(|touch| !is_past_end(bodies, touch.feature, &touch.p_W));
-        for touch in found {
+        for touch in &mut *found {
             touch.normal = cap_under_rim_W(bodies, touch.feature, &touch.normal).unwrap_or(touch.normal);
         }
+        let rolls = |touch: &Found| rolling_side(bodies, touch.feature, &touch.normal);
+        let rolling: SmallVec<[u32; 2]> = found.iter().filter_map(rolls).collect();
+        found.retain(|touch| middle_of_arc(touch.feature).is_none_or(|side| !rolling.contains(&side)));
     }
 
     fn band_m(&self) -> f64 {

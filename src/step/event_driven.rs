@@ -388,7 +388,10 @@ impl EventDriven {
         }
         if ending_s.is_none() || !others.is_empty() || ending::changes(model, [&self.scratch, state], ending::NOTHING) {
             // Not all of it holds, or slides on; before its end it does.
-            let slips_on = ending_s.is_none() && over_s.is_none_or(|over_s| state.time_s < from_s + over_s);
+            let slips_on = match ending_s {
+                None => over_s.is_none_or(|over_s| state.time_s < from_s + over_s),
+                Some(_) => slip::goes_on_where_held(&self.slow, state, &self.held),
+            };
             self.slow.failed += u32::from(slip::go_on_fading(&self.slow, state, &self.held));
             self.next = Event::Change(Change { slips_on, ..Change::default() });
         }

@@ -6,6 +6,9 @@
 //! What is removed is a positive combination of contacts that were closed: at least one of them, weighted by its
 //! impulse, then goes inside, whatever the others do (p·A p > 0). An impulse without a contact has no such point.
 //!
+//! With friction, a contact that is closed may go outside without all of its impulses: what then tells is what goes
+//! without those along the normal, and with the friction.
+//!
 //! A step sees a body that turns move along tangents. What the tangents would have led inside and the turning itself
 //! does not is no ghost, but an error of the order of the step: as far as half the square of the angle, if the bodies
 //! come nearer to each other by what the impulse kept them apart.
@@ -63,6 +66,9 @@ pub struct Group {
     angular_W: [Vector3<f64>; 2],
     /// From the first body's centre of mass to the middle of what pushes along the normal.
     arm_W: Vector3<f64>,
+    /// Of what pushes along the normal alone: its size, and about the bodies' centres of mass.
+    pushed: f64,
+    pushed_angular_W: [Vector3<f64>; 2],
     /// One of its contacts has restitution.
     rebounds: bool,
 }
@@ -79,21 +85,36 @@ impl Group {
         }
         let zero = Vector3::zeros();
         let (bodies, normal) = ((of.body, of.other), of.normal);
-        let mut group = Group { bodies, normal, impulse_W: zero, angular_W: [zero; 2], arm_W: zero, rebounds: false };
-        let mut pushed = 0.0;
+        let mut group = Group {
+            bodies,
+            normal,
+            impulse_W: zero,
+            angular_W: [zero; 2],
+            arm_W: zero,
+            pushed: 0.0,
+            pushed_angular_W: [zero; 2],
+            rebounds: false,
+        };
         for SolvedContact { contact, impulse_W } in solved[first..].iter().filter(|s| is_along(&s.contact.normal)) {
             let pushes = impulse_W.dot(&of.normal).max(0.0);
-            pushed += pushes;
+            group.pushed += pushes;
+            group.pushed_angular_W[0] += contact.r_BC_W.cross(&(of.normal * pushes));
+            group.pushed_angular_W[1] -= contact.r_OC_W.cross(&(of.normal * pushes));
             group.rebounds |= contact.restitution > 0.0;
             group.arm_W += contact.r_BC_W * pushes;
             group.impulse_W += impulse_W;
             group.angular_W[0] += contact.r_BC_W.cross(impulse_W);
             group.angular_W[1] -= contact.r_OC_W.cross(impulse_W);
         }
-        if pushed > 0.0 {
-            group.arm_W /= pushed;
+        if group.pushed > 0.0 {
+            group.arm_W /= group.pushed;
         }
         Some(group)
+    }
+
+    /// What pushes along the normal alone.
+    fn without_friction(&self) -> Self {
+        Group { impulse_W: self.normal * self.pushed, angular_W: self.pushed_angular_W, ..*self }
     }
 
     /// How fast two bodies part by these changes of velocity, which the impulses made, along the impulse.
@@ -127,9 +148,20 @@ pub struct GhostJudge<'a> {
 }
 
 impl<'a> GhostJudge<'a> {
+    /// The size of a group, if neither all of it nor what pushes alone was for a contact that was there; else 0.
+    fn ghost(&mut self, group: &Group, mut size_rel: impl FnMut(&mut Self, &Group) -> f64) -> f64 {
+        let all_rel = size_rel(self, group);
+        let was_there = all_rel == 0.0 || (group.pushed > 0.0 && size_rel(self, &group.without_friction()) == 0.0);
+        if was_there { 0.0 } else { all_rel }
+    }
+
     /// A kick at a state, after which the bodies move for a time `over_s` up to the next one; `after` is the state a
     /// time `more_s` before that.
-    pub fn kicked(&mut self, group: &Group, [kicked, after]: [&State; 2], over_s: f64, more_s: f64) -> f64 {
+    pub fn kicked(&mut self, group: &Group, states: [&State; 2], over_s: f64, more_s: f64) -> f64 {
+        self.ghost(group, |judge, group| judge.of_kick(group, states, over_s, more_s))
+    }
+
+    fn of_kick(&mut self, group: &Group, [kicked, after]: [&State; 2], over_s: f64, more_s: f64) -> f64 {
         let gains = self.gains(group, kicked);
         if !self.moves(group, &gains, over_s) {
             return 0.0;
@@ -211,7 +243,11 @@ impl<'a> GhostJudge<'a> {
     }
 
     /// A blow, which changed velocities alone; the largest of its impulses in N s.
-    pub fn struck(&mut self, group: &Group, [before, after]: [&State; 2], largest_n_s: f64) -> f64 {
+    pub fn struck(&mut self, group: &Group, states: [&State; 2], largest_n_s: f64) -> f64 {
+        self.ghost(group, |judge, group| judge.of_blow(group, states, largest_n_s))
+    }
+
+    fn of_blow(&mut self, group: &Group, [before, after]: [&State; 2], largest_n_s: f64) -> f64 {
         if group.impulse_W.norm() <= AMONG * largest_n_s {
             return 0.0;
         }
@@ -261,6 +297,10 @@ impl<'a> GhostJudge<'a> {
 
     /// Forces over a time, given as impulses, at a state in it.
     pub fn pressed(&mut self, group: &Group, at: &State, over_s: f64) -> f64 {
+        self.ghost(group, |judge, group| judge.of_forces(group, at, over_s))
+    }
+
+    fn of_forces(&mut self, group: &Group, at: &State, over_s: f64) -> f64 {
         let gains = self.gains(group, at);
         if !self.moves(group, &gains, 0.5 * over_s) {
             return 0.0;

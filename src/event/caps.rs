@@ -217,23 +217,51 @@ pub fn along_caps(model: &Model, state: &State, found: &mut [Contact]) {
     }
 }
 
-/// Which of two bodies has a rim that rolls, if this is that one's lowest point. The middle of an arc of it is the same
-/// point again, beside that, and would stay behind: it is neither found nor watched.
-pub fn rolling_side(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), normal: &Vector3<f64>) -> Option<u32> {
-    let side = rim_side(feature)?;
-    let (body, at) = bodies[side as usize];
-    let normal = if side == 0 { *normal } else { -normal };
-    Cap::facing(body, at, &normal)?.rolls(at, &normal).then_some(side)
+/// Of a rim's radius: the middle of an arc of it is its lowest point again, so near to that.
+const AGAIN: f64 = 0.1;
+
+/// A rim that rolls, of the first or second body, with its lowest point: next to that, the middle of an arc is the same
+/// point again and would stay behind, so that it is neither found nor watched.
+#[derive(Clone, Copy)]
+pub struct RollingRim {
+    side: u32,
+    p_W: Vector3<f64>,
+    near_m: f64,
 }
 
-/// Leaves out the middles of arcs of rims that roll, where their lowest points have been found.
+impl RollingRim {
+    /// None: that is no lowest point of a rim that rolls.
+    pub fn new(
+        bodies: [(&Body, &BodyState); 2],
+        feature: (u32, u32),
+        (p_W, normal): (&Vector3<f64>, &Vector3<f64>),
+    ) -> Option<Self> {
+        let side = rim_side(feature)?;
+        let (body, at) = bodies[side as usize];
+        let normal = if side == 0 { *normal } else { -normal };
+        let cap = Cap::facing(body, at, &normal)?;
+        cap.rolls(at, &normal).then(|| RollingRim { side, p_W: *p_W, near_m: AGAIN * body.bounding_radius_m })
+    }
+
+    /// Whether a point is its lowest one again.
+    pub fn has(&self, feature: (u32, u32), p_W: &Vector3<f64>) -> bool {
+        middle_of_arc(feature) == Some(self.side) && (p_W - self.p_W).norm() <= self.near_m
+    }
+}
+
+/// Leaves out the middles of arcs of rims that roll, beside their lowest points.
 pub fn leave_arcs(model: &Model, state: &State, found: &mut Vec<Contact>) {
     let rolls = |contact: &Contact| {
-        let side = rolling_side(contact.both(model, state)?, contact.feature, &contact.normal)?;
-        Some((contact.body, contact.other, Some(side)))
+        let at = (&contact.p_WC, &contact.normal);
+        let rolling = RollingRim::new(contact.both(model, state)?, contact.feature, at)?;
+        Some((contact.body, contact.other, rolling))
     };
-    let rolling: Vec<_> = found.iter().filter_map(rolls).collect();
-    found.retain(|contact| !rolling.contains(&(contact.body, contact.other, middle_of_arc(contact.feature))));
+    let all: Vec<_> = found.iter().filter_map(rolls).collect();
+    found.retain(|contact| {
+        let of_pair =
+            |(body, other, _): &&(usize, Option<usize>, RollingRim)| (*body, *other) == (contact.body, contact.other);
+        !all.iter().filter(of_pair).any(|(.., rolling)| rolling.has(contact.feature, &contact.p_WC))
+    });
 }
 
 /// A flat cap that a contact is of.

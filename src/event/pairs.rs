@@ -1,18 +1,18 @@
 //! When two bodies come to touch with parts that are not held (`watch`).
 
-use super::caps::{Cap, are_of_one_rim, cap_under_rim_W, rolling_side};
+use super::caps::{Cap, RollingRim, are_of_one_rim, cap_under_rim_W};
 use super::decide::SAME;
 use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::look::{Look, Paths, Window, march};
 use super::motion::Bounds;
 use super::rolling::rolling;
-use super::touch::{Touch, is_past_end};
+use super::touch::{Touch, beyond_edge_W, is_past_end};
 use super::which::{GRAZING, Sharing};
 use crate::collide::Contact;
 use crate::collide::closed::delta_m;
 use crate::model::{Body, pose_of_solid};
 use crate::shape::band::{Along, BAND, touches_beside};
-use crate::shape::cylinder::{EDGE, FACE, RIM, VERTEX, kind, middle_of_arc};
+use crate::shape::cylinder::{EDGE, FACE, RIM, VERTEX, kind};
 use crate::shape::solid::{Meeting as Found, Pose, Solid};
 use crate::state::BodyState;
 use crate::work::Work;
@@ -312,10 +312,11 @@ impl<'a> Two<'a> {
         found.retain(|touch| !is_past_end(bodies, touch.feature, &touch.p_W));
         for touch in &mut *found {
             touch.normal = cap_under_rim_W(bodies, touch.feature, &touch.normal).unwrap_or(touch.normal);
+            touch.p_W -= beyond_edge_W(bodies, touch.feature, &touch.p_W).unwrap_or_default();
         }
-        let rolls = |touch: &Found| rolling_side(bodies, touch.feature, &touch.normal);
-        let rolling: SmallVec<[u32; 2]> = found.iter().filter_map(rolls).collect();
-        found.retain(|touch| middle_of_arc(touch.feature).is_none_or(|side| !rolling.contains(&side)));
+        let rolls = |touch: &Found| RollingRim::new(bodies, touch.feature, (&touch.p_W, &touch.normal));
+        let rolling: SmallVec<[RollingRim; 2]> = found.iter().filter_map(rolls).collect();
+        found.retain(|touch| !rolling.iter().any(|rolling| rolling.has(touch.feature, &touch.p_W)));
     }
 
     fn band_m(&self) -> f64 {

@@ -64,13 +64,6 @@ pub fn go_on_fading(slow: &Slow, state: &State, held: &[Held]) -> bool {
     held.iter().any(|held| held.slip == Slip::Fading && slips(held))
 }
 
-/// Whether some contact that was to hold slips: a body that two points hold turns about one of them, however slowly,
-/// and if its slips were none it would turn about either in turn.
-pub fn goes_on_where_held(slow: &Slow, state: &State, held: &[Held]) -> bool {
-    let slips = |held: &Held| held.touch.here(state).slip_W().norm() > STILL_SLIPS * slow.fading_m_s();
-    held.iter().any(|held| held.slides().is_none() && slips(held))
-}
-
 /// A slip that has just begun.
 pub fn young(model: &Model, state: &State, touch: &Touch) -> Slip {
     Slip::Young(KNOWN * meeting_m_s(model, state, touch.bodies()))

@@ -178,16 +178,18 @@ fn climb(a: &Placed, b: &Placed, guess: (Vector3<f64>, f64), size_m: f64) -> (Ve
             break;
         }
     }
-    // What is beside a face turns from its normal by no more than its distance in such a move.
-    let is_beside = a.faces() + b.faces() > 0 && turned > EQUAL && best.1 >= -shallow_m(a, b);
-    for _ in 0..if is_beside { CLOSER } else { 0 } {
-        let next = sharpened(a, b, closer(a, b, best, size_m), size_m);
-        if next.1 <= best.1 + EQUAL * size_m {
+    best = sharpened(a, b, best, size_m);
+    // What is beside a face turns from its normal by no more than its distance in such a move. A short one tells.
+    let may_be_beside = a.faces() + b.faces() > 0 && turned > EQUAL && best.1 >= -shallow_m(a, b);
+    for _ in 0..if may_be_beside { CLOSER } else { 0 } {
+        if moved(a, b, best, SHORT * size_m).1 <= best.1 + EQUAL * size_m {
             break;
         }
-        best = next;
+        // Which lines are across it is known only from the second on.
+        best = sharpened(a, b, closer(a, b, best, size_m), size_m);
+        best = sharpened(a, b, best, size_m);
     }
-    sharpened(a, b, best, size_m)
+    best
 }
 
 /// The peak near a direction that is near it.
@@ -209,11 +211,19 @@ fn sharpened(a: &Placed, b: &Placed, best: (Vector3<f64>, f64), size_m: f64) -> 
     if refined.1 >= best.1 - EQUAL * size_m { refined } else { best }
 }
 
-/// Moves apart that a direction is measured by, of the size: a long one, and how much shorter the next one is.
+/// Moves apart that a direction is measured by, of the size: a long one, how much shorter the next one is, and one
+/// that shows whether any is needed.
 const LONG: f64 = 0.05;
 const SHORTER: f64 = 0.05;
+const SHORT: f64 = 1e-7;
 /// Most looks at bodies that are closer than a long move tells.
 const CLOSER: usize = 8;
+
+/// The direction between two bodies that are moved apart by so much along a direction with its separation.
+fn moved(a: &Placed, b: &Placed, (n, gap_m): (Vector3<f64>, f64), apart_m: f64) -> (Vector3<f64>, f64) {
+    let next = between_from(a, b, &(n * (apart_m - gap_m).max(0.0)), &n).normalize();
+    (next, separation(a, b, &next))
+}
 
 /// The same of bodies that are beside each other by less than a long move tells, as a rim that all but comes to a
 /// corner at its height: moved by ever less.
@@ -221,10 +231,9 @@ fn closer(a: &Placed, b: &Placed, guess: (Vector3<f64>, f64), size_m: f64) -> (V
     let mut best = guess;
     let mut apart_m = SHORTER * LONG * size_m;
     while apart_m > TOUCHING * size_m {
-        let next = between_from(a, b, &(best.0 * (apart_m - best.1).max(0.0)), &best.0).normalize();
-        let next_gap_m = separation(a, b, &next);
-        if next_gap_m > best.1 {
-            best = (next, next_gap_m);
+        let next = moved(a, b, best, apart_m);
+        if next.1 > best.1 {
+            best = next;
         }
         apart_m *= SHORTER;
     }

@@ -22,7 +22,7 @@ use crate::event::motion::Motion;
 use crate::event::patience::Patience;
 use crate::event::pressing::{Laid, Pressed, pressed, turn};
 use crate::event::slip::{self, Pace, Slow};
-use crate::event::touch::{Touch, is_past_end};
+use crate::event::touch::{Touch, beyond_edge_W, is_past_end};
 use crate::event::watch;
 use crate::event::which;
 use crate::event::zeno::{self, Zeno, keep_closed, lose_together};
@@ -304,6 +304,15 @@ impl EventDriven {
                 bodies.is_some_and(|bodies| is_past_end(bodies, contact.feature, &contact.p_WC))
             };
             self.found.retain(|contact| !is_past(contact));
+            for contact in &mut self.found {
+                let bodies = contact.both(model, state);
+                let beyond = |bodies| beyond_edge_W(bodies, contact.feature, &contact.p_WC);
+                if let Some(beyond_W) = bodies.and_then(beyond) {
+                    contact.p_WC -= beyond_W;
+                    contact.r_BC_W -= beyond_W;
+                    contact.r_OC_W -= beyond_W;
+                }
+            }
             self.found = self.found.iter().flat_map(|contact| Touch::refined(model, state, contact)).collect();
             self.found.sort_by_key(Contact::key);
             caps::along_caps(model, state, &mut self.found);
@@ -388,10 +397,7 @@ impl EventDriven {
         }
         if ending_s.is_none() || !others.is_empty() || ending::changes(model, [&self.scratch, state], ending::NOTHING) {
             // Not all of it holds, or slides on; before its end it does.
-            let slips_on = match ending_s {
-                None => over_s.is_none_or(|over_s| state.time_s < from_s + over_s),
-                Some(_) => slip::goes_on_where_held(&self.slow, state, &self.held),
-            };
+            let slips_on = ending_s.is_none() && over_s.is_none_or(|over_s| state.time_s < from_s + over_s);
             self.slow.failed += u32::from(slip::go_on_fading(&self.slow, state, &self.held));
             self.next = Event::Change(Change { slips_on, ..Change::default() });
         }

@@ -163,6 +163,60 @@ method: { time-stepping: { solver: pgs } }
 time: { step_s: 0.005, end_s: 0.03 }
 ",
     ),
+    (
+        "a block that a plate turns into at the end of a step",
+        "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  friction: 0
+  restitution: 0.5
+  bodies:
+    - { name: target, shape: { box: { size_m: [0.000368, 2, 2] } }, mass_kg: 0.816339, position_m: [0, 0, 0],
+        angular_velocity_rad_s: [0.0, 0.079833, 1.37412] }
+    - { name: shot, shape: { box: { size_m: [0.070122, 0.072568, 0.06131] } }, mass_kg: 0.177667,
+        position_m: [-2.081918, -2.018514, 9.093938], velocity_m_s: [61.789578, 62.214812, -252.783874],
+        angular_velocity_rad_s: [0.343941, -0.911903, -0.223913], orientation: { axis: [0.284395, -0.309577,
+        -0.907349], angle_deg: 154.765588 } }
+method: { time-stepping: { solver: newton, scheme: moreau } }
+time: { step_s: 0.01, end_s: 0.06 }
+",
+    ),
+    (
+        "a rod that turns into a plate at the end of a step",
+        "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  friction: 0.3
+  restitution: 0
+  bodies:
+    - { name: target, shape: { box: { size_m: [0.004048, 2, 2] } }, mass_kg: 0.124625, position_m: [0, 0, 0],
+        fixed: true }
+    - { name: shot, shape: { box: { size_m: [0.240166, 0.012008, 0.012008] } }, mass_kg: 0.01162,
+        position_m: [-27.709045, 8.038828, 5.550134], velocity_m_s: [421.454427, -121.761773, -84.267469],
+        angular_velocity_rad_s: [-163.650333, 179.893247, 89.531883], orientation: { axis: [-0.224818,
+        -0.813703, 0.536045], angle_deg: 64.805333 } }
+method: { time-stepping: { solver: newton } }
+time: { step_s: 0.016, end_s: 0.16 }
+",
+    ),
+    (
+        "a rod that lies down on a plate at the end of a step",
+        "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  friction: 0.3
+  restitution: 0
+  bodies:
+    - { name: target, shape: { box: { size_m: [0.004211, 2, 2] } }, mass_kg: 4.6426, position_m: [0, 0, 0],
+        fixed: true }
+    - { name: shot, shape: { box: { size_m: [0.437211, 0.021861, 0.021861] } }, mass_kg: 0.024725,
+        position_m: [-18.498651, -11.77603, -2.279442], velocity_m_s: [296.38132, 187.360333, 32.345898],
+        angular_velocity_rad_s: [0.367873, 0.329838, 0.869411], orientation: { axis: [-0.133663, 0.989095,
+        0.061848], angle_deg: 102.561576 } }
+method: { time-stepping: { solver: newton, impact: poisson } }
+time: { step_s: 0.01, end_s: 0.11 }
+",
+    ),
 ];
 
 #[test]

@@ -231,6 +231,17 @@ impl Curved {
         a.inside_m(&-n, &supports[1].x, b.size_m()).min(b.inside_m(&n, &supports[0].x, a.size_m()))
     }
 
+    /// The side that is a line, how far along it the other one meets it, and that one. None: no side is.
+    pub(super) fn along_line(&self, at: [&BodyState; 2]) -> Option<(usize, &Line, f64, &Part)> {
+        let (side, line, part) = match &self.sides {
+            [Side::Line(line), Side::Part(part)] => (0, line, part),
+            [Side::Part(part), Side::Line(line)] => (1, line, part),
+            _ => return None,
+        };
+        let x_B = at[side].q_WB.inverse_transform_vector(&(self.meeting(at).supports[1 - side].x - at[side].p_WB));
+        Some((side, line, line.direction_B.dot(&(x_B - line.point_B)), part))
+    }
+
     pub(super) fn here<'a>(&self, found: &Contact, bodies: &impl Fn(usize) -> &'a BodyState) -> (Contact, Rates) {
         let at = pair(found, bodies);
         if let Some(rims) = self.two_rims(at) {

@@ -1,8 +1,10 @@
-//! A corner that has slid over the end of a round side.
+//! What has come over the end of something straight: a corner over that of a round side, an ellipsoid over that of an
+//! edge.
 
 use super::moving::BORDER;
-use crate::model::Body;
+use crate::model::{Body, pose_of_solid};
 use crate::shape::cylinder::{EDGE, VERTEX, kind};
+use crate::shape::pair::edge_ends_W;
 use crate::shape::solid::Solid;
 use crate::state::BodyState;
 use nalgebra::Vector3;
@@ -20,4 +22,27 @@ pub fn is_past_end(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), p_W: &
     let is_corner = matches!(bodies[1 - round].0.solid(), Some((Solid::Box { .. } | Solid::Convex(_), _)));
     let slack_m = 0.5 * BORDER * bodies.iter().map(|(body, _)| body.bounding_radius_m).sum::<f64>();
     is_corner && (at.q_WB.inverse_transform_vector(&(p_W - at.p_WB)) - centre).y.abs() > half_height_m + slack_m
+}
+
+/// How far an ellipsoid's point of contact on an edge is beyond that one's end, along the edge: the contact test knows
+/// it to the root of rounding only, and on the corner bodies part and meet at other speeds. None: it is not.
+pub fn beyond_edge_W(
+    bodies: [(&Body, &BodyState); 2],
+    feature: (u32, u32),
+    p_W: &Vector3<f64>,
+) -> Option<Vector3<f64>> {
+    let (edge, name) = match [feature.0, feature.1].map(kind) {
+        [EDGE, VERTEX] => (0, feature.0),
+        [VERTEX, EDGE] => (1, feature.1),
+        _ => return None,
+    };
+    let (Some((Solid::Ellipsoid { .. }, _)), (body, at)) = (bodies[1 - edge].0.solid(), bodies[edge]) else {
+        return None;
+    };
+    let (solid, centre) = body.solid()?;
+    let [from, to] = edge_ends_W(solid, &pose_of_solid(centre, at), name)?;
+    let d = (to - from).try_normalize(0.0)?;
+    let along_m = d.dot(&(p_W - from));
+    let on_m = along_m.clamp(0.0, d.dot(&(to - from)));
+    (on_m != along_m).then(|| d * (along_m - on_m))
 }

@@ -208,7 +208,20 @@ pub(super) fn over_border(model: &Model, state: &State, found: &Contact, parts: 
             let is_line = matches!(end, Spot::Line(_));
             if is_line { None } else { round(spots[0], spots[1]).or_else(|| curved(state, found, spots)) }
         }
-        Parts::Balls(_) | Parts::OnRim(_) | Parts::Curved(_) | Parts::RimOnEdge(_) => None,
+        // What is curved beyond the end of an edge is on its corner.
+        Parts::Curved(meeting) => {
+            let bodies = [found.body, found.other?];
+            let (side, line, along_m, part) = meeting.along_line(bodies.map(at))?;
+            let end_m = along_m.clamp(line.ends_m[0], line.ends_m[1]);
+            let out_W = if side == 0 { -found.normal } else { found.normal };
+            let out_B = at(bodies[side]).q_WB.inverse_transform_vector(&out_W);
+            let end_B = line.point_B + line.direction_B * end_m;
+            let end = shown(&model.bodies[bodies[side]], &end_B, &out_B, 0.0)?.spot;
+            let part = Spot::Part(part.clone());
+            let is_end = end_m != along_m && matches!(end, Spot::Part(_));
+            if is_end { curved(state, found, if side == 0 { [&end, &part] } else { [&part, &end] }) } else { None }
+        }
+        Parts::Balls(_) | Parts::OnRim(_) | Parts::RimOnEdge(_) => None,
     }
 }
 

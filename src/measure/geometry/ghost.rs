@@ -53,6 +53,9 @@ const SHOWS: f64 = 1e-3;
 /// Of the largest impulse of a blow: what rounding brings to bodies that others shield from it.
 const AMONG: f64 = 1e-8;
 
+/// Of an impulse: less along the normal is too little to be asked about without the friction.
+const PUSHES: f64 = 1e-2;
+
 /// Of what an impulse should have kept two bodies apart by: they come nearer without it.
 const NEARER: f64 = 0.25;
 
@@ -151,7 +154,8 @@ impl<'a> GhostJudge<'a> {
     /// The size of a group, if neither all of it nor what pushes alone was for a contact that was there; else 0.
     fn ghost(&mut self, group: &Group, mut size_rel: impl FnMut(&mut Self, &Group) -> f64) -> f64 {
         let all_rel = size_rel(self, group);
-        let was_there = all_rel == 0.0 || (group.pushed > 0.0 && size_rel(self, &group.without_friction()) == 0.0);
+        let pushes = group.pushed >= PUSHES * group.impulse_W.norm();
+        let was_there = all_rel == 0.0 || (pushes && size_rel(self, &group.without_friction()) == 0.0);
         if was_there { 0.0 } else { all_rel }
     }
 

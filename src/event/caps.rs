@@ -240,7 +240,7 @@ impl RollingRim {
         let (body, at) = bodies[side as usize];
         let normal = if side == 0 { *normal } else { -normal };
         let cap = Cap::facing(body, at, &normal)?;
-        cap.rolls(at, &normal).then(|| RollingRim { side, p_W: *p_W, near_m: AGAIN * body.bounding_radius_m })
+        cap.rolls(at, &normal).then_some(RollingRim { side, p_W: *p_W, near_m: AGAIN * body.bounding_radius_m })
     }
 
     /// Whether a point is its lowest one again.

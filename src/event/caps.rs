@@ -217,7 +217,7 @@ pub fn along_caps(model: &Model, state: &State, found: &mut [Contact]) {
     }
 }
 
-/// Of a rim's radius: the middle of an arc of it is its lowest point again, so near to that.
+/// Of the size of a body: the middle of an arc of its rim is the lowest point again, so near to that.
 const AGAIN: f64 = 0.1;
 
 /// A rim that rolls, of the first or second body, with its lowest point: next to that, the middle of an arc is the same

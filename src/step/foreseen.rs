@@ -209,8 +209,8 @@ impl Foreseen {
     /// other, or have turned too far.
     pub(super) fn cut_s(&self, after_s: f64) -> Option<f64> {
         let turned_s = self.turned_s.filter(|turned_s| *turned_s < SHORTER * after_s);
-        let deep_s = self.deep_s.filter(|deep_s| *deep_s < AT_THE_END * after_s);
-        let deep_s = deep_s.map(|deep_s| deep_s.min(SHORTER * after_s));
+        let is_before_end = |deep_s: &f64| *deep_s < AT_THE_END * after_s;
+        let deep_s = self.deep_s.filter(is_before_end).map(|deep_s| deep_s.min(SHORTER * after_s));
         [self.hit_s, turned_s, deep_s].into_iter().flatten().reduce(f64::min)
     }
 

@@ -332,71 +332,60 @@ fn what_happens_to_others_changes_nothing_of_where_a_cap_bears() {
     }
 }
 
-/// Cans that come down all but flat on a block, whose edge they overhang: they roll on their rims for micrometres.
-const OVER_AN_EDGE: [&str; 2] = [
-    "
+/// A can that comes down all but flat on a block, whose edge it overhangs: it rolls on its rim for micrometres.
+fn over_an_edge(friction: f64, restitution: f64, can: &str) -> Measured {
+    let text = format!(
+        "
 scene:
   gravity_m_s2: [0, -9.81, 0]
-  friction: 0
-  restitution: 0.3
+  friction: {friction}
+  restitution: {restitution}
   bodies:
-    - { name: block, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, fixed: true, position_m: [0, 0, 0] }
-    - { name: can, shape: { cylinder: { radius_m: 0.15, height_m: 0.2 } }, mass_kg: 1,
-        position_m: [0.3580273932267583, 0.600000000258103, 0.2746527855630794],
-        orientation: { axis: [-0.9642354928460574, 0, 0.26504700401234665],
-        angle_deg: 9.858808299043432e-08 }, velocity_m_s: [0, -0.1, 0], angular_velocity_rad_s: [0.01, 0,
-        -0.01] }
-method: { event-driven: { tolerance: 1e-8 } }
-time: { end_s: 0.2 }
-",
-    "
-scene:
-  gravity_m_s2: [0, -9.81, 0]
-  friction: 0.3
-  restitution: 0.3
-  bodies:
-    - { name: block, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, fixed: true, position_m: [0, 0, 0] }
-    - { name: can, shape: { cylinder: { radius_m: 0.15, height_m: 0.2 } }, mass_kg: 1,
-        position_m: [0.36718577094198307, 0.6000000055180755, -0.11809408776468372],
-        orientation: { axis: [0.9781258212113002, 0, -0.20801412903867775],
-        angle_deg: 2.1077495974510603e-06 }, velocity_m_s: [0.1, 0, 0], angular_velocity_rad_s: [0.0001, 0, 0] }
-method: { event-driven: { tolerance: 1e-8 } }
-time: { end_s: 0.2 }
-",
-];
+    - {{ name: block, shape: {{ box: {{ size_m: [1, 1, 1] }} }}, mass_kg: 1, fixed: true, position_m: [0, 0, 0] }}
+    - {{ name: can, shape: {{ cylinder: {{ radius_m: 0.15, height_m: 0.2 }} }}, mass_kg: 1, {can} }}
+method: {{ event-driven: {{ tolerance: 1e-8 }} }}
+time: {{ end_s: 0.2 }}
+"
+    );
+    measured(&text, &[])
+}
 
 /// The middle of an arc of the rim is its lowest point again: it was watched where it was not found, and met itself
 /// for ever at one moment, until steps of equal length took over (once in each).
 #[test]
 fn a_can_that_rolls_on_its_rim_over_an_edge_is_followed() {
-    for text in OVER_AN_EDGE {
-        let ended = measured(text, &[]);
+    let cans = [
+        (
+            0.0,
+            "position_m: [0.3580273932267583, 0.600000000258103, 0.2746527855630794],
+        orientation: { axis: [-0.9642354928460574, 0, 0.26504700401234665], angle_deg: 9.858808299043432e-08 },
+        velocity_m_s: [0, -0.1, 0], angular_velocity_rad_s: [0.01, 0, -0.01]",
+        ),
+        (
+            0.3,
+            "position_m: [0.36718577094198307, 0.6000000055180755, -0.11809408776468372],
+        orientation: { axis: [0.9781258212113002, 0, -0.20801412903867775], angle_deg: 2.1077495974510603e-06 },
+        velocity_m_s: [0.1, 0, 0], angular_velocity_rad_s: [0.0001, 0, 0]",
+        ),
+    ];
+    for (friction, can) in cans {
+        let ended = over_an_edge(friction, 0.3, can);
         assert_eq!((ended.outcome, ended.work.fallbacks), (Outcome::Finished, 0));
         // Measured: 1.8e-11.
         assert!(ended.residual_max.unwrap() < 1e-9, "{:?}", ended.residual_max);
     }
 }
 
-const RUBS: &str = "
-scene:
-  gravity_m_s2: [0, -9.81, 0]
-  friction: 1
-  restitution: 0.5
-  bodies:
-    - { name: block, shape: { box: { size_m: [1, 1, 1] } }, mass_kg: 1, fixed: true, position_m: [0, 0, 0] }
-    - { name: can, shape: { cylinder: { radius_m: 0.15, height_m: 0.2 } }, mass_kg: 1,
-        position_m: [0.5437415812149353, 0.6000000021503531, -0.26958237352003234],
-        orientation: { axis: [-0.5840007572767132, 0, 0.8117531124056289],
-        angle_deg: 8.213743694514816e-07 }, velocity_m_s: [0, -0.1, 0], angular_velocity_rad_s: [0.0001, 0,
-        0.0001] }
-method: { event-driven: { tolerance: 1e-8 } }
-time: { end_s: 0.2 }
-";
-
 /// Friction turns it by so much that without all of its impulse it would come off the edge that holds it: a judge that
 /// takes friction away with the push calls that a ghost (0.15).
 #[test]
 fn what_friction_leads_apart_is_there() {
-    let ended = measured(RUBS, &[]);
+    let ended = over_an_edge(
+        1.0,
+        0.5,
+        "position_m: [0.5437415812149353, 0.6000000021503531, -0.26958237352003234],
+        orientation: { axis: [-0.5840007572767132, 0, 0.8117531124056289], angle_deg: 8.213743694514816e-07 },
+        velocity_m_s: [0, -0.1, 0], angular_velocity_rad_s: [0.0001, 0, 0.0001]",
+    );
     assert_eq!((ended.outcome, ended.ghost_impulse_max_rel), (Outcome::Finished, Some(0.0)));
 }

@@ -67,11 +67,9 @@ pub struct Group {
     impulse_W: Vector3<f64>,
     /// About the bodies' centres of mass.
     angular_W: [Vector3<f64>; 2],
-    /// From the first body's centre of mass to the middle of what pushes along the normal.
-    arm_W: Vector3<f64>,
-    /// Of what pushes along the normal alone: its size, and about the bodies' centres of mass.
+    /// How much pushes along the normal, and from the bodies' centres of mass to the middle of that.
     pushed: f64,
-    pushed_angular_W: [Vector3<f64>; 2],
+    arms_W: [Vector3<f64>; 2],
     /// One of its contacts has restitution.
     rebounds: bool,
 }
@@ -93,31 +91,31 @@ impl Group {
             normal,
             impulse_W: zero,
             angular_W: [zero; 2],
-            arm_W: zero,
             pushed: 0.0,
-            pushed_angular_W: [zero; 2],
+            arms_W: [zero; 2],
             rebounds: false,
         };
         for SolvedContact { contact, impulse_W } in solved[first..].iter().filter(|s| is_along(&s.contact.normal)) {
             let pushes = impulse_W.dot(&of.normal).max(0.0);
             group.pushed += pushes;
-            group.pushed_angular_W[0] += contact.r_BC_W.cross(&(of.normal * pushes));
-            group.pushed_angular_W[1] -= contact.r_OC_W.cross(&(of.normal * pushes));
             group.rebounds |= contact.restitution > 0.0;
-            group.arm_W += contact.r_BC_W * pushes;
+            group.arms_W[0] += contact.r_BC_W * pushes;
+            group.arms_W[1] += contact.r_OC_W * pushes;
             group.impulse_W += impulse_W;
             group.angular_W[0] += contact.r_BC_W.cross(impulse_W);
             group.angular_W[1] -= contact.r_OC_W.cross(impulse_W);
         }
         if group.pushed > 0.0 {
-            group.arm_W /= group.pushed;
+            group.arms_W = group.arms_W.map(|arm_W| arm_W / group.pushed);
         }
         Some(group)
     }
 
     /// What pushes along the normal alone.
     fn without_friction(&self) -> Self {
-        Group { impulse_W: self.normal * self.pushed, angular_W: self.pushed_angular_W, ..*self }
+        let impulse_W = self.normal * self.pushed;
+        let [a_W, b_W] = self.arms_W.map(|arm_W| arm_W.cross(&impulse_W));
+        Group { impulse_W, angular_W: [a_W, -b_W], ..*self }
     }
 
     /// How fast two bodies part by these changes of velocity, which the impulses made, along the impulse.
@@ -220,7 +218,7 @@ impl<'a> GhostJudge<'a> {
     /// Gap of what was pushed, a point of the body, to the faces of the container that have the group's normal.
     fn pushed_gap_m(&self, group: &Group, leg: &Leg) -> f64 {
         let at = leg.at(1.0);
-        let point = at.p_WB + at.q_WB * (leg.from.q_WB.inverse() * group.arm_W);
+        let point = at.p_WB + at.q_WB * (leg.from.q_WB.inverse() * group.arms_W[0]);
         let faces = self.model.container.iter().flat_map(|container| &container.faces);
         let along = faces.filter(|face| face.normal.dot(&group.normal) > 1.0 - PARALLEL);
         along.map(|face| face.gap_m(&point)).fold(f64::INFINITY, f64::min)

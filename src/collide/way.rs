@@ -17,6 +17,10 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 /// Shortest advance, of the thinner body's least width: what overlaps for a shorter way does not meet.
 const LEAST: f64 = 0.02;
+/// First advance, of the way.
+const FIRST: f64 = 1e-3;
+/// Looks for the time at which an axis ends to part bodies.
+const SECANTS: usize = 40;
 /// Of that width: how deep a motion along an arc may lead beside its chord.
 const SAG: f64 = 0.005;
 /// Advances on one way.
@@ -28,8 +32,8 @@ const STEADY: f64 = 0.25;
 /// Of that width: how far away what hits is, and how deep inside what has turned through.
 const AFAR: f64 = 1e-3;
 const DEEP: f64 = 0.005;
-/// The most of that, where a step is cut often.
-const DEEPEST: f64 = 0.05;
+/// The most of that, where a step is cut often: a hundredth is a passage.
+const DEEPEST: f64 = 0.0095;
 /// Cosine of the angle within which an axis is the same at the end of a step as where bodies meet in it.
 const SAME_AXIS: f64 = 0.99;
 /// Of that width: a way that leads deep inside. Of half of the widths of both: one that leads through.
@@ -253,11 +257,14 @@ impl<'a> Way<'a> {
             return None;
         }
         let least_m = LEAST * self.width_m();
-        let (mut apart_s, mut from_s, mut gap_m) = (0.0, 0.0, start_m);
+        let (mut apart_s, mut from_s) = (0.0, 0.0);
+        let (mut gap_m, mut normal) = self.gap_along(from_s, work);
         for _ in 0..MOST {
-            let to_s: f64 = from_s + (gap_m + depth_m).max(least_m) / self.speed;
-            let to_s = to_s.min(self.step_s);
-            gap_m = if to_s == self.step_s { end_m } else { self.gap_m(to_s, work) };
+            // What came a short way may meet for as short a one.
+            let shortest_m = least_m.min((from_s * self.speed).max(FIRST * self.most_m()));
+            let to_s: f64 = from_s + (gap_m + depth_m).max(shortest_m) / self.speed;
+            let to_s = to_s.max(self.parts_until_s(&normal, from_s, depth_m)).min(self.step_s);
+            (gap_m, normal) = self.gap_along(to_s, work);
             if gap_m < -depth_m {
                 // What never came apart before is as deep as that then.
                 let band_m = if apart_s > 0.0 { band_m } else { depth_m };
@@ -273,6 +280,30 @@ impl<'a> Way<'a> {
             }
         }
         None
+    }
+
+    /// Right after the time up to which an axis that parts the bodies but for a depth at a time goes on to do so: a
+    /// separation along a fixed axis, the least of those of pairs of points, bends down alone, but for their arcs.
+    fn parts_until_s(&self, normal: &Vector3<f64>, from_s: f64, depth_m: f64) -> f64 {
+        let spare_m = |time_s: f64| {
+            let [pose_a, pose_b] = self.poses(time_s);
+            along(self.solids[0].0, &pose_a, self.solids[1].0, &pose_b, normal) + depth_m
+        };
+        let (mut parts, mut ends) = ((from_s, spare_m(from_s)), (self.step_s, spare_m(self.step_s)));
+        if parts.1 < 0.0 || ends.1 >= 0.0 {
+            return if parts.1 < 0.0 { from_s } else { self.step_s };
+        }
+        // Regula falsi, from both sides.
+        for k in 0..SECANTS {
+            if ends.1 >= -depth_m {
+                break;
+            }
+            let part = if k % 2 == 0 { (parts.1 + 0.5 * depth_m) / (parts.1 - ends.1) } else { 0.5 };
+            let time_s = parts.0 + part.min(1.0) * (ends.0 - parts.0);
+            let spare = (time_s, spare_m(time_s));
+            if spare.1 >= 0.0 { parts = spare } else { ends = spare }
+        }
+        ends.0
     }
 
     /// The same of a way that is long beside the bodies' width. Where there is more of it than can be followed, the

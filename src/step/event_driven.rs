@@ -22,7 +22,7 @@ use crate::event::motion::Motion;
 use crate::event::patience::Patience;
 use crate::event::pressing::{Laid, Pressed, pressed, turn};
 use crate::event::slip::{self, Pace, Slow};
-use crate::event::touch::{Touch, beyond_edge_W, is_past_end};
+use crate::event::touch::{Touch, beyond_edge_W, is_over_edge, is_past_end};
 use crate::event::watch;
 use crate::event::which;
 use crate::event::zeno::{self, Zeno, keep_closed, lose_together};
@@ -300,8 +300,10 @@ impl EventDriven {
         self.detector.detect(model, state, &reach, &mut self.found, &mut self.work);
         if model.touching_pairs {
             let is_past = |contact: &Contact| {
-                let bodies = contact.both(model, state);
-                bodies.is_some_and(|bodies| is_past_end(bodies, contact.feature, &contact.p_WC))
+                contact.both(model, state).is_some_and(|bodies| {
+                    let is_over_edge = is_over_edge(bodies, contact.feature, &contact.normal);
+                    is_over_edge || is_past_end(bodies, contact.feature, &contact.p_WC)
+                })
             };
             self.found.retain(|contact| !is_past(contact));
             for contact in &mut self.found {

@@ -217,6 +217,60 @@ method: { time-stepping: { solver: newton, impact: poisson } }
 time: { step_s: 0.01, end_s: 0.11 }
 ",
     ),
+    (
+        "a plate that spins along a thin one for hundreds of parts of a step",
+        "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  friction: 0.8
+  restitution: 0
+  bodies:
+    - { name: target, shape: { box: { size_m: [0.000208, 2, 2] } }, mass_kg: 0.619829, position_m: [0, 0,
+        0], angular_velocity_rad_s: [-2.672108, 0, 0] }
+    - { name: shot, shape: { box: { size_m: [0.103294, 0.001676, 0.103294] } },
+        mass_kg: 0.016435, position_m: [-38.007796, -42.818429, -24.517856], velocity_m_s: [1018.995138,
+        1133.774433, 651.114052], angular_velocity_rad_s: [-3.053204, 2.972328, -3.23476],
+        orientation: { axis: [0.056955, 0.244257, -0.968036], angle_deg: 81.888528 } }
+method: { time-stepping: { solver: pgs } }
+time: { step_s: 0.016, end_s: 0.096 }
+",
+    ),
+    (
+        "a rod whose turn is told by where its overlap was taken away",
+        "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  friction: 0
+  restitution: 0
+  bodies:
+    - { name: target, shape: { box: { size_m: [0.042225, 2, 2] } }, mass_kg: 0.34991, position_m: [0, 0,
+        0], angular_velocity_rad_s: [0, 0, 0.039568] }
+    - { name: shot, shape: { box: { size_m: [1.081261, 0.054063, 0.054063] } },
+        mass_kg: 0.068246, position_m: [-18.357734, 26.413011, 44.380903], velocity_m_s: [366.510191,
+        -524.230045, -888.076061], angular_velocity_rad_s: [0.490577, -0.810787, -0.319309],
+        orientation: { axis: [-0.101635, 0.89139, -0.441695], angle_deg: 175.068211 } }
+method: { time-stepping: { solver: newton } }
+time: { step_s: 0.005, end_s: 0.06 }
+",
+    ),
+    (
+        "a rod on an ellipsoid, of which the same holds",
+        "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  friction: 0.8
+  restitution: 0
+  bodies:
+    - { name: target, shape: { ellipsoid: { semi_axes_m: [0.718, 0.442369, 0.407224] } },
+        mass_kg: 3.108136, position_m: [0, 0, 0], fixed: true }
+    - { name: shot, shape: { box: { size_m: [0.820569, 0.041028, 0.041028] } },
+        mass_kg: 0.111943, position_m: [9.679179, -4.69088, -1.471705], velocity_m_s: [-231.467726,
+        113.733265, 42.448899], angular_velocity_rad_s: [0, 0, 0], orientation: { axis: [-0.259839,
+        0.409212, 0.874659], angle_deg: 175.344546 } }
+method: { time-stepping: { solver: newton, impact: poisson } }
+time: { step_s: 0.005, end_s: 0.05 }
+",
+    ),
 ];
 
 #[test]

@@ -1,9 +1,10 @@
 //! What has come over the end of something straight: a corner over that of a round side, an ellipsoid over that of an
-//! edge.
+//! edge, a rim over the edge that its cap lies on.
 
 use super::moving::BORDER;
+use crate::event::shown::{ROLLS, face_toward};
 use crate::model::{Body, pose_of_solid};
-use crate::shape::cylinder::{EDGE, VERTEX, kind};
+use crate::shape::cylinder::{EDGE, FACE, RIM, VERTEX, kind};
 use crate::shape::pair::edge_ends_W;
 use crate::shape::solid::Solid;
 use crate::state::BodyState;
@@ -22,6 +23,21 @@ pub fn is_past_end(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), p_W: &
     let is_corner = matches!(bodies[1 - round].0.solid(), Some((Solid::Box { .. } | Solid::Convex(_), _)));
     let slack_m = 0.5 * BORDER * bodies.iter().map(|(body, _)| body.bounding_radius_m).sum::<f64>();
     is_corner && (at.q_WB.inverse_transform_vector(&(p_W - at.p_WB)) - centre).y.abs() > half_height_m + slack_m
+}
+
+/// Whether a point of a rim was found on a face along the normal of its own cap, which is tilted to the face: an edge
+/// lies under the cap, and where that one's rim comes over it the edge's end is all that touches. What the rim rolls on
+/// has a normal of its own.
+pub fn is_over_edge(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), normal: &Vector3<f64>) -> bool {
+    let (rim, out_W) = match [feature.0, feature.1].map(kind) {
+        [RIM, FACE] => (0, -normal),
+        [FACE, RIM] => (1, *normal),
+        _ => return false,
+    };
+    let own = |(_, at): (&Body, &BodyState), v: &Vector3<f64>| at.q_WB.inverse_transform_vector(v);
+    let is_of_cap = own(bodies[rim], &out_W).xz().norm() <= ROLLS;
+    let face = face_toward(bodies[1 - rim].0, &own(bodies[1 - rim], &-out_W));
+    is_of_cap && face.is_some_and(|face| face.normal_B.cross(&own(bodies[1 - rim], &out_W)).norm() > ROLLS)
 }
 
 /// How far an ellipsoid's point of contact on an edge is beyond that one's end, along the edge: the contact test knows

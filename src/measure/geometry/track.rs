@@ -11,11 +11,12 @@ use nalgebra::{UnitQuaternion, Vector3};
 const ASIDE: f64 = 2e-3;
 /// Of ω²: the most that an angular velocity changes by without a torque, as (I₂ − I₃)/I₁ is below one: 3^-½.
 const CHANGES: f64 = 0.578;
-/// Difference of two energies that are one, relative.
-const SAME: f64 = 1e-3;
+/// Difference of two energies that are one, relative: of slender bodies it shows how an overlap was taken away.
+const SAME: f64 = 0.1;
 /// Turn in radians of one step along a free turn: the fourth-order rule leaves 3e-11 rad of it.
 const STEP: f64 = 0.02;
-/// In radians: how far from its end a free turn may lead that is what a step of second order made.
+/// In radians: how far from its end a free turn may lead that is what a step of second order made, after which overlap
+/// was taken away.
 const ARRIVED: f64 = 0.05;
 
 /// A way, in parts of it from 0 to 1.
@@ -81,8 +82,10 @@ struct Tumble<'a> {
     body: &'a Body,
     L_W: Vector3<f64>,
     span_s: f64,
-    ends: [UnitQuaternion<f64>; 2],
+    start: UnitQuaternion<f64>,
     known: (f64, UnitQuaternion<f64>),
+    /// What is left from where it leads to the end of the way, turned along it steadily: angle times axis.
+    left: Vector3<f64>,
     /// The most that it turns on the way, in radians.
     most_rad: f64,
 }
@@ -99,22 +102,17 @@ impl<'a> Tumble<'a> {
             return None;
         }
         let most_rad = body.fastest_turn_rad_s(after, &after.w_WB) * span_s;
-        let ends = [before.q_WB, after.q_WB];
-        let free = Tumble { body, L_W, span_s, ends, known: (0.0, before.q_WB), most_rad };
-        let end = free.led_on((0.0, before.q_WB), 1.0);
-        (end.angle_to(&after.q_WB) <= ARRIVED).then_some(free)
+        let known = (0.0, before.q_WB);
+        let free = Tumble { body, L_W, span_s, start: before.q_WB, known, left: Vector3::zeros(), most_rad };
+        let left = (after.q_WB * free.led_on(known, 1.0).inverse()).scaled_axis();
+        let most_rad = most_rad + left.norm();
+        (left.norm() <= ARRIVED).then_some(Tumble { left, most_rad, ..free })
     }
 
     fn at(&mut self, part: f64) -> UnitQuaternion<f64> {
-        if part <= 0.0 || part >= 1.0 {
-            return self.ends[usize::from(part > 0.0)];
-        }
-        let starts = [self.known, (0.0, self.ends[0]), (1.0, self.ends[1])];
-        let far = |from: f64| (part - from).abs();
-        let nearest = starts.into_iter().reduce(|a, b| if far(b.0) < far(a.0) { b } else { a });
-        let q_WB = self.led_on(nearest.unwrap_or(self.known), part);
-        self.known = (part, q_WB);
-        q_WB
+        let from = if (part - self.known.0).abs() < part { self.known } else { (0.0, self.start) };
+        self.known = (part, self.led_on(from, part));
+        UnitQuaternion::from_scaled_axis(self.left * part) * self.known.1
     }
 
     fn led_on(&self, (from, mut q_WB): (f64, UnitQuaternion<f64>), part: f64) -> UnitQuaternion<f64> {

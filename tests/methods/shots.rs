@@ -271,6 +271,60 @@ method: { time-stepping: { solver: newton, impact: poisson } }
 time: { step_s: 0.005, end_s: 0.05 }
 ",
     ),
+    (
+        "a capsule of two metres that turns by a quarter of a radian in a step",
+        "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  friction: 0
+  restitution: 0
+  bodies:
+    - { name: shot, shape: { capsule: { radius_m: 0.004927, height_m: 2 } }, mass_kg: 0.105751,
+        position_m: [-1.033211, -0.489134, -0.092877], velocity_m_s: [1.6452, 0.321854,
+        0.175077], angular_velocity_rad_s: [16.318123, -4.0937, -18.47079], orientation: { axis: [0.320635,
+        0.258961, -0.911116], angle_deg: 74.889109 } }
+    - { name: target, shape: { box: { size_m: [0.041459, 2, 2] } }, mass_kg: 0.109943, position_m: [0, 0,
+        0], fixed: true }
+method: { time-stepping: { solver: pgs } }
+time: { step_s: 0.016, end_s: 0.16 }
+",
+    ),
+    (
+        "a rod that spins about itself as overlap is taken away",
+        "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  friction: 0.8
+  restitution: 0
+  bodies:
+    - { name: target, shape: { box: { size_m: [0.007219, 2, 2] } }, mass_kg: 1.022197, position_m: [0, 0,
+        0], fixed: true }
+    - { name: shot, shape: { box: { size_m: [0.3, 0.001508, 0.001508] } }, mass_kg: 0.016367,
+        position_m: [-2.371719, 0.22085, -2.420042], velocity_m_s: [179.434888, -35.223373,
+        221.191171], angular_velocity_rad_s: [91.851745, 133.917455, 142.677487],
+        orientation: { axis: [-0.556636, 0.580431, 0.594354], angle_deg: 78.716758 } }
+method: { time-stepping: { solver: newton } }
+time: { step_s: 0.005, end_s: 0.045 }
+",
+    ),
+    (
+        "a rod that a plate carries along",
+        "
+scene:
+  gravity_m_s2: [0, 0, 0]
+  friction: 0
+  restitution: 0
+  bodies:
+    - { name: target, shape: { box: { size_m: [0.004639, 2, 2] } }, mass_kg: 4.982134, position_m: [0, 0,
+        0], angular_velocity_rad_s: [-0.041706, 0, 25.022991] }
+    - { name: shot, shape: { capsule: { radius_m: 0.002006, height_m: 0.3 } }, mass_kg: 0.171446,
+        position_m: [5.652794, 3.679565, 3.017281], velocity_m_s: [-201.368504, -138.487559,
+        -98.6236], angular_velocity_rad_s: [280.504894, -168.489528, -219.989651],
+        orientation: { axis: [0.659171, 0.737447, -0.147192], angle_deg: 162.080747 } }
+method: { time-stepping: { solver: pgs } }
+time: { step_s: 0.005, end_s: 0.04 }
+",
+    ),
 ];
 
 #[test]

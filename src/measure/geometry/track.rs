@@ -5,19 +5,17 @@ use super::figure::{Figure, Stand};
 use super::leg::Leg;
 use crate::model::Body;
 use crate::state::BodyState;
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// Of the least width of a pair: how far a body's steady turn may leave its true one.
 const ASIDE: f64 = 2e-3;
 /// Of ω²: the most that an angular velocity changes by without a torque, as (I₂ − I₃)/I₁ is below one: 3^-½.
 const CHANGES: f64 = 0.578;
-/// Difference of two energies that are one, relative: of slender bodies it shows how an overlap was taken away.
-const SAME: f64 = 0.1;
 /// Turn in radians of one step along a free turn: the fourth-order rule leaves 3e-11 rad of it.
 const STEP: f64 = 0.02;
-/// In radians: how far from its end a free turn may lead that is what a step of second order made, after which overlap
-/// was taken away.
-const ARRIVED: f64 = 0.05;
+/// Of a body's radius: how far from its start a free turn may lead back that is what a step of second order made, after
+/// which overlap was taken away.
+const ARRIVED: f64 = 0.02;
 
 /// A way, in parts of it from 0 to 1.
 pub struct Track<'a> {
@@ -77,17 +75,25 @@ pub fn most_m([a, b]: &[Track; 2]) -> f64 {
     (a.leg.moved - b.leg.moved).norm() + turned_m(a) + turned_m(b)
 }
 
-/// A turn without torque: the angular momentum is a constant of the world.
+/// A turn without torque (Euler's equations, in the axes of the body), from one end of the way to the other. At its end
+/// overlap may have been taken away, which leaves an angular momentum and, of a slender body, anything of how fast that
+/// spins about its axis; or an angular velocity, and not the momentum.
 struct Tumble<'a> {
     body: &'a Body,
-    L_W: Vector3<f64>,
     span_s: f64,
-    start: UnitQuaternion<f64>,
-    known: (f64, UnitQuaternion<f64>),
-    /// What is left from where it leads to the end of the way, turned along it steadily: angle times axis.
+    /// Where on the way it begins.
+    first: (f64, Turning),
+    known: (f64, Turning),
+    /// What is left from where it leads to the other end, turned along it steadily: angle times axis.
     left: Vector3<f64>,
     /// The most that it turns on the way, in radians.
     most_rad: f64,
+}
+
+#[derive(Clone, Copy)]
+struct Turning {
+    q_WB: UnitQuaternion<f64>,
+    w_B: Vector3<f64>,
 }
 
 impl<'a> Tumble<'a> {
@@ -96,48 +102,55 @@ impl<'a> Tumble<'a> {
         if body.isotropic || body.driven {
             return None;
         }
-        let L_W = body.I_W(after) * after.w_WB;
-        let [energy, other] = [before, after].map(|at| L_W.dot(&(body.I_W_inverse(at) * L_W)));
-        if (energy - other).abs() > SAME * other {
-            return None;
-        }
-        let most_rad = body.fastest_turn_rad_s(after, &after.w_WB) * span_s;
-        let known = (0.0, before.q_WB);
-        let free = Tumble { body, L_W, span_s, start: before.q_WB, known, left: Vector3::zeros(), most_rad };
-        let left = (after.q_WB * free.led_on(known, 1.0).inverse()).scaled_axis();
-        let most_rad = most_rad + left.norm();
-        (left.norm() <= ARRIVED).then_some(Tumble { left, most_rad, ..free })
+        let in_body = |at: &BodyState, v: &Vector3<f64>| at.q_WB.inverse_transform_vector(v);
+        let of_momentum = body.I_B_inverse * in_body(before, &(body.I_W(after) * after.w_WB));
+        let ways = [(before, after, 0.0, of_momentum), (after, before, 1.0, in_body(after, &after.w_WB))];
+        let follow = |(at, to, part, w_B): (&BodyState, &BodyState, f64, Vector3<f64>)| {
+            let first = (part, Turning { q_WB: at.q_WB, w_B });
+            let turn_rad = body.fastest_turn_rad_s(at, &(at.q_WB * w_B)) * span_s;
+            let free = Tumble { body, span_s, first, known: first, left: Vector3::zeros(), most_rad: turn_rad };
+            let left = (to.q_WB * free.led_on(first, 1.0 - part).q_WB.inverse()).scaled_axis();
+            // How far the masses of the body are left from there.
+            let left_m = (left.dot(&(body.I_W(to) * left)) / body.mass_kg).sqrt();
+            (left_m, Tumble { left, most_rad: turn_rad + left.norm(), ..free })
+        };
+        let (left_m, nearer) = ways.map(follow).into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (left_m <= ARRIVED * body.bounding_radius_m).then_some(nearer)
     }
 
     fn at(&mut self, part: f64) -> UnitQuaternion<f64> {
-        let from = if (part - self.known.0).abs() < part { self.known } else { (0.0, self.start) };
+        let far = |from: f64| (part - from).abs();
+        let from = if far(self.known.0) < far(self.first.0) { self.known } else { self.first };
         self.known = (part, self.led_on(from, part));
-        UnitQuaternion::from_scaled_axis(self.left * part) * self.known.1
+        UnitQuaternion::from_scaled_axis(self.left * far(self.first.0)) * self.known.1.q_WB
     }
 
-    fn led_on(&self, (from, mut q_WB): (f64, UnitQuaternion<f64>), part: f64) -> UnitQuaternion<f64> {
+    fn led_on(&self, (from, mut turning): (f64, Turning), part: f64) -> Turning {
         let steps = ((part - from).abs() * self.most_rad / STEP).ceil().max(1.0);
         let step_s = (part - from) * self.span_s / steps;
         for _ in 0..steps as u64 {
-            q_WB = self.step(&q_WB, step_s);
+            turning = self.step(&turning, step_s);
         }
-        q_WB
+        turning
     }
 
-    /// One step of the classic fourth-order rule, of the turn from its start (W. Magnus 1954; H. Munthe-Kaas 1999).
-    fn step(&self, q_WB: &UnitQuaternion<f64>, step_s: f64) -> UnitQuaternion<f64> {
-        // Rate of the turn's vector θ at a turn: ω − ½ θ × ω + θ × (θ × ω)/12.
-        let rate = |turned: &Vector3<f64>| {
-            let q_WB = UnitQuaternion::from_scaled_axis(*turned) * q_WB;
-            let w_W = q_WB * (self.body.I_B_inverse * q_WB.inverse_transform_vector(&self.L_W));
-            let across = turned.cross(&w_W);
-            w_W - across * 0.5 + turned.cross(&across) / 12.0
+    /// One step of the classic fourth-order rule.
+    fn step(&self, Turning { q_WB, w_B }: &Turning, step_s: f64) -> Turning {
+        let rate = |q: Quaternion<f64>, w: Vector3<f64>| {
+            let turned = q * Quaternion::from_imag(w * 0.5);
+            (turned, self.body.I_B_inverse * (self.body.I_B * w).cross(&w))
         };
-        let first = rate(&Vector3::zeros());
-        let second = rate(&(first * (0.5 * step_s)));
-        let third = rate(&(second * (0.5 * step_s)));
-        let fourth = rate(&(third * step_s));
-        let turned = (first + (second + third) * 2.0 + fourth) * (step_s / 6.0);
-        UnitQuaternion::new_normalize((UnitQuaternion::from_scaled_axis(turned) * q_WB).into_inner())
+        let q = q_WB.into_inner();
+        let after = |(q_rate, w_rate): (Quaternion<f64>, Vector3<f64>), time_s: f64| {
+            rate(q + q_rate * time_s, w_B + w_rate * time_s)
+        };
+        let first = rate(q, *w_B);
+        let second = after(first, 0.5 * step_s);
+        let third = after(second, 0.5 * step_s);
+        let fourth = after(third, step_s);
+        let q_rate = first.0 + (second.0 + third.0) * 2.0 + fourth.0;
+        let w_rate = first.1 + (second.1 + third.1) * 2.0 + fourth.1;
+        let part_s = step_s / 6.0;
+        Turning { q_WB: UnitQuaternion::new_normalize(q + q_rate * part_s), w_B: w_B + w_rate * part_s }
     }
 }

@@ -32,8 +32,9 @@ const STEADY: f64 = 0.25;
 /// Of that width: how far away what hits is, and how deep inside what has turned through.
 const AFAR: f64 = 1e-3;
 const DEEP: f64 = 0.005;
-/// The most of that, where a step is cut often; and of what comes out again by itself, as a hundredth is a passage.
+/// The most of that, where a step is cut often.
 const DEEPEST: f64 = 0.05;
+/// The same of what comes out again by itself: a hundredth is a passage.
 const OUT_AGAIN: f64 = 0.0095;
 /// Cosine of the angle within which an axis is the same at the end of a step as where bodies meet in it.
 const SAME_AXIS: f64 = 0.99;
@@ -372,11 +373,11 @@ impl<'a> Way<'a> {
     /// way up to a time. `times`: as much as usual so often.
     pub fn deep_s(&self, times: f64, until_s: f64, work: &mut Work) -> Option<f64> {
         let band_m = band_m(self.model, self.pair, &self.at(0, 0.0));
-        let start_m = self.gap_m(0.0, work).min(0.0);
+        let [start_m, end_m] = [0.0, until_s].map(|time_s| self.gap_m(time_s, work).min(0.0));
         let deepest = (times * DEEP).min(DEEPEST);
         let mut deeper_s = |part: f64| self.deeper_s(part * self.width_m() - start_m, band_m, until_s, work);
         let mut deep_s = deeper_s(deepest);
-        if deep_s.is_none() && deepest > OUT_AGAIN {
+        if deep_s.is_none() && deepest > OUT_AGAIN && end_m > start_m - OUT_AGAIN * self.width_m() {
             deep_s = deeper_s(OUT_AGAIN);
         }
         deep_s.filter(|deep_s| self.is_from_afar(*deep_s))

@@ -17,6 +17,8 @@ const TANGENT: f64 = 1e-6;
 /// Sine of the angle between an edge and a cap's plane up to which it lies there: what turns up over the rim has
 /// another normal (`rim_on_edge`, `two_rims`).
 pub(super) const LIES: f64 = 1e-8;
+/// The same of a round side, to which the contact test gives the rim's normal from so much on (`pair::NEARLY_ROUND`).
+const LIES_ROUND: f64 = 2e-6;
 
 /// A cap of a cylinder, from the centre of mass, body axes.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,12 +145,9 @@ impl OnRim {
         if let Some(rims) = self.two_rims(at, &p) {
             return rims.inside_m.min(inside_m);
         }
-        match &self.outline {
-            Outline::Line(line) if line.radius_m == 0.0 => {
-                inside_m.min((LIES - n.dot(&along).abs()) * self.cap.radius_m)
-            }
-            Outline::Line(_) | Outline::Rim(_) => inside_m,
-        }
+        let Outline::Line(line) = &self.outline else { return inside_m };
+        let lies = if line.radius_m > 0.0 { LIES_ROUND } else { LIES };
+        inside_m.min((lies - n.dot(&along).abs()) * self.cap.radius_m)
     }
 
     pub(super) fn here<'a>(&self, found: &Contact, bodies: &impl Fn(usize) -> &'a BodyState) -> (Contact, Rates) {

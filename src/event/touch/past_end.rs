@@ -26,8 +26,8 @@ pub fn is_past_end(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), p_W: &
 }
 
 /// Whether a point of a rim was found on a face along the normal of its own cap, which is tilted to the face: an edge
-/// lies under the cap, and where that one's rim comes over it the edge's end is all that touches. What the rim rolls on
-/// has a normal of its own.
+/// lies under the cap, and where the rim crosses that, nothing but the crossing touches. What a rim rolls on has a
+/// normal of its own.
 pub fn is_over_edge(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), normal: &Vector3<f64>) -> bool {
     let (rim, out_W) = match [feature.0, feature.1].map(kind) {
         [RIM, FACE] => (0, -normal),

@@ -13,9 +13,11 @@ const ASIDE: f64 = 2e-3;
 const CHANGES: f64 = 0.578;
 /// Turn in radians of one step along a free turn: the fourth-order rule leaves 3e-11 rad of it.
 const STEP: f64 = 0.02;
-/// Of a body's radius: how far from its start a free turn may lead back that is what a step of second order made, after
-/// which overlap was taken away.
+/// Of a body's radius: how far its masses may be left from the other end, in the mean square, by a free turn that is
+/// what a step of second order made, after which overlap was taken away.
 const ARRIVED: f64 = 0.02;
+/// Steps along a free turn: what turns farther is taken to turn steadily.
+const MOST_STEPS: u32 = 20_000;
 
 /// A way, in parts of it from 0 to 1.
 pub struct Track<'a> {
@@ -97,41 +99,55 @@ struct Turning {
 }
 
 impl<'a> Tumble<'a> {
-    /// None: it is steady, or not what leads from one state to the other.
+    /// None: it is steady, or farther from what leads from one state to the other than a steady turn is.
     fn between(body: &'a Body, [before, after]: [&BodyState; 2], span_s: f64) -> Option<Self> {
         if body.isotropic || body.driven {
             return None;
         }
         let in_body = |at: &BodyState, v: &Vector3<f64>| at.q_WB.inverse_transform_vector(v);
         let of_momentum = body.I_B_inverse * in_body(before, &(body.I_W(after) * after.w_WB));
+        let left = |to: &BodyState, q_WB: UnitQuaternion<f64>| (to.q_WB * q_WB.inverse()).scaled_axis();
+        // How far the masses of the body are left from there.
+        let left_m = |to: &BodyState, left: &Vector3<f64>| (left.dot(&(body.I_W(to) * left)) / body.mass_kg).sqrt();
         let ways = [(before, after, 0.0, of_momentum), (after, before, 1.0, in_body(after, &after.w_WB))];
         let follow = |(at, to, part, w_B): (&BodyState, &BodyState, f64, Vector3<f64>)| {
             let first = (part, Turning { q_WB: at.q_WB, w_B });
-            let turn_rad = body.fastest_turn_rad_s(at, &(at.q_WB * w_B)) * span_s;
-            let free = Tumble { body, span_s, first, known: first, left: Vector3::zeros(), most_rad: turn_rad };
-            let left = (to.q_WB * free.led_on(first, 1.0 - part).q_WB.inverse()).scaled_axis();
-            // How far the masses of the body are left from there.
-            let left_m = (left.dot(&(body.I_W(to) * left)) / body.mass_kg).sqrt();
-            (left_m, Tumble { left, most_rad: turn_rad + left.norm(), ..free })
+            let mut free = Tumble { body, span_s, first, known: first, left: Vector3::zeros(), most_rad: 0.0 };
+            let (end, fastest) = free.led_on(first, 1.0 - part)?;
+            free.left = left(to, end.q_WB);
+            free.most_rad = fastest * span_s + free.left.norm();
+            Some((left_m(to, &free.left), free))
         };
-        let (left_m, nearer) = ways.map(follow).into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (left_m <= ARRIVED * body.bounding_radius_m).then_some(nearer)
+        let nearer = ways.into_iter().filter_map(follow).min_by(|a, b| a.0.total_cmp(&b.0));
+        // Of what is turned without gyroscopic forces that is the way.
+        let steady = UnitQuaternion::from_scaled_axis(after.w_WB * span_s) * before.q_WB;
+        let most_m = left_m(after, &left(after, steady)).min(ARRIVED * body.bounding_radius_m);
+        nearer.filter(|(left_m, _)| *left_m < most_m).map(|(_, free)| free)
     }
 
     fn at(&mut self, part: f64) -> UnitQuaternion<f64> {
         let far = |from: f64| (part - from).abs();
         let from = if far(self.known.0) < far(self.first.0) { self.known } else { self.first };
-        self.known = (part, self.led_on(from, part));
+        if let Some((turning, _)) = self.led_on(from, part) {
+            self.known = (part, turning);
+        }
         UnitQuaternion::from_scaled_axis(self.left * far(self.first.0)) * self.known.1.q_WB
     }
 
-    fn led_on(&self, (from, mut turning): (f64, Turning), part: f64) -> Turning {
-        let steps = ((part - from).abs() * self.most_rad / STEP).ceil().max(1.0);
-        let step_s = (part - from) * self.span_s / steps;
-        for _ in 0..steps as u64 {
+    /// The turn at another part of the way, and the fastest on the way there, in rad/s. None: that is too far.
+    fn led_on(&self, (from, mut turning): (f64, Turning), part: f64) -> Option<(Turning, f64)> {
+        let (mut left_s, mut fastest) = ((part - from) * self.span_s, 0.0_f64);
+        for _ in 0..MOST_STEPS {
+            let rad_s = turning.w_B.norm();
+            fastest = fastest.max(rad_s);
+            if left_s.abs() * rad_s <= STEP {
+                return Some((self.step(&turning, left_s), fastest));
+            }
+            let step_s = (STEP / rad_s).copysign(left_s);
             turning = self.step(&turning, step_s);
+            left_s -= step_s;
         }
-        turning
+        None
     }
 
     /// One step of the classic fourth-order rule.

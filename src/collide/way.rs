@@ -251,7 +251,8 @@ impl<'a> Way<'a> {
         if self.is_deep(0.0) {
             return self.deeper_far_s(depth_m, band_m, until_s, work);
         }
-        let [start_m, end_m] = [0.0, self.step_s].map(|time_s| self.gap_m(time_s, work));
+        let [(start_m, start_normal), end] = [0.0, self.step_s].map(|time_s| self.gap_along(time_s, work));
+        let (end_m, _) = end;
         if start_m < -depth_m {
             return Some(0.0);
         }
@@ -260,13 +261,13 @@ impl<'a> Way<'a> {
         }
         let least_m = LEAST * self.width_m();
         let (mut apart_s, mut from_s) = (0.0, 0.0);
-        let (mut gap_m, mut normal) = self.gap_along(from_s, work);
+        let (mut gap_m, mut normal) = (start_m, start_normal);
         for _ in 0..MOST {
             // What came a short way may meet for as short a one.
             let shortest_m = least_m.min((from_s * self.speed).max(FIRST * self.most_m()));
             let to_s: f64 = from_s + (gap_m + depth_m).max(shortest_m) / self.speed;
             let to_s = to_s.max(self.parts_until_s(&normal, from_s, depth_m)).min(self.step_s);
-            (gap_m, normal) = self.gap_along(to_s, work);
+            (gap_m, normal) = if to_s == self.step_s { end } else { self.gap_along(to_s, work) };
             if gap_m < -depth_m {
                 // What never came apart before is as deep as that then.
                 let band_m = if apart_s > 0.0 { band_m } else { depth_m };
@@ -373,12 +374,12 @@ impl<'a> Way<'a> {
     /// way up to a time. `times`: as much as usual so often.
     pub fn deep_s(&self, times: f64, until_s: f64, work: &mut Work) -> Option<f64> {
         let band_m = band_m(self.model, self.pair, &self.at(0, 0.0));
-        let [start_m, end_m] = [0.0, until_s].map(|time_s| self.gap_m(time_s, work).min(0.0));
+        let start_m = self.gap_m(0.0, work).min(0.0);
         let deepest = (times * DEEP).min(DEEPEST);
-        let mut deeper_s = |part: f64| self.deeper_s(part * self.width_m() - start_m, band_m, until_s, work);
-        let mut deep_s = deeper_s(deepest);
-        if deep_s.is_none() && deepest > OUT_AGAIN && end_m > start_m - OUT_AGAIN * self.width_m() {
-            deep_s = deeper_s(OUT_AGAIN);
+        let [depth_m, passage_m] = [deepest, OUT_AGAIN].map(|part| part * self.width_m() - start_m);
+        let mut deep_s = self.deeper_s(depth_m, band_m, until_s, work);
+        if deep_s.is_none() && deepest > OUT_AGAIN && self.gap_m(until_s, work) > -passage_m {
+            deep_s = self.deeper_s(passage_m, band_m, until_s, work);
         }
         deep_s.filter(|deep_s| self.is_from_afar(*deep_s))
     }

@@ -6,7 +6,7 @@ use super::forces::{Held, NO_SLIP, speed_m_s};
 use super::look::{Look, Paths, Window, march};
 use super::motion::Bounds;
 use super::rolling::rolling;
-use super::touch::{Touch, beyond_edge_W, is_over_edge, is_past_end};
+use super::touch::{Touch, beyond_edge_W, is_nothing};
 use super::which::{GRAZING, Sharing};
 use crate::collide::Contact;
 use crate::collide::closed::delta_m;
@@ -309,8 +309,7 @@ impl<'a> Two<'a> {
         let reach_m = self.sizes[0] + self.sizes[1];
         touches_beside(self.solids[0], &now.poses[0], self.solids[1], &now.poses[1], reach_m, found);
         let bodies = [0, 1].map(|k| (self.bodies[k], &now.at[k]));
-        let is_past = |touch: &Found| is_past_end(bodies, touch.feature, &touch.p_W);
-        found.retain(|touch| !is_past(touch) && !is_over_edge(bodies, touch.feature, &touch.normal));
+        found.retain(|touch| !is_nothing(bodies, touch.feature, (&touch.p_W, &touch.normal)));
         for touch in &mut *found {
             touch.normal = cap_under_rim_W(bodies, touch.feature, &touch.normal).unwrap_or(touch.normal);
             touch.p_W -= beyond_edge_W(bodies, touch.feature, &touch.p_W).unwrap_or_default();

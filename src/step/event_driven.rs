@@ -22,7 +22,7 @@ use crate::event::motion::Motion;
 use crate::event::patience::Patience;
 use crate::event::pressing::{Laid, Pressed, pressed, turn};
 use crate::event::slip::{self, Pace, Slow};
-use crate::event::touch::{Touch, beyond_edge_W, is_over_edge, is_past_end};
+use crate::event::touch::{Touch, beyond_edge_W, is_nothing};
 use crate::event::watch;
 use crate::event::which;
 use crate::event::zeno::{self, Zeno, keep_closed, lose_together};
@@ -299,13 +299,11 @@ impl EventDriven {
         let reach = Reach { margin: MARGIN };
         self.detector.detect(model, state, &reach, &mut self.found, &mut self.work);
         if model.touching_pairs {
-            let is_past = |contact: &Contact| {
-                contact.both(model, state).is_some_and(|bodies| {
-                    let is_over_edge = is_over_edge(bodies, contact.feature, &contact.normal);
-                    is_over_edge || is_past_end(bodies, contact.feature, &contact.p_WC)
-                })
+            let is_nothing = |contact: &Contact| {
+                let at = (&contact.p_WC, &contact.normal);
+                contact.both(model, state).is_some_and(|bodies| is_nothing(bodies, contact.feature, at))
             };
-            self.found.retain(|contact| !is_past(contact));
+            self.found.retain(|contact| !is_nothing(contact));
             for contact in &mut self.found {
                 let bodies = contact.both(model, state);
                 let beyond = |bodies| beyond_edge_W(bodies, contact.feature, &contact.p_WC);

@@ -22,5 +22,5 @@ mod standing;
 mod two_rims;
 
 pub use moving::{Here, Touch};
-pub use past_end::{beyond_edge_W, is_over_edge, is_past_end};
+pub use past_end::{beyond_edge_W, is_nothing};
 pub use standing::Standing;

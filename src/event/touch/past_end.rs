@@ -10,9 +10,18 @@ use crate::shape::solid::Solid;
 use crate::state::BodyState;
 use nalgebra::Vector3;
 
+/// Whether nothing is where the contact test found a point.
+pub fn is_nothing(
+    bodies: [(&Body, &BodyState); 2],
+    feature: (u32, u32),
+    (p_W, normal): (&Vector3<f64>, &Vector3<f64>),
+) -> bool {
+    is_past_end(bodies, feature, p_W) || is_over_edge(bodies, feature, normal)
+}
+
 /// Whether what the contact test calls a corner on a round side is beyond that one's end: nothing is there, and what is
 /// behind the corner comes to the rim. It takes the two as one up to half of this, and its point is half-way between.
-pub fn is_past_end(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), p_W: &Vector3<f64>) -> bool {
+fn is_past_end(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), p_W: &Vector3<f64>) -> bool {
     let round = match [feature.0, feature.1].map(kind) {
         [EDGE, VERTEX] => 0,
         [VERTEX, EDGE] => 1,
@@ -28,7 +37,7 @@ pub fn is_past_end(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), p_W: &
 /// Whether a point of a rim was found on a face along the normal of its own cap, which is tilted to the face: an edge
 /// lies under the cap, and where the rim crosses that, nothing but the crossing touches. What a rim rolls on has a
 /// normal of its own.
-pub fn is_over_edge(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), normal: &Vector3<f64>) -> bool {
+fn is_over_edge(bodies: [(&Body, &BodyState); 2], feature: (u32, u32), normal: &Vector3<f64>) -> bool {
     let (rim, out_W) = match [feature.0, feature.1].map(kind) {
         [RIM, FACE] => (0, -normal),
         [FACE, RIM] => (1, *normal),
